@@ -1,0 +1,2 @@
+//! The `mapless` command.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Mapless navigation on uneven terrain.
