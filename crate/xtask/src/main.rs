@@ -1,2 +1,53 @@
-//! Chores.
-fn main() {}
+//! The chores of the repository: `cargo xtask demo`, `cargo xtask test` and `cargo xtask build`.
+//!
+//! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a browser),
+//! so that a fresh clone on a machine with Rust and Node needs nothing by hand.
+
+mod browser;
+mod count;
+mod page;
+mod setup;
+mod test;
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use clap::{Parser, Subcommand};
+use xshell::Shell;
+
+/// Set up, build, show and test mapless.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Args {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Build the page and serve it on this machine; prints the address.
+    Demo {
+        /// Port to serve on; the next free one is taken when it is in use.
+        #[arg(long, default_value_t = 8080)]
+        port: u16,
+    },
+    /// Write the page, ready for any static host, to dist/.
+    Build,
+    /// Run every check and test, or one part of them.
+    Test {
+        /// The part to run; all of them when absent.
+        part: Option<test::Part>,
+    },
+}
+
+fn main() -> anyhow::Result<()> {
+    let args = Args::parse();
+    let sh = Shell::new()?;
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).context("xtask has moved")?;
+    sh.change_dir(root);
+    match args.command {
+        Command::Demo { port } => page::demo(&sh, port),
+        Command::Build => page::build(&sh),
+        Command::Test { part } => test::run(&sh, part),
+    }
+}

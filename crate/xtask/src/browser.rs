@@ -1,0 +1,165 @@
+//! The Chromium in which the wasm and page tests run, and the driver of the same version.
+
+use std::env;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+use xshell::{Shell, cmd};
+
+const BROWSERS: &[&str] = &[
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+];
+const DRIVERS: &[&str] = &["chromedriver", "chromium.chromedriver"];
+
+const HOW_TO_INSTALL: &str = "The tests need Chromium (or Google Chrome) and a chromedriver of the same version. \
+    Install both, for example with `sudo apt-get install chromium chromium-driver` on Debian, or from \
+    https://googlechromelabs.github.io/chrome-for-testing/. If they are not on PATH, name them in the environment \
+    variables CHROME and CHROMEDRIVER.";
+
+/// A browser and its driver, of the same major version.
+pub(crate) struct Browser {
+    pub(crate) chrome: PathBuf,
+    pub(crate) driver: PathBuf,
+}
+
+impl Browser {
+    /// Finds a browser with its driver; where there is none, installs them with apt if this process may.
+    pub(crate) fn set_up(sh: &Shell) -> anyhow::Result<Self> {
+        let missing = match Self::find(sh) {
+            Ok(browser) => return Ok(browser),
+            Err(missing) => missing,
+        };
+        let Some(packages) = apt_packages(sh) else {
+            bail!("{missing}. {HOW_TO_INSTALL}");
+        };
+        cmd!(sh, "apt-get update").run()?;
+        cmd!(sh, "apt-get install --yes --no-install-recommends {packages...}")
+            .env("DEBIAN_FRONTEND", "noninteractive")
+            .run()?;
+        Self::find(sh).with_context(|| format!("apt installed {packages:?}, yet {missing}. {HOW_TO_INSTALL}"))
+    }
+
+    fn find(sh: &Shell) -> anyhow::Result<Self> {
+        let browsers = versions(sh, "CHROME", BROWSERS);
+        let drivers = versions(sh, "CHROMEDRIVER", DRIVERS);
+        if browsers.is_empty() {
+            bail!("No Chromium was found");
+        }
+        if drivers.is_empty() {
+            bail!("No chromedriver was found");
+        }
+        match same_major(&browsers, &drivers) {
+            Some((chrome, driver)) => Ok(Self { chrome: chrome.to_owned(), driver: driver.to_owned() }),
+            None => bail!("No chromedriver fits the browser: found {browsers:?} and {drivers:?}"),
+        }
+    }
+
+    /// What wasm-bindgen's test runner asks of the driver, as the text of its `webdriver.json`.
+    pub(crate) fn webdriver_json(&self) -> String {
+        let args = [
+            "--headless=new",
+            // The sandbox does not start as root, which is what containers run as.
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+            "--no-first-run",
+            "--disable-quic",
+        ];
+        let binary = self.chrome.to_string_lossy();
+        format!("{{\"goog:chromeOptions\": {{\"binary\": {binary:?}, \"args\": {args:?}}}}}\n")
+    }
+}
+
+/// The programs found, each with its major version: the one named by `variable`, or else those of `names`.
+fn versions(sh: &Shell, variable: &str, names: &[&str]) -> Vec<(PathBuf, u32)> {
+    let named = env::var_os(variable).map(PathBuf::from);
+    let candidates = match named {
+        Some(path) => vec![path],
+        None => names.iter().filter_map(|name| on_path(Path::new(name))).collect(),
+    };
+    candidates
+        .into_iter()
+        .filter_map(|path| {
+            let version = cmd!(sh, "{path} --version").quiet().ignore_stderr().read().ok()?;
+            Some((path, major_version(&version)?))
+        })
+        .collect()
+}
+
+/// Where `program` is: itself if absolute, or else in the first folder of PATH that has it.
+fn on_path(program: &Path) -> Option<PathBuf> {
+    let folders = env::var_os("PATH").unwrap_or_default();
+    env::split_paths(&folders)
+        .map(|folder| folder.join(program).with_extension(env::consts::EXE_EXTENSION))
+        .find(|path| path.is_file())
+}
+
+/// The first number of the version in `Chromium 156.0.8078.79 built on ...`.
+fn major_version(printed: &str) -> Option<u32> {
+    printed.split_whitespace().find_map(|word| word.split_once('.')?.0.parse().ok())
+}
+
+/// The first browser for which there is a driver of the same major version, with that driver.
+fn same_major<'a>(
+    browsers: &'a [(PathBuf, u32)],
+    drivers: &'a [(PathBuf, u32)],
+) -> Option<(&'a Path, &'a Path)> {
+    browsers.iter().find_map(|(chrome, chrome_major)| {
+        let (driver, _) = drivers.iter().find(|(_, driver_major)| driver_major == chrome_major)?;
+        Some((chrome.as_path(), driver.as_path()))
+    })
+}
+
+/// The packages that hold browser and driver, if this process may install packages with apt.
+fn apt_packages(sh: &Shell) -> Option<[&'static str; 2]> {
+    let is_root = cmd!(sh, "id -u").quiet().ignore_stderr().read().is_ok_and(|id| id == "0");
+    let release = sh.read_file("/etc/os-release").unwrap_or_default();
+    match release.lines().find_map(|line| line.strip_prefix("ID=")) {
+        Some("debian") if is_root => Some(["chromium", "chromium-driver"]),
+        Some("ubuntu") if is_root => Some(["chromium-browser", "chromium-chromedriver"]),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn major_version_is_read_from_what_browsers_and_drivers_print() {
+        assert_eq!(
+            major_version("Chromium 156.0.8078.79 built on Debian GNU/Linux 12 (bookworm)"),
+            Some(156)
+        );
+        assert_eq!(major_version("Google Chrome 131.0.6778.85 "), Some(131));
+        assert_eq!(
+            major_version("ChromeDriver 156.0.8078.79 (a21ce95c-refs/branch-heads/8078@{#1704})"),
+            Some(156)
+        );
+        assert_eq!(major_version("command not found."), None);
+    }
+
+    #[test]
+    fn browser_is_paired_with_the_driver_of_its_own_version() {
+        let browsers = [("/usr/bin/chromium".into(), 150), ("/usr/bin/google-chrome".into(), 156)];
+        let drivers = [("/opt/chromedriver".into(), 149), ("/usr/bin/chromedriver".into(), 156)];
+        let pair = same_major(&browsers, &drivers);
+        assert_eq!(pair, Some((Path::new("/usr/bin/google-chrome"), Path::new("/usr/bin/chromedriver"))));
+        assert_eq!(same_major(&browsers[..1], &drivers), None);
+    }
+
+    #[test]
+    fn webdriver_json_names_the_browser() {
+        let browser = Browser { chrome: "/opt/my chrome".into(), driver: "/opt/chromedriver".into() };
+        let json = browser.webdriver_json();
+        assert!(json.starts_with(
+            r#"{"goog:chromeOptions": {"binary": "/opt/my chrome", "args": ["--headless=new", "#
+        ));
+    }
+}

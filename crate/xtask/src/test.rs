@@ -1,0 +1,191 @@
+//! Every check and test, the fast ones first.
+
+use std::io::{self, Read as _, Write as _};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context as _, ensure};
+use clap::ValueEnum;
+use xshell::{Cmd, Shell, cmd};
+
+use crate::browser::Browser;
+use crate::count::{Count, Runner};
+use crate::{page, setup};
+
+/// A part of the tests that can run alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Part {
+    /// Formatting, lints and types, of Rust and TypeScript.
+    Lint,
+    /// Rust tests on this machine.
+    Native,
+    /// Rust tests as wasm in a headless browser.
+    Wasm,
+    /// Unit and browser tests of the page.
+    Page,
+}
+
+/// One step: its heading, the parts it belongs to (at least one), and what it does.
+struct Stage {
+    title: &'static str,
+    parts: &'static [Part],
+    run: fn(&Shell) -> anyhow::Result<Count>,
+}
+
+const STAGES: &[Stage] = &[
+    Stage { title: "format", parts: &[Part::Lint], run: format },
+    Stage { title: "clippy", parts: &[Part::Lint], run: clippy },
+    Stage { title: "clippy for wasm", parts: &[Part::Lint], run: clippy_wasm },
+    Stage { title: "documentation", parts: &[Part::Lint], run: documentation },
+    // The page's types include those of the wasm bindings, which the build makes.
+    Stage { title: "build of the page", parts: &[Part::Lint, Part::Page], run: build_page },
+    Stage { title: "lint and types of the page", parts: &[Part::Lint], run: check_page },
+    Stage { title: "native tests", parts: &[Part::Native], run: test_native },
+    Stage { title: "wasm tests", parts: &[Part::Wasm], run: test_wasm },
+    Stage { title: "unit tests of the page", parts: &[Part::Page], run: test_page_units },
+    // The browser tests compare the page with the command line.
+    Stage { title: "build of the command line", parts: &[Part::Page], run: build_command_line },
+    Stage { title: "browser tests of the page", parts: &[Part::Page], run: test_page },
+];
+
+/// Runs the stages of `part`, or all of them, up to the first that fails.
+pub(crate) fn run(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
+    set_up(sh, part)?;
+    let mut times: Vec<(&str, Duration)> = Vec::new();
+    let mut sum = Count::default();
+    for stage in STAGES.iter().filter(|stage| part.is_none_or(|part| stage.parts.contains(&part))) {
+        println!("\n=== {} ===", stage.title);
+        let start = Instant::now();
+        sum += (stage.run)(sh).with_context(|| {
+            let name = format!("{:?}", part.unwrap_or(stage.parts[0])).to_lowercase();
+            format!("{} failed; to run this part alone: cargo xtask test {name}", stage.title)
+        })?;
+        let time = start.elapsed();
+        println!("=== {}: {:.1} s ===", stage.title, time.as_secs_f64());
+        times.push((stage.title, time));
+    }
+    println!();
+    for (title, time) in times {
+        println!("{:8.1} s  {title}", time.as_secs_f64());
+    }
+    if sum.skipped > 0 {
+        println!("{} skipped", sum.skipped);
+    }
+    println!("\n{} passed, {} failed", sum.passed, sum.failed);
+    Ok(())
+}
+
+/// Sets up all that the stages of `part` need, so that what is missing shows before anything runs.
+fn set_up(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
+    let wants = |any: &[Part]| part.is_none_or(|part| any.contains(&part));
+    if wants(&[Part::Lint]) {
+        setup::lint_tools(sh)?;
+    }
+    if wants(&[Part::Lint, Part::Page]) {
+        setup::npm_packages(sh)?;
+    }
+    if wants(&[Part::Wasm, Part::Page]) {
+        Browser::set_up(sh)?;
+    }
+    if wants(&[Part::Lint, Part::Wasm, Part::Page]) {
+        setup::wasm_target(sh)?;
+        setup::wasm_bindgen(sh)?;
+    }
+    Ok(())
+}
+
+fn format(sh: &Shell) -> anyhow::Result<Count> {
+    check(cmd!(sh, "cargo fmt --all --check"))
+}
+
+fn clippy(sh: &Shell) -> anyhow::Result<Count> {
+    check(cmd!(sh, "cargo clippy --workspace --all-targets -- --deny warnings"))
+}
+
+fn clippy_wasm(sh: &Shell) -> anyhow::Result<Count> {
+    let target = "wasm32-unknown-unknown";
+    let libraries = ["-p", "mapless", "-p", "mapless-world", "-p", "mapless-trials"];
+    check(cmd!(sh, "cargo clippy --target {target} {libraries...} -- --deny warnings"))?;
+    check(cmd!(sh, "cargo clippy --target {target} -p mapless-wasm --all-targets -- --deny warnings"))
+}
+
+fn documentation(sh: &Shell) -> anyhow::Result<Count> {
+    check(cmd!(sh, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "--deny warnings"))
+}
+
+fn build_page(sh: &Shell) -> anyhow::Result<Count> {
+    page::build(sh)?;
+    Ok(Count::default())
+}
+
+fn check_page(sh: &Shell) -> anyhow::Result<Count> {
+    let npm = setup::NPM;
+    check(cmd!(sh, "{npm} run check"))
+}
+
+fn test_native(sh: &Shell) -> anyhow::Result<Count> {
+    count(cmd!(sh, "cargo test --workspace"), Runner::Cargo)
+}
+
+fn test_wasm(sh: &Shell) -> anyhow::Result<Count> {
+    let browser = Browser::set_up(sh)?;
+    let capabilities = sh.current_dir().join("target/webdriver.json");
+    sh.write_file(&capabilities, browser.webdriver_json())?;
+    let runner = setup::wasm_bindgen(sh)?.join("wasm-bindgen-test-runner");
+    // Optimised as in the page, with which it shares all that is built; a whole trial takes longer than the
+    // runner's 20 seconds.
+    let test =
+        cmd!(sh, "cargo test --release --package mapless-wasm --target wasm32-unknown-unknown --tests")
+            .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER", runner)
+            .env("CHROMEDRIVER", &browser.driver)
+            .env("WASM_BINDGEN_TEST_WEBDRIVER_JSON", &capabilities)
+            .env("WASM_BINDGEN_TEST_TIMEOUT", "1800");
+    count(test, Runner::Cargo)
+}
+
+fn test_page_units(sh: &Shell) -> anyhow::Result<Count> {
+    let npm = setup::NPM;
+    count(cmd!(sh, "{npm} test"), Runner::Node)
+}
+
+fn build_command_line(sh: &Shell) -> anyhow::Result<Count> {
+    check(cmd!(sh, "cargo build --release --package mapless-cli"))
+}
+
+fn test_page(sh: &Shell) -> anyhow::Result<Count> {
+    let browser = Browser::set_up(sh)?;
+    let npm = setup::NPM;
+    count(cmd!(sh, "{npm} run test:page").env("CHROME", &browser.chrome), Runner::Playwright)
+}
+
+/// Runs a check that counts no tests.
+fn check(command: Cmd<'_>) -> anyhow::Result<Count> {
+    command.run()?;
+    Ok(Count::default())
+}
+
+/// Runs a test runner, shows its output as it comes, and counts the tests in it.
+fn count(command: Cmd<'_>, runner: Runner) -> anyhow::Result<Count> {
+    let shown = command.to_string();
+    eprintln!("$ {shown}");
+    let mut child = Command::from(command).stdout(Stdio::piped()).spawn().with_context(|| shown.clone())?;
+    let mut stdout = child.stdout.take().context("the runner has no output")?;
+    let mut output = Vec::new();
+    let mut chunk = [0; 4096];
+    loop {
+        let length = stdout.read(&mut chunk)?;
+        if length == 0 {
+            break;
+        }
+        let read = chunk.get(..length).unwrap_or_default();
+        io::stdout().write_all(read)?;
+        io::stdout().flush()?;
+        output.extend_from_slice(read);
+    }
+    let status = child.wait()?;
+    ensure!(status.success(), "`{shown}` ended with {status}");
+    let count = runner.count(&String::from_utf8_lossy(&output));
+    ensure!(count.failed == 0, "`{shown}` reported {} failed tests, yet ended well", count.failed);
+    ensure!(count.passed > 0, "`{shown}` ran no test");
+    Ok(count)
+}
