@@ -1,0 +1,74 @@
+//! The paper's simple PID controller: distance error to the subgoal, yaw error α_g*.
+
+use crate::angle::wrap_rad;
+use crate::config::{ControllerConfig, PidGains};
+
+/// A velocity command for a differential-drive robot: the paper's u = (v, ω).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Command {
+    /// Forward speed.
+    pub linear_m_s: f64,
+    /// Anticlockwise turn rate.
+    pub angular_rad_s: f64,
+}
+
+impl Command {
+    /// Standing still.
+    pub const STOP: Self = Self { linear_m_s: 0.0, angular_rad_s: 0.0 };
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Pid {
+    integral: f64,
+    last_error: Option<f64>,
+}
+
+impl Pid {
+    fn update(&mut self, error: f64, gains: &PidGains, period_s: f64, most: f64) -> f64 {
+        let rate = self.last_error.map_or(0.0, |last| (error - last) / period_s);
+        self.last_error = Some(error);
+        let wanted = gains.proportional * error
+            + gains.integral * (self.integral + error * period_s)
+            + gains.derivative * rate;
+        // The integral holds while the output is saturated, so that it cannot wind up.
+        if wanted.abs() < most {
+            self.integral += error * period_s;
+        }
+        wanted.clamp(-most, most)
+    }
+}
+
+/// The two loops.
+#[derive(Clone, Debug)]
+pub(crate) struct Controller {
+    config: ControllerConfig,
+    distance: Pid,
+    yaw: Pid,
+}
+
+impl Controller {
+    pub(crate) fn new(config: ControllerConfig) -> Self {
+        Self { config, distance: Pid::default(), yaw: Pid::default() }
+    }
+
+    pub(crate) fn reset(&mut self) {
+        self.distance = Pid::default();
+        self.yaw = Pid::default();
+    }
+
+    /// Drives towards a point at `distance_m` and `bearing_rad` in the robot frame; turns first when it is far to a side.
+    pub(crate) fn drive(&mut self, distance_m: f64, bearing_rad: f64, period_s: f64) -> Command {
+        let config = &self.config;
+        let bearing = wrap_rad(bearing_rad);
+        let turning = self.yaw.update(bearing, &config.yaw, period_s, config.max_turn_rate_rad_s);
+        let forward = self.distance.update(distance_m, &config.distance, period_s, config.max_speed_m_s);
+        let ahead = if bearing.abs() > config.turn_first_rad { 0.0 } else { libm::cos(bearing) };
+        Command { linear_m_s: forward.max(0.0) * ahead, angular_rad_s: turning }
+    }
+
+    /// Turns in place to look around.
+    pub(crate) fn look_around(&mut self) -> Command {
+        self.reset();
+        Command { linear_m_s: 0.0, angular_rad_s: self.config.look_turn_rate_rad_s }
+    }
+}

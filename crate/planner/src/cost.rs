@@ -1,0 +1,150 @@
+//! The cost function J and the choice of the subgoal (paper, section V-C, eq. 6).
+
+use core::f64::consts::PI;
+
+use glam::DVec2;
+
+use crate::angle::difference_rad;
+use crate::config::{CostModel, DecisionConfig};
+use crate::pose::Pose;
+use crate::subgoals::Subgoal;
+
+/// The weighted terms of J for one subgoal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// k_dir times the direction cost.
+    pub direction: f64,
+    /// k_dst times the distance cost.
+    pub distance: f64,
+    /// k_stp times the steepness cost.
+    pub steepness: f64,
+    /// Charge for turning away from the last choice.
+    pub commitment: f64,
+    /// Charge for ground driven on before.
+    pub revisit: f64,
+}
+
+impl Cost {
+    /// J.
+    pub fn total(&self) -> f64 {
+        self.direction + self.distance + self.steepness + self.commitment + self.revisit
+    }
+}
+
+/// The paper's steepness cost: C_stp = dz² + exp(sign(ψ) dz) |ψ|, with dz the subgoal's height over the robot's and ψ
+/// the pitch, nose-up positive, so that it charges subgoals that would increase |ψ|.
+pub fn steepness_cost(height_difference_m: f64, pitch_rad: f64) -> f64 {
+    let sign = if pitch_rad == 0.0 { 0.0 } else { pitch_rad.signum() };
+    height_difference_m * height_difference_m + libm::exp(sign * height_difference_m) * pitch_rad.abs()
+}
+
+/// What the terms are measured against.
+pub(crate) struct Situation<'a> {
+    pub(crate) pose: &'a Pose,
+    pub(crate) goal_m: DVec2,
+    pub(crate) surface_radius_m: f64,
+    /// World bearing of the last choice.
+    pub(crate) last_bearing_rad: Option<f64>,
+    /// Places driven over, oldest first.
+    pub(crate) visited_m: &'a [DVec2],
+}
+
+/// Gives every candidate its cost and returns the index of the cheapest; the first of equals.
+pub(crate) fn choose(
+    subgoals: &mut [Subgoal],
+    config: &DecisionConfig,
+    situation: &Situation<'_>,
+) -> Option<usize> {
+    for subgoal in subgoals.iter_mut() {
+        subgoal.cost = subgoal.refusal.is_none().then(|| match config.cost_model {
+            CostModel::Paper => paper_terms(subgoal, situation),
+            CostModel::Forecast => forecast_terms(subgoal, situation),
+        });
+    }
+    if config.cost_model == CostModel::Paper {
+        normalise(subgoals);
+    }
+    let mut best: Option<(usize, f64)> = None;
+    for (index, subgoal) in subgoals.iter_mut().enumerate() {
+        let Some(cost) = &mut subgoal.cost else { continue };
+        cost.direction *= config.direction_weight;
+        cost.distance *= config.distance_weight;
+        cost.steepness *= config.steepness_weight;
+        cost.commitment *= config.commitment_weight;
+        cost.revisit *= config.revisit_weight;
+        let total = cost.total();
+        if best.is_none_or(|(_, least)| total < least) {
+            best = Some((index, total));
+        }
+    }
+    best.map(|(index, _)| index)
+}
+
+/// |α_g|, D_fg and C_stp, not yet normalised.
+fn paper_terms(subgoal: &Subgoal, situation: &Situation<'_>) -> Cost {
+    Cost {
+        direction: subgoal.azimuth_rad.abs(),
+        distance: (situation.goal_m - subgoal.position_m.truncate()).length(),
+        steepness: steepness_cost(
+            subgoal.position_m.z - situation.pose.position_m.z,
+            situation.pose.pitch_rad,
+        ),
+        ..Cost::default()
+    }
+}
+
+/// Divides each term by its greatest value over the candidates.
+fn normalise(subgoals: &mut [Subgoal]) {
+    let mut most = Cost::default();
+    for cost in subgoals.iter().filter_map(|s| s.cost) {
+        most.direction = most.direction.max(cost.direction);
+        most.distance = most.distance.max(cost.distance);
+        most.steepness = most.steepness.max(cost.steepness);
+    }
+    let share = |value: f64, most: f64| if most > 0.0 { value / most } else { 0.0 };
+    for cost in subgoals.iter_mut().filter_map(|s| s.cost.as_mut()) {
+        cost.direction = share(cost.direction, most.direction);
+        cost.distance = share(cost.distance, most.distance);
+        cost.steepness = share(cost.steepness, most.steepness);
+    }
+}
+
+/// How near a place driven over must be to count, and how many count as fully visited.
+const VISIT_RADIUS_M: f64 = 1.5;
+const FULL_VISITS: f64 = 4.0;
+/// The last places are where the robot comes from; they say nothing of going round in circles.
+const RECENT_PLACES: usize = 8;
+
+/// Every term on a fixed scale: half a turn, the surface's radius, the tilt limits.
+fn forecast_terms(subgoal: &Subgoal, situation: &Situation<'_>) -> Cost {
+    let here = situation.pose.plan_m();
+    let there = subgoal.position_m.truncate();
+    let lost = (situation.goal_m - there).length() - (situation.goal_m - here).length();
+    let turn = situation
+        .last_bearing_rad
+        .map_or(0.0, |last| difference_rad(situation.pose.yaw_rad + subgoal.bearing_rad, last));
+    let older = situation.visited_m.len().saturating_sub(RECENT_PLACES);
+    let visits = situation.visited_m[..older]
+        .iter()
+        .filter(|place| (**place - there).length_squared() < VISIT_RADIUS_M * VISIT_RADIUS_M)
+        .count();
+    Cost {
+        direction: subgoal.bearing_rad.abs() / PI,
+        distance: 0.5 + 0.5 * lost / situation.surface_radius_m,
+        steepness: subgoal.forecast.map_or(0.0, |f| f.mean_risk),
+        commitment: turn.abs() / PI,
+        revisit: (visits as f64 / FULL_VISITS).min(1.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steepness_charges_what_would_increase_the_pitch() {
+        assert!(steepness_cost(1.0, 0.3) > steepness_cost(-1.0, 0.3));
+        assert!(steepness_cost(-1.0, -0.3) > steepness_cost(1.0, -0.3));
+        assert!((steepness_cost(2.0, 0.0) - 4.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,356 @@
+//! The planner: one type with one step.
+
+use glam::{DVec2, DVec3, Vec3};
+
+use crate::config::{CostModel, PlannerConfig};
+use crate::controller::{Command, Controller};
+use crate::cost::{self, Situation};
+use crate::error::ConfigError;
+use crate::forecast::{ReachEnd, forecast};
+use crate::ground::Ground;
+use crate::occupancy::{LOWEST_ELEVATION_RAD, OccupancySurface, column_of};
+use crate::perception::{Perception, PredictedSurface};
+use crate::pose::Pose;
+use crate::profile::{Column, ElevationProfile, read_profile};
+use crate::segments::{Segment, cut_segments};
+use crate::sparse_gp::GpError;
+use crate::subgoals::{Refusal, Subgoal, bearing_rad, carries_subgoals, spread_azimuths, world_position_m};
+
+/// Why the planner stands still for good.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum StopReason {
+    /// The pose or the goal is not a number.
+    #[error("the pose or the goal is not finite")]
+    InvalidInput,
+    /// The scan is empty.
+    #[error("the scan has no returns")]
+    EmptyScan,
+    /// The Gaussian process has no posterior.
+    #[error("no perception: {0}")]
+    NoPerception(GpError),
+    /// Looking around found no candidate either.
+    #[error("no subgoal found after looking around")]
+    NoSubgoal,
+}
+
+/// What a step decided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Status {
+    /// Driving to the chosen subgoal.
+    Driving,
+    /// The goal is within its tolerance.
+    Arrived,
+    /// No candidate: turning in place to look.
+    Looking,
+    /// Standing still, for this reason.
+    Stopped(StopReason),
+}
+
+/// Everything one step saw and decided.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// What was decided.
+    pub status: Status,
+    /// The velocity command.
+    pub command: Command,
+    /// The observed occupancy surface.
+    pub observed: &'a OccupancySurface,
+    /// Its reconstruction and the variance surface.
+    pub predicted: &'a PredictedSurface,
+    /// The elevation profile.
+    pub profile: &'a [Column],
+    /// Its segments.
+    pub segments: &'a [Segment],
+    /// Every subgoal, refused ones too.
+    pub subgoals: &'a [Subgoal],
+    /// Index of the chosen subgoal.
+    pub chosen: Option<usize>,
+}
+
+/// Places driven over that are kept, one every half metre.
+const MOST_VISITED: usize = 400;
+const VISIT_SPACING_M: f64 = 0.5;
+
+/// Scan, pose and goal in; subgoal and command out. No map: it keeps the ground that the last scans saw, where it has
+/// been, and its last choice.
+#[derive(Clone, Debug)]
+pub struct Planner {
+    config: PlannerConfig,
+    observed: OccupancySurface,
+    perception: Perception,
+    profile: ElevationProfile,
+    segments: Vec<Segment>,
+    subgoals: Vec<Subgoal>,
+    ground: Ground,
+    controller: Controller,
+    visited_m: Vec<DVec2>,
+    goal_m: Option<DVec2>,
+    last_bearing_rad: Option<f64>,
+    looked_ticks: u32,
+    status: Status,
+    command: Command,
+    chosen: Option<usize>,
+}
+
+impl Planner {
+    /// A planner that has seen nothing yet.
+    ///
+    /// # Errors
+    /// [`ConfigError`] for a value that makes no sense.
+    pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
+        config.validate()?;
+        Ok(Self {
+            observed: OccupancySurface::new(config.perception.surface_radius_m),
+            perception: Perception::new(config.perception),
+            profile: Vec::new(),
+            segments: Vec::new(),
+            subgoals: Vec::new(),
+            ground: Ground::new(config.ground),
+            controller: Controller::new(config.controller),
+            visited_m: Vec::with_capacity(MOST_VISITED),
+            goal_m: None,
+            last_bearing_rad: None,
+            looked_ticks: 0,
+            status: Status::Looking,
+            command: Command::STOP,
+            chosen: None,
+            config,
+        })
+    }
+
+    /// The configuration.
+    pub fn config(&self) -> &PlannerConfig {
+        &self.config
+    }
+
+    /// Forgets everything seen and driven, as after a change of the world.
+    pub fn reset(&mut self) {
+        self.ground.clear();
+        self.visited_m.clear();
+        self.goal_m = None;
+    }
+
+    /// One step: `points_m` are the scan's returns in the sensor frame, `pose` the robot's in the world, `goal_m` the goal
+    /// seen from above, in the world.
+    ///
+    /// The answer to anything that makes no sense is a stop with its reason.
+    pub fn step(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Step<'_> {
+        self.chosen = None;
+        self.subgoals.clear();
+        self.segments.clear();
+        if self.goal_m != Some(goal_m) {
+            self.goal_m = Some(goal_m);
+            self.visited_m.clear();
+            self.last_bearing_rad = None;
+            self.looked_ticks = 0;
+            self.controller.reset();
+        }
+        self.status = self.decide(points_m, pose, goal_m);
+        self.command = match self.status {
+            Status::Driving => self.command,
+            Status::Looking => self.controller.look_around(),
+            Status::Arrived | Status::Stopped(_) => {
+                self.controller.reset();
+                Command::STOP
+            }
+        };
+        self.last_step()
+    }
+
+    /// What the last step saw and decided.
+    pub fn last_step(&self) -> Step<'_> {
+        Step {
+            status: self.status,
+            command: self.command,
+            observed: &self.observed,
+            predicted: self.perception.surface(),
+            profile: &self.profile,
+            segments: &self.segments,
+            subgoals: &self.subgoals,
+            chosen: self.chosen,
+        }
+    }
+
+    fn decide(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Status {
+        if !(pose.is_finite() && goal_m.is_finite()) {
+            return Status::Stopped(StopReason::InvalidInput);
+        }
+        if points_m.is_empty() {
+            return Status::Stopped(StopReason::EmptyScan);
+        }
+        if let Err(error) = self.perceive(points_m) {
+            return Status::Stopped(StopReason::NoPerception(error));
+        }
+        self.remember(points_m, pose);
+        if (goal_m - pose.plan_m()).length() <= self.config.goal_tolerance_m {
+            return Status::Arrived;
+        }
+
+        self.place_subgoals(pose);
+        let chosen = match self.goal_in_sight(pose, goal_m) {
+            Some(goal) => {
+                self.subgoals.push(goal);
+                Some(self.subgoals.len() - 1)
+            }
+            None => cost::choose(
+                &mut self.subgoals,
+                &self.config.decision,
+                &Situation {
+                    pose,
+                    goal_m,
+                    surface_radius_m: self.config.perception.surface_radius_m,
+                    last_bearing_rad: self.last_bearing_rad,
+                    visited_m: &self.visited_m,
+                },
+            ),
+        };
+        let Some(chosen) = chosen else {
+            self.looked_ticks += 1;
+            self.last_bearing_rad = None;
+            return if self.looked_ticks > self.config.decision.look_ticks {
+                Status::Stopped(StopReason::NoSubgoal)
+            } else {
+                Status::Looking
+            };
+        };
+        self.looked_ticks = 0;
+        self.chosen = Some(chosen);
+        let subgoal = &self.subgoals[chosen];
+        self.last_bearing_rad = Some(pose.yaw_rad + subgoal.bearing_rad);
+        let distance = (subgoal.position_m.truncate() - pose.plan_m()).length();
+        self.command = self.controller.drive(distance, subgoal.bearing_rad, self.config.period_s);
+        Status::Driving
+    }
+
+    fn perceive(&mut self, points_m: &[Vec3]) -> Result<(), GpError> {
+        self.observed.project(points_m);
+        self.perception.predict(&self.observed)?;
+        read_profile(
+            &self.observed,
+            self.perception.surface(),
+            self.config.perception.variance_threshold,
+            &mut self.profile,
+        );
+        cut_segments(
+            &self.profile,
+            &self.config.segments,
+            self.config.perception.surface_radius_m,
+            self.config.robot_width_m,
+            &self.config.mount,
+            &mut self.segments,
+        );
+        Ok(())
+    }
+
+    /// Adds the scan within r_oc, and the ground the wheels stand on, to what is remembered.
+    fn remember(&mut self, points_m: &[Vec3], pose: &Pose) {
+        self.ground.advance();
+        let world_from_robot = pose.world_from_robot();
+        let sensor = pose.position_m + world_from_robot * self.config.mount.offset_m();
+        let radius_squared = self.observed.radius_m() * self.observed.radius_m();
+        for point in points_m {
+            let point = point.as_dvec3();
+            // Also passes over NaN.
+            if point.length_squared() <= radius_squared {
+                self.ground.add(sensor + world_from_robot * point);
+            }
+        }
+        let half_width = 0.5 * self.config.robot_width_m;
+        for x in [-half_width, 0.0, half_width] {
+            for y in [-half_width, 0.0, half_width] {
+                self.ground.add(pose.position_m + world_from_robot * DVec3::new(x, y, 0.0));
+            }
+        }
+        let here = pose.plan_m();
+        if self.visited_m.last().is_none_or(|last| (*last - here).length() >= VISIT_SPACING_M) {
+            if self.visited_m.len() == MOST_VISITED {
+                self.visited_m.remove(0);
+            }
+            self.visited_m.push(here);
+        }
+    }
+
+    fn place_subgoals(&mut self, pose: &Pose) {
+        let config = &self.config;
+        let radius = config.perception.surface_radius_m;
+        for (index, segment) in self.segments.iter().enumerate() {
+            if !carries_subgoals(segment, config.robot_width_m, &config.segments) {
+                continue;
+            }
+            let elevation_rad = segment.elevation_rad.unwrap_or(LOWEST_ELEVATION_RAD);
+            for azimuth_rad in spread_azimuths(segment, config.robot_width_m, &config.segments) {
+                let skyline_m = world_position_m(pose, &config.mount, azimuth_rad, elevation_rad, radius);
+                let mut subgoal = Subgoal {
+                    segment: Some(index),
+                    azimuth_rad,
+                    elevation_rad,
+                    position_m: skyline_m,
+                    bearing_rad: bearing_rad(pose, skyline_m.truncate()),
+                    forecast: None,
+                    refusal: None,
+                    cost: None,
+                };
+                if config.decision.cost_model == CostModel::Forecast {
+                    look_along(&mut subgoal, &self.ground, config, pose, radius);
+                }
+                self.subgoals.push(subgoal);
+            }
+        }
+    }
+
+    /// The goal itself, when it is nearer than what was seen in its direction.
+    fn goal_in_sight(&self, pose: &Pose, goal_m: DVec2) -> Option<Subgoal> {
+        let config = &self.config;
+        let distance = (goal_m - pose.plan_m()).length();
+        let radius = config.perception.surface_radius_m;
+        let bearing = bearing_rad(pose, goal_m);
+        let mut goal = Subgoal {
+            segment: None,
+            azimuth_rad: bearing,
+            elevation_rad: -libm::atan2(config.mount.height_m, distance),
+            position_m: goal_m.extend(pose.position_m.z),
+            bearing_rad: bearing,
+            forecast: None,
+            refusal: None,
+            cost: None,
+        };
+        match config.decision.cost_model {
+            CostModel::Paper => match self.profile[column_of(bearing)] {
+                Column::Ground { elevation_rad } => {
+                    (distance < radius * libm::cos(elevation_rad)).then_some(goal)
+                }
+                Column::Unknown | Column::Wall => None,
+            },
+            CostModel::Forecast if distance < radius => {
+                look_along(&mut goal, &self.ground, config, pose, distance);
+                let whole = goal.forecast.is_some_and(|f| f.end == ReachEnd::Whole);
+                goal.position_m = goal_m.extend(goal.position_m.z);
+                whole.then_some(goal)
+            }
+            CostModel::Forecast => None,
+        }
+    }
+}
+
+/// Moves a subgoal to where the forecast towards it reaches, and refuses it when that is too near.
+fn look_along(subgoal: &mut Subgoal, ground: &Ground, config: &PlannerConfig, pose: &Pose, length_m: f64) {
+    let (sin, cos) = libm::sincos(pose.yaw_rad + subgoal.bearing_rad);
+    let direction = DVec2::new(cos, sin);
+    let found = forecast(
+        ground,
+        &config.forecast,
+        &config.limits,
+        pose.plan_m(),
+        pose.position_m.z,
+        direction,
+        length_m,
+    );
+    subgoal.position_m = (pose.plan_m() + direction * found.reach_m).extend(found.reach_height_m);
+    subgoal.refusal = match found.end {
+        _ if found.reach_m >= config.forecast.min_reach_m => None,
+        ReachEnd::Whole => None,
+        ReachEnd::Tilt => Some(Refusal::Tilt),
+        ReachEnd::Unseen => Some(Refusal::Unseen),
+    };
+    subgoal.forecast = Some(found);
+}
