@@ -3,7 +3,7 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, bail, ensure};
 use xshell::{Shell, cmd};
 
 const BROWSERS: &[&str] = &[
@@ -14,6 +14,9 @@ const BROWSERS: &[&str] = &[
     "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
 ];
 const DRIVERS: &[&str] = &["chromedriver", "chromium.chromedriver"];
+
+/// The environment variables that name the browser and the driver, in place of those on PATH.
+const NAMED_BY: [&str; 2] = ["CHROME", "CHROMEDRIVER"];
 
 const HOW_TO_INSTALL: &str = "The tests need Chromium (or Google Chrome) and a chromedriver of the same version. \
     Install both, for example with `sudo apt-get install chromium chromium-driver` on Debian, or from \
@@ -33,7 +36,8 @@ impl Browser {
             Ok(browser) => return Ok(browser),
             Err(missing) => missing,
         };
-        let Some(packages) = apt_packages(sh) else {
+        let is_named = NAMED_BY.iter().any(|variable| env::var_os(variable).is_some());
+        let Some(packages) = apt_packages(sh).filter(|_| !is_named) else {
             bail!("{missing}. {HOW_TO_INSTALL}");
         };
         cmd!(sh, "apt-get update").run()?;
@@ -44,14 +48,10 @@ impl Browser {
     }
 
     fn find(sh: &Shell) -> anyhow::Result<Self> {
-        let browsers = versions(sh, "CHROME", BROWSERS);
-        let drivers = versions(sh, "CHROMEDRIVER", DRIVERS);
-        if browsers.is_empty() {
-            bail!("No Chromium was found");
-        }
-        if drivers.is_empty() {
-            bail!("No chromedriver was found");
-        }
+        let browsers = versions(sh, NAMED_BY[0], BROWSERS)?;
+        let drivers = versions(sh, NAMED_BY[1], DRIVERS)?;
+        ensure!(!browsers.is_empty(), "No Chromium was found");
+        ensure!(!drivers.is_empty(), "No chromedriver was found");
         match same_major(&browsers, &drivers) {
             Some((chrome, driver)) => Ok(Self { chrome: chrome.to_owned(), driver: driver.to_owned() }),
             None => bail!("No chromedriver fits the browser: found {browsers:?} and {drivers:?}"),
@@ -77,19 +77,18 @@ impl Browser {
 }
 
 /// The programs found, each with its major version: the one named by `variable`, or else those of `names`.
-fn versions(sh: &Shell, variable: &str, names: &[&str]) -> Vec<(PathBuf, u32)> {
-    let named = env::var_os(variable).map(PathBuf::from);
-    let candidates = match named {
-        Some(path) => vec![path],
-        None => names.iter().filter_map(|name| on_path(Path::new(name))).collect(),
+fn versions(sh: &Shell, variable: &str, names: &[&str]) -> anyhow::Result<Vec<(PathBuf, u32)>> {
+    let version = |path: PathBuf| {
+        let printed = cmd!(sh, "{path} --version").quiet().ignore_stderr().read().ok()?;
+        Some((path, major_version(&printed)?))
     };
-    candidates
-        .into_iter()
-        .filter_map(|path| {
-            let version = cmd!(sh, "{path} --version").quiet().ignore_stderr().read().ok()?;
-            Some((path, major_version(&version)?))
-        })
-        .collect()
+    if let Some(named) = env::var_os(variable).map(PathBuf::from) {
+        let found = version(named.clone());
+        return Ok(vec![
+            found.with_context(|| format!("{variable} names {named:?}, which tells no version"))?,
+        ]);
+    }
+    Ok(names.iter().filter_map(|name| on_path(Path::new(name))).filter_map(version).collect())
 }
 
 /// Where `program` is: itself if absolute, or else in the first folder of PATH that has it.

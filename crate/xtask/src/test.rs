@@ -4,7 +4,7 @@ use std::io::{self, Read as _, Write as _};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, ensure};
+use anyhow::{Context as _, anyhow, ensure};
 use clap::ValueEnum;
 use xshell::{Cmd, Shell, cmd};
 
@@ -56,9 +56,9 @@ pub(crate) fn run(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     for stage in STAGES.iter().filter(|stage| part.is_none_or(|part| stage.parts.contains(&part))) {
         println!("\n=== {} ===", stage.title);
         let start = Instant::now();
-        sum += (stage.run)(sh).with_context(|| {
+        sum += (stage.run)(sh).map_err(|error| {
             let name = format!("{:?}", part.unwrap_or(stage.parts[0])).to_lowercase();
-            format!("{} failed; to run this part alone: cargo xtask test {name}", stage.title)
+            anyhow!("{} failed: {error:#}\nTo run this part alone: cargo xtask test {name}", stage.title)
         })?;
         let time = start.elapsed();
         println!("=== {}: {:.1} s ===", stage.title, time.as_secs_f64());
