@@ -135,8 +135,8 @@ pub struct DecisionConfig {
 }
 
 /// Gains of one PID loop.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct PidGains {
     /// Per unit of error.
     pub proportional: f64,
@@ -192,7 +192,7 @@ impl Default for PerceptionConfig {
     fn default() -> Self {
         Self {
             surface_radius_m: 7.0,
-            kernel: RationalQuadratic { variance: 1.0, length_scales_rad: [0.15, 0.05], alpha: 10.0 },
+            kernel: RationalQuadratic::default(),
             noise_variance_m2: 1.0,
             inducing_spacing_length_scales: 0.8,
             max_inducing_inputs: 1000,

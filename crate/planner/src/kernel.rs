@@ -7,7 +7,7 @@ use crate::error::{ConfigError, require};
 
 /// Hyperparameters of the rational quadratic kernel.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct RationalQuadratic {
     /// Signal variance σ², in square metres of occupancy.
     pub variance: f64,
@@ -15,6 +15,13 @@ pub struct RationalQuadratic {
     pub length_scales_rad: [f64; 2],
     /// Weighting of length-scales γ (alpha elsewhere); whole numbers need no power function.
     pub alpha: f64,
+}
+
+impl Default for RationalQuadratic {
+    /// Length-scales near the sensor's ring spacing and five columns' width; DESIGN.md says how they were chosen.
+    fn default() -> Self {
+        Self { variance: 1.0, length_scales_rad: [0.15, 0.05], alpha: 10.0 }
+    }
 }
 
 /// Points evaluated together.

@@ -1,1 +1,17 @@
-//! The closed loop.
+//! The closed loop: a planner drives a Husky over a terrain, and the paper's metrics say how well.
+//!
+//! [`Scenario`] reads the files under `terrains/scenarios/`, [`Trial`] runs one, [`Metrics`] are the six of the paper, and
+//! a digest over the whole trajectory shows that two runs had the same bits.
+
+mod digest;
+mod metrics;
+mod places;
+mod scenario;
+mod trial;
+
+pub use metrics::{Metrics, MetricsRecorder};
+pub use places::StartPose;
+#[cfg(not(target_arch = "wasm32"))]
+pub use scenario::LoadedScenario;
+pub use scenario::{Preset, Scenario, ScenarioError, ScenarioFault};
+pub use trial::{Outcome, Trial, TrialError};

@@ -1,0 +1,248 @@
+//! Scenario files: a terrain, a start, a goal and what differs from the defaults.
+//!
+//! ```toml
+//! terrain = "../cht.toml"       # a recipe, .png, .asc or .tif, relative to this file
+//! start = [5.0, 5.0, 0.8]       # x, y in metres, heading in radians
+//! goal = [60.0, 60.0]
+//! seed = 1
+//!
+//! [planner.decision]            # any value of the planner, sensor or robot
+//! steepness_weight = 0.8
+//! ```
+
+use glam::DVec2;
+use mapless::PlannerConfig;
+use mapless_world::{HuskyConfig, SensorConfig, TerrainError};
+
+use crate::places::{self, StartPose};
+
+/// Which planner configuration a scenario's `[planner]` section starts from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Preset {
+    /// The best mapless choice known here.
+    #[default]
+    Default,
+    /// The paper read literally.
+    Paper,
+}
+
+impl std::str::FromStr for Preset {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        match name {
+            "default" => Ok(Self::Default),
+            "paper" => Ok(Self::Paper),
+            _ => Err(format!("preset \"{name}\": expected default or paper")),
+        }
+    }
+}
+
+/// A scenario, checked except for its terrain.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// Path of the terrain, relative to the scenario file.
+    pub terrain: String,
+    /// Where the robot starts.
+    pub start: StartPose,
+    /// Where it should go, seen from above, metres.
+    pub goal_m: DVec2,
+    /// Seed of the sensor's noise.
+    pub seed: u64,
+    /// The sensor.
+    pub sensor: SensorConfig,
+    /// The robot.
+    pub robot: HuskyConfig,
+    /// What the `[planner]` section sets.
+    planner: toml::Table,
+}
+
+/// Why a scenario cannot be run: the file and what is wrong with it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{file}: {fault}")]
+pub struct ScenarioError {
+    /// The scenario file.
+    pub file: String,
+    /// What is wrong.
+    pub fault: ScenarioFault,
+}
+
+/// What is wrong with a scenario.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ScenarioFault {
+    /// The file cannot be read.
+    #[error("cannot be read: {0}")]
+    Read(String),
+    /// Not TOML, a wrong key or a value of the wrong kind; says where.
+    #[error("{0}")]
+    Syntax(String),
+    /// A value outside its range.
+    #[error("{0}")]
+    Value(String),
+    /// The terrain cannot be loaded.
+    #[error("terrain: {0}")]
+    Terrain(#[from] TerrainError),
+}
+
+/// The file as written. `planner` is read a second time as a table: here it only tells wrong keys with their line.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    terrain: String,
+    #[serde(deserialize_with = "places::start")]
+    start: StartPose,
+    #[serde(deserialize_with = "places::goal")]
+    goal: DVec2,
+    seed: u64,
+    #[serde(default)]
+    planner: PlannerConfig,
+    #[serde(default)]
+    sensor: SensorConfig,
+    #[serde(default)]
+    robot: HuskyConfig,
+}
+
+impl Scenario {
+    /// Reads the text of the scenario file `file`.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] names the file, the place, the value and what was expected.
+    pub fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
+        let fail = |fault| ScenarioError { file: file.to_owned(), fault };
+        let syntax =
+            |error: toml::de::Error| fail(ScenarioFault::Syntax(error.to_string().trim_end().to_owned()));
+        let parsed: File = toml::from_str(text).map_err(syntax)?;
+        let mut table: toml::Table = text.parse().map_err(syntax)?;
+        let planner = match table.remove("planner") {
+            Some(toml::Value::Table(planner)) => planner,
+            _ => toml::Table::new(),
+        };
+        let value = |reason: String| fail(ScenarioFault::Value(reason));
+        parsed.planner.validate().map_err(|e| value(e.to_string()))?;
+        parsed.sensor.validate().map_err(|e| value(format!("sensor.{e}")))?;
+        parsed.robot.validate().map_err(|e| value(format!("robot.{e}")))?;
+        Ok(Self {
+            terrain: parsed.terrain,
+            start: parsed.start,
+            goal_m: parsed.goal,
+            seed: parsed.seed,
+            sensor: parsed.sensor,
+            robot: parsed.robot,
+            planner,
+        })
+    }
+
+    /// The planner's configuration: the preset, with the geometry of this sensor and robot, with what the scenario sets.
+    ///
+    /// # Errors
+    /// The value that does not fit the preset.
+    pub fn planner_config(&self, preset: Preset) -> Result<PlannerConfig, ScenarioFault> {
+        let mut config = match preset {
+            Preset::Default => PlannerConfig::default(),
+            Preset::Paper => PlannerConfig::paper(),
+        };
+        config.mount.forward_m = self.sensor.forward_m;
+        config.mount.height_m = self.sensor.height_m;
+        config.robot_width_m = self.robot.width_m;
+        config.limits.roll_rad = self.robot.roll_limit_rad;
+        config.limits.pitch_rad = self.robot.pitch_limit_rad;
+
+        let fault = |reason: &dyn std::fmt::Display| ScenarioFault::Value(format!("planner: {reason}"));
+        let mut table = toml::Table::try_from(&config).map_err(|e| fault(&e))?;
+        merge(&mut table, &self.planner);
+        let config: PlannerConfig = table.try_into().map_err(|e: toml::de::Error| fault(&e))?;
+        config.validate().map_err(|e| ScenarioFault::Value(e.to_string()))?;
+        Ok(config)
+    }
+}
+
+fn merge(base: &mut toml::Table, over: &toml::Table) {
+    for (key, value) in over {
+        match (base.get_mut(key), value) {
+            (Some(toml::Value::Table(base)), toml::Value::Table(over)) => merge(base, over),
+            _ => {
+                base.insert(key.clone(), value.clone());
+            }
+        }
+    }
+}
+
+/// A scenario with its terrain, from disk.
+#[cfg(not(target_arch = "wasm32"))]
+#[derive(Clone, Debug)]
+pub struct LoadedScenario {
+    /// The scenario.
+    pub scenario: Scenario,
+    /// Its terrain.
+    pub terrain: mapless_world::Terrain,
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+impl LoadedScenario {
+    /// Reads a scenario file and the terrain it names.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] names the file, the place, the value and what was expected.
+    pub fn read(path: &std::path::Path) -> Result<Self, ScenarioError> {
+        let file = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| ScenarioError {
+            file: file.clone(),
+            fault: ScenarioFault::Read(error.to_string()),
+        })?;
+        let scenario = Scenario::parse(&file, &text)?;
+        let terrain = mapless_world::load_terrain(&path.with_file_name(&scenario.terrain))
+            .map_err(|error| ScenarioError { file, fault: ScenarioFault::Terrain(error) })?;
+        Ok(Self { scenario, terrain })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENARIO: &str = "terrain = \"a.toml\"\nstart = [1.0, 2.0, 0.5]\ngoal = [3.0, 4.0]\nseed = 7\n";
+
+    fn error(text: &str) -> String {
+        Scenario::parse("x.toml", text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn places_are_read_in_both_forms() {
+        let listed = Scenario::parse("x.toml", SCENARIO).unwrap();
+        let named = SCENARIO
+            .replace("[1.0, 2.0, 0.5]", "{ y = 2.0, x = 1.0, heading = 0.5 }")
+            .replace("[3.0, 4.0]", "{ x = 3, y = 4 }");
+        let named = Scenario::parse("x.toml", &named).unwrap();
+        assert_eq!((listed.start, listed.goal_m), (named.start, named.goal_m));
+        assert_eq!(listed.seed, 7);
+    }
+
+    #[test]
+    fn the_planner_section_overrides_either_preset() {
+        let text = format!("{SCENARIO}[planner.perception]\nsurface_radius_m = 6\n");
+        let scenario = Scenario::parse("x.toml", &text).unwrap();
+        let paper = scenario.planner_config(Preset::Paper).unwrap();
+        let expected = PlannerConfig::paper();
+        assert!((paper.perception.surface_radius_m - 6.0).abs() < 1e-12);
+        assert_eq!(paper.perception.kernel, expected.perception.kernel);
+        assert_eq!(paper.decision, expected.decision);
+    }
+
+    #[test]
+    fn errors_name_file_place_value_and_expectation() {
+        assert!(error("terrain = 3").starts_with("x.toml: TOML parse error at line 1, column 11"));
+        assert!(error(&format!("{SCENARIO}colour = 1\n")).contains("line 5, column 1"));
+        assert!(
+            error(&format!("{SCENARIO}[planner.decision]\nk_dir = 1\n")).contains("unknown field `k_dir`")
+        );
+        assert!(error(&SCENARIO.replace("2.0", "nan")).contains("y = NaN: expected a finite number"));
+        assert!(error(&SCENARIO.replace("[3.0, 4.0]", "[3.0]")).contains("expected 2 numbers: x, y"));
+        assert!(error(&SCENARIO.replace("[3.0, 4.0]", "{ x = 1 }")).contains("missing field `y`"));
+        let text = format!("{SCENARIO}[planner.forecast]\nstep_m = -1.0\n");
+        assert_eq!(error(&text), "x.toml: planner.forecast.step_m = -1: expected a positive number");
+        assert!(
+            error(&format!("{SCENARIO}[sensor]\nrange_noise_m = inf\n")).contains("sensor.range_noise_m")
+        );
+    }
+}

@@ -1,0 +1,385 @@
+//! One trial: world → scan → planner → command → world.
+
+use glam::{DVec2, DVec3};
+use mapless::pose::Pose;
+use mapless::{Planner, PlannerConfig, Status, Step, StopReason};
+use mapless_world::{
+    Brush, Caster, DriveCommand, DriveError, HeightField, Husky, HuskyConfig, HuskyState, SampleRect, Scan,
+    SensorConfig, Vlp16,
+};
+
+use crate::digest::TrajectoryDigest;
+use crate::metrics::{Metrics, MetricsRecorder, Sample};
+use crate::places::StartPose;
+use crate::scenario::{Preset, Scenario};
+
+/// Motion steps in one planning period.
+const MOTION_STEPS: u32 = 10;
+/// A robot that stays within this distance for this long is stuck.
+const STUCK_RADIUS_M: f64 = 0.5;
+const STUCK_AFTER_S: f64 = 30.0;
+/// A trial may last this long plus this many times the straight way at full speed.
+const BASE_TIME_LIMIT_S: f64 = 60.0;
+const STRAIGHT_TIMES: f64 = 4.0;
+
+/// How a trial ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// At the goal, never beyond a tilt limit.
+    Reached,
+    /// Roll or pitch beyond its limit.
+    TiltLimit,
+    /// Half a minute without getting anywhere.
+    Stuck,
+    /// The planner stopped with a reason.
+    NoSubgoal,
+    /// A wheel would have left the terrain.
+    LeftTerrain,
+    /// Too slow.
+    Timeout,
+}
+
+impl Outcome {
+    /// The name used in files and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reached => "reached",
+            Self::TiltLimit => "tilt_limit",
+            Self::Stuck => "stuck",
+            Self::NoSubgoal => "no_subgoal",
+            Self::LeftTerrain => "left_terrain",
+            Self::Timeout => "timeout",
+        }
+    }
+}
+
+/// Why a trial cannot begin or change as asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TrialError {
+    /// A place that is not on the terrain.
+    #[error("{what} = ({:.3}, {:.3}) m: expected a place on the terrain, which spans (0, 0) to ({:.3}, {:.3}) m", place_m.x, place_m.y, extent_m.x, extent_m.y)]
+    OffTerrain {
+        /// `start` or `goal`.
+        what: &'static str,
+        /// The place.
+        place_m: DVec2,
+        /// North-east corner of the terrain.
+        extent_m: DVec2,
+    },
+    /// A configuration value outside its range.
+    #[error("{0}")]
+    Config(String),
+}
+
+/// A running trial.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    caster: Caster,
+    sensor: Vlp16,
+    scan: Scan,
+    husky: Husky,
+    planner: Planner,
+    start: StartPose,
+    goal_m: DVec2,
+    seed: u64,
+    tick: u64,
+    metrics: MetricsRecorder,
+    digest: TrajectoryDigest,
+    anchor: (DVec2, u64),
+    time_limit_s: f64,
+    outcome: Option<Outcome>,
+}
+
+impl Trial {
+    /// Puts the scenario's robot on `field`; `seed` replaces the scenario's own.
+    ///
+    /// # Errors
+    /// [`TrialError`] for a start or goal off the terrain or a configuration that makes no sense.
+    pub fn new(
+        field: HeightField,
+        scenario: &Scenario,
+        preset: Preset,
+        seed: u64,
+    ) -> Result<Self, TrialError> {
+        let config = scenario.planner_config(preset).map_err(|e| TrialError::Config(e.to_string()))?;
+        Self::with_planner(field, scenario, config, seed)
+    }
+
+    /// As [`Trial::new`], with a planner configuration of one's own.
+    ///
+    /// # Errors
+    /// As [`Trial::new`].
+    pub fn with_planner(
+        field: HeightField,
+        scenario: &Scenario,
+        planner: PlannerConfig,
+        seed: u64,
+    ) -> Result<Self, TrialError> {
+        let config = |reason: &dyn std::fmt::Display| TrialError::Config(reason.to_string());
+        let planner = Planner::new(planner).map_err(|e| config(&e))?;
+        let sensor: SensorConfig = scenario.sensor.clone();
+        let sensor = Vlp16::new(sensor).map_err(|e| config(&e))?;
+        let husky = place(&field, scenario.robot.clone(), scenario.start)?;
+        on_terrain(&field, "goal", scenario.goal_m)?;
+        let mut trial = Self {
+            metrics: MetricsRecorder::new(sample_of(&husky)),
+            caster: Caster::new(field),
+            sensor,
+            scan: Scan::default(),
+            anchor: (scenario.start.position_m, 0),
+            husky,
+            planner,
+            start: scenario.start,
+            goal_m: scenario.goal_m,
+            seed,
+            tick: 0,
+            digest: TrajectoryDigest::default(),
+            time_limit_s: 0.0,
+            outcome: None,
+        };
+        trial.allow_time();
+        Ok(trial)
+    }
+
+    /// Runs one planning period: [`Trial::look`], [`Trial::plan`], [`Trial::act`]. Does nothing once the trial has ended.
+    pub fn tick(&mut self) -> Option<Outcome> {
+        if self.outcome.is_none() {
+            self.look();
+            self.plan();
+            self.act();
+        }
+        self.outcome
+    }
+
+    /// Takes a scan from where the robot stands.
+    pub fn look(&mut self) {
+        let state = self.husky.state();
+        let sensor_pose = self.sensor.config().pose_on(state.position, state.yaw_rad, &state.attitude);
+        self.sensor.scan(&self.caster, &sensor_pose, self.seed, self.tick, &mut self.scan);
+    }
+
+    /// Lets the planner decide on the last scan.
+    pub fn plan(&mut self) -> Step<'_> {
+        let pose = self.pose();
+        self.planner.step(&self.scan.points, &pose, self.goal_m)
+    }
+
+    /// Moves the robot by the last decision until the next scan is due.
+    pub fn act(&mut self) -> Option<Outcome> {
+        let Step { status, command, .. } = self.planner.last_step();
+        self.outcome = match status {
+            Status::Arrived => Some(Outcome::Reached),
+            Status::Stopped(_) => Some(Outcome::NoSubgoal),
+            Status::Driving | Status::Looking => self.drive(command),
+        };
+        self.tick += 1;
+        self.outcome = self.outcome.or_else(|| self.lost_patience());
+        self.outcome
+    }
+
+    fn drive(&mut self, command: mapless::Command) -> Option<Outcome> {
+        let command = DriveCommand { speed_m_s: command.linear_m_s, turn_rate_rad_s: command.angular_rad_s };
+        let dt_s = self.planner.config().period_s / f64::from(MOTION_STEPS);
+        for _ in 0..MOTION_STEPS {
+            if let Err(error) = self.husky.step(command, dt_s, self.caster.field()) {
+                return Some(match error {
+                    DriveError::LeftTerrain { .. } => Outcome::LeftTerrain,
+                    DriveError::NotFinite { .. } => Outcome::NoSubgoal,
+                });
+            }
+            let sample = sample_of(&self.husky);
+            self.metrics.record(sample, dt_s);
+            self.digest.add(&sample, self.husky.state().yaw_rad);
+            let limits = self.husky.config();
+            if sample.roll_rad.abs() > limits.roll_limit_rad
+                || sample.pitch_rad.abs() > limits.pitch_limit_rad
+            {
+                return Some(Outcome::TiltLimit);
+            }
+        }
+        None
+    }
+
+    fn lost_patience(&mut self) -> Option<Outcome> {
+        let (place, since) = self.anchor;
+        let here = self.husky.state().position;
+        let period_s = self.planner.config().period_s;
+        if (here - place).length() > STUCK_RADIUS_M {
+            self.anchor = (here, self.tick);
+        } else if (self.tick - since) as f64 * period_s > STUCK_AFTER_S {
+            return Some(Outcome::Stuck);
+        }
+        (self.time_s() > self.time_limit_s).then_some(Outcome::Timeout)
+    }
+
+    fn allow_time(&mut self) {
+        let straight = (self.goal_m - self.husky.state().position).length();
+        let speed = self.planner.config().controller.max_speed_m_s.min(self.husky.config().max_speed_m_s);
+        self.time_limit_s = self.time_s() + BASE_TIME_LIMIT_S + STRAIGHT_TIMES * straight / speed;
+    }
+
+    /// Sets a new goal and drives on; the metrics go on too.
+    ///
+    /// # Errors
+    /// [`TrialError::OffTerrain`]; the goal then stays as it was.
+    pub fn set_goal(&mut self, goal_m: DVec2) -> Result<(), TrialError> {
+        on_terrain(self.caster.field(), "goal", goal_m)?;
+        self.goal_m = goal_m;
+        self.resume();
+        Ok(())
+    }
+
+    /// Puts the robot somewhere else and begins anew from there, with the ground as it is now.
+    ///
+    /// # Errors
+    /// [`TrialError::OffTerrain`]; nothing then changes.
+    pub fn set_start(&mut self, start: StartPose) -> Result<(), TrialError> {
+        self.husky = place(self.caster.field(), self.husky.config().clone(), start)?;
+        self.start = start;
+        self.tick = 0;
+        self.metrics = MetricsRecorder::new(sample_of(&self.husky));
+        self.digest = TrajectoryDigest::default();
+        self.planner.reset();
+        self.resume();
+        Ok(())
+    }
+
+    /// Changes the ground under way; the robot settles on it. Gives the samples that changed.
+    ///
+    /// # Errors
+    /// [`TrialError::Config`] for a brush that makes no sense.
+    pub fn sculpt(&mut self, brush: &Brush) -> Result<Option<SampleRect>, TrialError> {
+        let changed = self.caster.sculpt(brush).map_err(|e| TrialError::Config(format!("brush.{e}")))?;
+        if self.husky.settle(self.caster.field()).is_err() {
+            self.outcome = Some(Outcome::LeftTerrain);
+        } else if self.outcome.is_some_and(|outcome| outcome != Outcome::Reached) {
+            self.resume();
+        }
+        Ok(changed)
+    }
+
+    /// Lets an ended trial go on, after a change.
+    fn resume(&mut self) {
+        self.outcome = None;
+        self.anchor = (self.husky.state().position, self.tick);
+        self.allow_time();
+    }
+
+    /// How the trial ended; `None` while it runs.
+    pub fn outcome(&self) -> Option<Outcome> {
+        self.outcome
+    }
+
+    /// Why the planner stopped, where it did.
+    pub fn stop_reason(&self) -> Option<StopReason> {
+        match self.planner.last_step().status {
+            Status::Stopped(reason) => Some(reason),
+            Status::Driving | Status::Arrived | Status::Looking => None,
+        }
+    }
+
+    /// What the last planner step saw and decided.
+    pub fn step(&self) -> Step<'_> {
+        self.planner.last_step()
+    }
+
+    /// The planner's configuration.
+    pub fn planner_config(&self) -> &PlannerConfig {
+        self.planner.config()
+    }
+
+    /// The last scan, in the sensor frame of the pose before the last motion.
+    pub fn scan(&self) -> &Scan {
+        &self.scan
+    }
+
+    /// The ground.
+    pub fn field(&self) -> &HeightField {
+        self.caster.field()
+    }
+
+    /// The ground with its ray-casting hierarchy.
+    pub fn caster(&self) -> &Caster {
+        &self.caster
+    }
+
+    /// The sensor.
+    pub fn sensor(&self) -> &Vlp16 {
+        &self.sensor
+    }
+
+    /// The robot's motion.
+    pub fn robot(&self) -> &HuskyState {
+        self.husky.state()
+    }
+
+    /// The robot's pose.
+    pub fn pose(&self) -> Pose {
+        let state = self.husky.state();
+        Pose {
+            position_m: self.husky.position(),
+            roll_rad: state.attitude.roll_rad,
+            pitch_rad: state.attitude.pitch_rad,
+            yaw_rad: state.yaw_rad,
+        }
+    }
+
+    /// Where it started.
+    pub fn start(&self) -> StartPose {
+        self.start
+    }
+
+    /// Where it should go.
+    pub fn goal_m(&self) -> DVec2 {
+        self.goal_m
+    }
+
+    /// Planning periods run.
+    pub fn ticks(&self) -> u64 {
+        self.tick
+    }
+
+    /// Simulated time.
+    pub fn time_s(&self) -> f64 {
+        self.tick as f64 * self.planner.config().period_s
+    }
+
+    /// The paper's metrics so far.
+    pub fn metrics(&self) -> Metrics {
+        self.metrics.metrics()
+    }
+
+    /// Digest of the trajectory so far, 32 hexadecimal digits.
+    pub fn digest(&self) -> String {
+        self.digest.hex(self.outcome)
+    }
+}
+
+fn place(field: &HeightField, robot: HuskyConfig, start: StartPose) -> Result<Husky, TrialError> {
+    Husky::new(robot, field, start.position_m, start.heading_rad).map_err(|_| TrialError::OffTerrain {
+        what: "start",
+        place_m: start.position_m,
+        extent_m: field.extent_m(),
+    })
+}
+
+fn on_terrain(field: &HeightField, what: &'static str, place_m: DVec2) -> Result<(), TrialError> {
+    if field.contains(place_m) {
+        Ok(())
+    } else {
+        Err(TrialError::OffTerrain { what, place_m, extent_m: field.extent_m() })
+    }
+}
+
+fn sample_of(husky: &Husky) -> Sample {
+    let state = husky.state();
+    let position_m: DVec3 = husky.position();
+    Sample {
+        position_m,
+        roll_rad: state.attitude.roll_rad,
+        pitch_rad: state.attitude.pitch_rad,
+        speed_m_s: state.speed_m_s,
+        turn_rate_rad_s: state.turn_rate_rad_s,
+    }
+}
