@@ -36,7 +36,9 @@ fn bindings(sh: &Shell) -> anyhow::Result<()> {
     let wasm_bindgen = setup::wasm_bindgen(sh)?.join("wasm-bindgen");
     cmd!(sh, "cargo build --release --package mapless-wasm --target wasm32-unknown-unknown").run()?;
     let built = setup::target_dir(sh).join("wasm32-unknown-unknown/release/mapless_wasm.wasm");
-    cmd!(sh, "{wasm_bindgen} --target web --out-dir web/src/wasm {built}").run()?;
+    // Without its names the file is 7 % smaller (brotli); wasm-opt would take another 1.5 %, and no time off a step.
+    let strip = ["--remove-name-section", "--remove-producers-section"];
+    cmd!(sh, "{wasm_bindgen} --target web {strip...} --out-dir web/src/wasm {built}").run()?;
     report_size(sh, "web/src/wasm/mapless_wasm_bg.wasm")
 }
 
