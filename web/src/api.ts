@@ -1,0 +1,65 @@
+/**
+ * `window.mapless`: the page's own controls as functions, for tests, teachers and the browser's console. Each promise
+ * resolves once the simulation has carried the call out, and is rejected with a message when it could not.
+ */
+
+import type { App } from './app.ts';
+import type { Brush, Frame, Heading, Place, Preset, SessionInfo } from './core/protocol.ts';
+
+/** What the page shows, as plain data. */
+export type MaplessState = Omit<Frame, 'buffers' | 'path' | 'segments' | 'subgoals'> &
+  Pick<SessionInfo, 'scenario' | 'preset' | 'seed' | 'start' | 'goal'> & {
+    readonly playing: boolean;
+    readonly speed: number;
+    readonly ground: { readonly columns: number; readonly rows: number; readonly cell_m: number };
+    /** How many segments and subgoals the last tick found. */
+    readonly segments: number;
+    readonly subgoals: number;
+  };
+
+export interface MaplessApi {
+  /** Nothing until the first scenario is loaded. */
+  state(): MaplessState | undefined;
+  /** Loads a scenario by its name, such as `cht-ad`; the seed is the scenario's own unless given. */
+  loadScenario(scenario: string, options?: { preset?: Preset; seed?: number }): Promise<void>;
+  play(): Promise<void>;
+  pause(): Promise<void>;
+  /** One planning tick, 0.1 s; pauses first. */
+  step(): Promise<void>;
+  restart(): Promise<void>;
+  /** Simulated seconds per second; `Infinity` is as fast as it goes. */
+  setSpeed(speed: number): Promise<void>;
+  setGoal(goal: Place): Promise<void>;
+  setStart(start: Heading): Promise<void>;
+  sculpt(brush: Brush): Promise<void>;
+  /** Height of the ground in metres, nothing outside it. */
+  heightAt(place: Place): number | undefined;
+}
+
+declare global {
+  interface Window {
+    mapless?: MaplessApi;
+  }
+}
+
+export function publish(app: App): void {
+  const used =
+    <Arguments extends unknown[]>(act: (...args: Arguments) => Promise<void>) =>
+    (...args: Arguments) => {
+      app.touch();
+      return act(...args);
+    };
+  window.mapless = {
+    state: () => app.state(),
+    loadScenario: used((scenario, options = {}) => app.load(scenario, options.preset, options.seed)),
+    play: used(() => app.play()),
+    pause: used(() => app.pause()),
+    step: used(() => app.step()),
+    restart: used(() => app.restart()),
+    setSpeed: used((speed: number) => app.setSpeed(speed)),
+    setGoal: used((goal: Place) => app.setGoal(goal)),
+    setStart: used((start: Heading) => app.setStart(start)),
+    sculpt: used((brush: Brush) => app.sculpt(brush)),
+    heightAt: (place) => app.heightAt(place),
+  };
+}

@@ -1,0 +1,249 @@
+/** The page's state and its actions: what buttons, keys, tools and `window.mapless` call. */
+
+import type { MaplessState } from './api.ts';
+import { entry, following } from './core/catalogue.ts';
+import { CoreClient } from './core/client.ts';
+import type { Brush, Frame, Ground, GroundPatch, Heading, Place, Preset, SessionInfo } from './core/protocol.ts';
+import { HeightField } from './scene/heightfield.ts';
+import type { Tool } from './scene/tools.ts';
+import { SPEEDS } from './ui/controls.ts';
+
+/** How long the result of a trial stands before the page goes on by itself. */
+const LINGER_S = 8;
+
+export interface Views {
+  /** A scenario, goal or start changed; with `field`, the ground is another one. */
+  session(info: SessionInfo, field: HeightField | undefined): void;
+  frame(frame: Frame): void;
+  status(frame: Frame, playing: boolean): void;
+  /** The ground was sculpted. */
+  sculpted(): void;
+  playing(playing: boolean): void;
+  speed(speed: number): void;
+  tool(tool: Tool): void;
+  /** Seconds until the next scenario starts by itself, or nothing. */
+  countdown(seconds: number | undefined): void;
+  notice(message: string): void;
+  clearNotice(): void;
+}
+
+export class App {
+  readonly #views: Views;
+  readonly #core: CoreClient;
+  #info: SessionInfo | undefined;
+  #frame: Frame | undefined;
+  #field: HeightField | undefined;
+  #playing = false;
+  #speed = 1;
+  /** Whether somebody has used the page: then it does nothing by itself any more. */
+  #touched = false;
+  #lingering: ReturnType<typeof setInterval> | undefined;
+  #sculpting = 0;
+  #waitingDab: Brush | undefined;
+
+  constructor(views: Views) {
+    this.#views = views;
+    this.#core = new CoreClient({
+      session: (info, ground) => this.#onSession(info, ground),
+      frame: (frame) => this.#onFrame(frame),
+      ground: (patch) => this.#onPatch(patch),
+      failure: (message, panicked) => this.#onFailure(message, panicked),
+    });
+  }
+
+  /** Marks the page as used. */
+  touch(): void {
+    this.#touched = true;
+    this.#stopLingering();
+  }
+
+  get scenario(): string {
+    return this.#info?.scenario ?? following('').id;
+  }
+
+  get preset(): Preset {
+    return this.#info?.preset ?? 'default';
+  }
+
+  state(): MaplessState | undefined {
+    const [info, frame, field] = [this.#info, this.#frame, this.#field];
+    if (!info || !frame || !field) return undefined;
+    const { buffers: _buffers, path: _path, segments, subgoals, ...rest } = frame;
+    return {
+      ...rest,
+      scenario: info.scenario,
+      preset: info.preset,
+      seed: info.seed,
+      start: info.start,
+      goal: info.goal,
+      playing: this.#playing,
+      speed: this.#speed,
+      ground: { columns: field.columns, rows: field.rows, cell_m: field.cell_m },
+      segments: segments.length,
+      subgoals: subgoals.length,
+    };
+  }
+
+  async load(scenario: string, preset: Preset = this.preset, seed?: number): Promise<void> {
+    this.#stopLingering();
+    await this.#core.request({ type: 'load', scenario, preset, seed });
+    this.#views.clearNotice();
+  }
+
+  async play(): Promise<void> {
+    if (this.#frame && this.#frame.outcome !== 'running') await this.restart();
+    await this.#setPlaying(true);
+  }
+
+  pause(): Promise<void> {
+    return this.#setPlaying(false);
+  }
+
+  togglePlay(): Promise<void> {
+    return this.#playing && this.#frame?.outcome === 'running' ? this.pause() : this.play();
+  }
+
+  async step(): Promise<void> {
+    if (this.#frame && this.#frame.outcome !== 'running') return;
+    this.#show(false);
+    await this.#core.request({ type: 'step' });
+  }
+
+  async restart(): Promise<void> {
+    this.#stopLingering();
+    await this.#core.request({ type: 'restart' });
+  }
+
+  async next(): Promise<void> {
+    await this.load(following(this.scenario).id);
+    await this.#setPlaying(true);
+  }
+
+  async setSpeed(speed: number): Promise<void> {
+    this.#speed = speed;
+    this.#views.speed(speed);
+    await this.#core.request({ type: 'speed', speed });
+  }
+
+  faster(steps: number): Promise<void> {
+    const index = SPEEDS.indexOf(this.#speed) + steps;
+    return this.setSpeed(SPEEDS[Math.min(Math.max(index, 0), SPEEDS.length - 1)] ?? 1);
+  }
+
+  async setGoal(goal: Place): Promise<void> {
+    this.#stopLingering();
+    await this.#core.request({ type: 'goal', goal });
+  }
+
+  async setStart(start: Heading): Promise<void> {
+    this.#stopLingering();
+    await this.#core.request({ type: 'start', start });
+  }
+
+  sculpt(brush: Brush): Promise<void> {
+    return this.#core.request({ type: 'sculpt', brush });
+  }
+
+  /** For strokes: where the core is slower than the pointer, dabs in between are left out. */
+  async dab(brush: Brush): Promise<void> {
+    this.#waitingDab = brush;
+    if (this.#sculpting > 0) return;
+    this.#sculpting += 1;
+    try {
+      while (this.#waitingDab) {
+        const now = this.#waitingDab;
+        this.#waitingDab = undefined;
+        await this.sculpt(now);
+      }
+    } finally {
+      this.#sculpting -= 1;
+    }
+  }
+
+  /** Height of the ground, nothing outside it. */
+  heightAt({ x, y }: Place): number | undefined {
+    return this.#field?.contains(x, y) ? this.#field.height(x, y) : undefined;
+  }
+
+  hidden(hidden: boolean): Promise<void> {
+    return this.#core.request({ type: 'hidden', hidden });
+  }
+
+  async #setPlaying(playing: boolean): Promise<void> {
+    this.#show(playing);
+    await this.#core.request({ type: 'play', playing });
+  }
+
+  #show(playing: boolean): void {
+    this.#playing = playing;
+    this.#views.playing(playing);
+    if (this.#frame) this.#views.status(this.#frame, playing);
+  }
+
+  #onSession(info: SessionInfo, ground: Ground | undefined): void {
+    this.#info = info;
+    const field = ground ? new HeightField(ground) : undefined;
+    this.#field = field ?? this.#field;
+    this.#views.session(info, field);
+  }
+
+  #onPatch(patch: GroundPatch): void {
+    this.#field?.patch(patch);
+    this.#views.sculpted();
+  }
+
+  #onFrame(frame: Frame): void {
+    const ended = this.#frame?.outcome === 'running' && frame.outcome !== 'running';
+    this.#frame = frame;
+    this.#views.frame(frame);
+    this.#views.status(frame, this.#playing);
+    this.#core.recycle(frame.buffers);
+    if (ended) this.#linger();
+  }
+
+  /** Leaves time to look at the result; then, if nobody has touched anything, shows the next scenario. */
+  #linger(): void {
+    this.#stopLingering();
+    if (this.#touched) return;
+    let seconds = LINGER_S;
+    this.#views.countdown(seconds);
+    this.#lingering = setInterval(() => {
+      seconds -= 1;
+      this.#views.countdown(Math.max(seconds, 0));
+      if (seconds <= 0) this.attempt(this.next());
+    }, 1000);
+  }
+
+  #stopLingering(): void {
+    clearInterval(this.#lingering);
+    this.#lingering = undefined;
+    this.#views.countdown(undefined);
+  }
+
+  /** Shows what went wrong instead of leaving a promise unhandled. */
+  attempt(action: Promise<void>): void {
+    action.catch((error: unknown) => this.#views.notice(error instanceof Error ? error.message : String(error)));
+  }
+
+  #onFailure(message: string, panicked: boolean): void {
+    this.#show(false);
+    this.#stopLingering();
+    if (!panicked) {
+      this.#views.notice(message);
+      return;
+    }
+    const { title } = entry(this.scenario);
+    this.#views.notice(
+      `The simulation stopped on an internal error and was started anew with “${title}”. (${message})`,
+    );
+    const again = this.#core.request({
+      type: 'load',
+      scenario: this.scenario,
+      preset: this.preset,
+      seed: this.#info?.seed,
+    });
+    again
+      .then(() => this.setSpeed(this.#speed))
+      .catch(() => this.#views.notice(`The simulation cannot be started: ${message}`));
+  }
+}

@@ -1,0 +1,107 @@
+/** The page's end of the worker: requests with answers, events, and a new worker after a panic. */
+
+import type {
+  Command,
+  Frame,
+  FrameBuffers,
+  FromWorker,
+  Ground,
+  GroundPatch,
+  SessionInfo,
+  ToWorker,
+} from './protocol.ts';
+
+export interface CoreEvents {
+  session(info: SessionInfo, ground: Ground | undefined): void;
+  frame(frame: Frame): void;
+  ground(patch: GroundPatch): void;
+  /** An error that no request is waiting for, or any panic. After a panic the simulation is gone. */
+  failure(message: string, panicked: boolean): void;
+}
+
+interface Waiting {
+  resolve(): void;
+  reject(error: Error): void;
+}
+
+export class CoreClient {
+  readonly #events: CoreEvents;
+  readonly #waiting = new Map<number, Waiting>();
+  #worker: Worker;
+  #nextId = 0;
+
+  constructor(events: CoreEvents) {
+    this.#events = events;
+    this.#worker = this.#start();
+  }
+
+  /** Resolves once the worker has carried the command out. */
+  request(command: Command): Promise<void> {
+    const id = this.#nextId++;
+    return new Promise((resolve, reject) => {
+      this.#waiting.set(id, { resolve, reject });
+      this.#send({ type: 'request', id, command });
+    });
+  }
+
+  /** Gives a frame's buffers back; also tells the worker that the page is ready for another frame. */
+  recycle(buffers: FrameBuffers): void {
+    const { points, variance, profile, kinds } = buffers;
+    // A frame from before a panic has nowhere to return to, and its buffers may already be gone.
+    this.#send({ type: 'recycle', buffers }, [points.buffer, variance.buffer, profile.buffer, kinds.buffer]);
+  }
+
+  #send(message: ToWorker, transfer: Transferable[] = []): void {
+    this.#worker.postMessage(message, transfer);
+  }
+
+  #start(): Worker {
+    const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'mapless core' });
+    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.#receive(data);
+    worker.onerror = (event) => {
+      event.preventDefault();
+      this.#fail(event.message || 'The simulation could not be loaded.', true);
+    };
+    return worker;
+  }
+
+  #receive(message: FromWorker): void {
+    switch (message.type) {
+      case 'session':
+        this.#events.session(message.info, message.ground);
+        break;
+      case 'frame':
+        this.#events.frame(message.frame);
+        break;
+      case 'ground':
+        this.#events.ground(message.patch);
+        break;
+      case 'done':
+        this.#settle(message.id)?.resolve();
+        break;
+      case 'failed': {
+        const waiting = message.id === undefined ? undefined : this.#settle(message.id);
+        waiting?.reject(new Error(message.message));
+        if (message.panicked || !waiting) this.#fail(message.message, message.panicked);
+        break;
+      }
+    }
+  }
+
+  #settle(id: number): Waiting | undefined {
+    const waiting = this.#waiting.get(id);
+    this.#waiting.delete(id);
+    return waiting;
+  }
+
+  #fail(message: string, panicked: boolean): void {
+    if (panicked) {
+      // A panic leaves the core's memory in an unknown state: only a new worker is trustworthy.
+      this.#worker.terminate();
+      this.#worker = this.#start();
+      for (const waiting of this.#waiting.values()) waiting.reject(new Error(message));
+      this.#waiting.clear();
+    }
+    this.#events.failure(message, panicked);
+  }
+}

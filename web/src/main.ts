@@ -1,0 +1,149 @@
+/** Puts the page together. */
+
+import './style/tokens.css';
+import './style/layout.css';
+import './style/controls.css';
+import './style/panels.css';
+import { publish } from './api.ts';
+import { App } from './app.ts';
+import { CATALOGUE, entry, following } from './core/catalogue.ts';
+import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
+import { DecisionPanel } from './panel/decision.ts';
+import { MetricsPanel } from './panel/metrics.ts';
+import { OUTCOME_WORDS, StatusPanel } from './panel/status.ts';
+import { VarianceImage } from './panel/varianceImage.ts';
+import { Stage } from './scene/stage.ts';
+import { GroundTools } from './scene/tools.ts';
+import { Controls } from './ui/controls.ts';
+import { byId, setText } from './ui/dom.ts';
+import { bindKeys } from './ui/keys.ts';
+import { Notice } from './ui/notice.ts';
+import { readTheme, watchTheme } from './ui/theme.ts';
+
+const element = (id: string) => byId(id, HTMLElement);
+const view = byId('view', HTMLCanvasElement);
+const notice = new Notice();
+const variance = new VarianceImage(byId('variance', HTMLCanvasElement), readTheme());
+const roll = new AttitudeInstrument(ROLL);
+const pitch = new AttitudeInstrument(PITCH);
+element('attitude').append(roll.element, pitch.element);
+const metrics = new MetricsPanel(element('metrics'));
+const decision = new DecisionPanel(element('candidates'), element('terms'), element('candidate-count'));
+const status = new StatusPanel({
+  outcome: element('outcome'),
+  time: element('time'),
+  speed: element('speed-now'),
+  reason: element('reason'),
+  planner: element('planner-ms'),
+  returns: element('returns'),
+  digest: element('digest'),
+  announcement: element('announcement'),
+});
+const result = element('result');
+const help = byId('help-sheet', HTMLDialogElement);
+
+/** Without WebGL the numbers, the image and the controls still work. */
+let stage: Stage | undefined;
+try {
+  stage = new Stage(view, readTheme());
+} catch {
+  notice.show('This browser offers no WebGL 2, so the 3D view stays empty. Everything else works.');
+}
+
+const app = new App({
+  session(info, field) {
+    stage?.session(info, field);
+    variance.session(info);
+    roll.limit(info.limits.roll_rad);
+    pitch.limit(info.limits.pitch_rad);
+    decision.session(info);
+    controls.showSession(info.scenario, info.preset, info.seed);
+    controls.showFollowing(stage?.following ?? false);
+    const { group, title, lesson } = entry(info.scenario);
+    setText(element('scene-title'), `${group}: ${title}`);
+    setText(element('scene-lesson'), lesson);
+    setText(element('next-title'), following(info.scenario).title);
+  },
+  frame(frame) {
+    stage?.frame(frame);
+    variance.show(frame);
+    decision.show(frame);
+    metrics.show(frame.metrics);
+    roll.show(frame.pose.roll, frame.metrics.max_abs_roll_rad);
+    pitch.show(frame.pose.pitch, frame.metrics.max_abs_pitch_rad);
+  },
+  status(frame, playing) {
+    status.show(frame, playing);
+    result.hidden = frame.outcome === 'running';
+    result.dataset.outcome = frame.outcome;
+    setText(element('result-words'), OUTCOME_WORDS[frame.outcome]);
+  },
+  sculpted: () => stage?.sculpted(),
+  playing: (playing) => controls.showPlaying(playing),
+  speed(speed) {
+    controls.showSpeed(speed);
+    stage?.speed(speed);
+  },
+  tool: (tool) => controls.showTool(tool),
+  countdown(seconds) {
+    setText(element('countdown'), seconds === undefined ? '' : `in ${seconds} s`);
+  },
+  notice: (message) => notice.show(message),
+  clearNotice: () => notice.hide(),
+});
+
+const tools = stage
+  ? new GroundTools(view, stage, {
+      setGoal: (goal) => app.attempt(app.setGoal(goal)),
+      setStart: (start) => app.attempt(app.setStart(start)),
+      sculpt: (brush) => app.attempt(app.dab(brush)),
+    })
+  : undefined;
+
+const actions = {
+  togglePlay: () => app.attempt(app.togglePlay()),
+  step: () => app.attempt(app.step()),
+  restart: () => app.attempt(app.restart().then(() => app.play())),
+  next: () => app.attempt(app.next()),
+  setSpeed: (speed: number) => app.attempt(app.setSpeed(speed)),
+  faster: (steps: number) => app.attempt(app.faster(steps)),
+  load: (...args: Parameters<App['load']>) => app.attempt(app.load(...args).then(() => app.play())),
+  selectTool(tool: Parameters<GroundTools['select']>[0]) {
+    tools?.select(tool);
+    controls.showTool(tool);
+  },
+  setBrushRadius: (radius_m: number) => tools?.radius(radius_m),
+  growBrush: (steps: number) => controls.growBrush(steps),
+  toggleFollow() {
+    stage?.follow(!stage.following);
+    controls.showFollowing(stage?.following ?? false);
+  },
+  overview() {
+    stage?.overview();
+    controls.showFollowing(false);
+  },
+  help: () => help.showModal(),
+};
+const controls = new Controls(actions);
+bindKeys(actions);
+controls.showTool('look');
+controls.showSpeed(1);
+
+watchTheme((theme) => {
+  stage?.theme(theme);
+  variance.theme(theme);
+});
+for (const event of ['pointerdown', 'keydown', 'wheel']) {
+  document.addEventListener(event, () => app.touch(), { passive: true, capture: true });
+}
+document.addEventListener('visibilitychange', () => app.attempt(app.hidden(document.hidden)));
+view.addEventListener('webglcontextlost', (event) => {
+  event.preventDefault();
+  notice.show('The graphics driver took the 3D view away. It comes back by itself; the simulation goes on.');
+});
+view.addEventListener('webglcontextrestored', () => notice.hide());
+
+publish(app);
+
+const first = CATALOGUE[0];
+if (first) app.attempt(app.load(first.id).then(() => app.play()));

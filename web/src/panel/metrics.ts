@@ -1,0 +1,82 @@
+/** The six metrics of the paper, as they stand. */
+
+import type { Metrics } from '../core/protocol.ts';
+import { html, setText } from '../ui/dom.ts';
+import { fixed } from '../ui/format.ts';
+
+interface Row {
+  readonly key: keyof Metrics;
+  readonly name: string;
+  readonly symbol: string;
+  readonly unit: string;
+  readonly decimals: number;
+  readonly meaning: string;
+}
+
+const ROWS: readonly Row[] = [
+  { key: 'distance_m', name: 'Distance', symbol: 'D', unit: 'm', decimals: 1, meaning: 'Way driven from the start.' },
+  {
+    key: 'mean_elevation_rate_cm_s',
+    name: 'Elevation rate',
+    symbol: 'ż',
+    unit: 'cm/s',
+    decimals: 1,
+    meaning: 'Mean rate of climbing or descending.',
+  },
+  {
+    key: 'max_abs_roll_rad',
+    name: 'Largest roll',
+    symbol: '|φ|',
+    unit: 'rad',
+    decimals: 3,
+    meaning: 'Largest roll angle so far, either side.',
+  },
+  {
+    key: 'max_abs_pitch_rad',
+    name: 'Largest pitch',
+    symbol: '|ψ|',
+    unit: 'rad',
+    decimals: 3,
+    meaning: 'Largest pitch angle so far, up or down.',
+  },
+  {
+    key: 'mean_vibration_rad_s',
+    name: 'Vibration',
+    symbol: 'v_b',
+    unit: 'rad/s',
+    decimals: 3,
+    meaning: 'Mean of the rates of roll and pitch together.',
+  },
+  {
+    key: 'curvature_change_rad_m',
+    name: 'Curvature change',
+    symbol: 'C',
+    unit: 'rad/m',
+    decimals: 3,
+    meaning: 'Mean change of the path’s curvature: how much it weaves.',
+  },
+];
+
+export class MetricsPanel {
+  readonly #values = new Map<keyof Metrics, HTMLElement>();
+
+  constructor(list: HTMLElement) {
+    for (const row of ROWS) {
+      const value = html('span', 'metric-value', ['–']);
+      this.#values.set(row.key, value);
+      const item = html('div', 'metric', [
+        html('dt', 'metric-name', [row.name]),
+        html('dd', 'metric-reading', [value, html('span', 'metric-unit', [` ${row.unit}`])]),
+      ]);
+      item.title = `${row.symbol}: ${row.meaning}`;
+      list.append(item);
+    }
+  }
+
+  show(metrics: Metrics): void {
+    for (const row of ROWS) {
+      const element = this.#values.get(row.key);
+      if (element) setText(element, fixed(metrics[row.key], row.decimals));
+    }
+  }
+}

@@ -1,0 +1,57 @@
+/** How the trial stands: outcome, clock, decision in words, and what the machine did. */
+
+import type { Frame, Outcome } from '../core/protocol.ts';
+import { setText } from '../ui/dom.ts';
+import { clock, fixed } from '../ui/format.ts';
+
+export const OUTCOME_WORDS: Record<Outcome, string> = {
+  running: 'Driving',
+  reached: 'Goal reached',
+  tilt_limit: 'Tipped too far',
+  stuck: 'Stuck',
+  no_subgoal: 'No safe way seen',
+  left_terrain: 'Left the terrain',
+  timeout: 'Out of time',
+};
+
+export interface StatusElements {
+  readonly outcome: HTMLElement;
+  readonly time: HTMLElement;
+  readonly speed: HTMLElement;
+  readonly reason: HTMLElement;
+  readonly planner: HTMLElement;
+  readonly returns: HTMLElement;
+  readonly digest: HTMLElement;
+  /** Announced to screen readers, only when a trial ends. */
+  readonly announcement: HTMLElement;
+}
+
+export class StatusPanel {
+  readonly #elements: StatusElements;
+  #outcome: Outcome | undefined;
+  #planner_ms = 0;
+
+  constructor(elements: StatusElements) {
+    this.#elements = elements;
+  }
+
+  show(frame: Frame, playing: boolean): void {
+    const { outcome, time, speed, reason, planner, returns, digest, announcement } = this.#elements;
+    const words = frame.outcome === 'running' && !playing ? 'Paused' : OUTCOME_WORDS[frame.outcome];
+    setText(outcome, words);
+    outcome.dataset.outcome = frame.outcome === 'running' && !playing ? 'paused' : frame.outcome;
+    setText(time, clock(frame.time_s));
+    setText(speed, `${fixed(frame.v_m_s, 2)} m/s`);
+    setText(reason, frame.reason);
+    // Smoothed: single ticks jump too quickly to read.
+    this.#planner_ms =
+      frame.tick <= 1 ? frame.planner_ms : this.#planner_ms + 0.1 * (frame.planner_ms - this.#planner_ms);
+    setText(planner, `${fixed(this.#planner_ms, 1)} ms`);
+    setText(returns, frame.returns.toLocaleString('en'));
+    setText(digest, frame.digest);
+    if (this.#outcome !== frame.outcome) {
+      this.#outcome = frame.outcome;
+      setText(announcement, frame.outcome === 'running' ? '' : `${words}. ${frame.reason}`);
+    }
+  }
+}

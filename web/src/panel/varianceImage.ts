@@ -1,0 +1,326 @@
+/**
+ * The unfolded variance image, the paper's way to see what the robot sees: azimuth across with the robot's left on the
+ * left, elevation up, dark where ground was observed and light where space is free, with the skyline, its segments and
+ * the subgoals upon them.
+ */
+
+import type { Frame, SessionInfo, Subgoal } from '../core/protocol.ts';
+import { kindOf } from '../core/session.ts';
+import { wrap } from '../ui/format.ts';
+import { costColour, css, type Rgb, ramp } from '../ui/scale.ts';
+import type { Theme } from '../ui/theme.ts';
+
+/** The occupancy surface's limits. */
+const HALF_TURN = Math.PI;
+const TOP_RAD = (15 * Math.PI) / 180;
+const MARGIN = { left: 34, right: 10, top: 16, bottom: 20 };
+
+interface Plot {
+  readonly left: number;
+  readonly top: number;
+  readonly width: number;
+  readonly height: number;
+  x(azimuth_rad: number): number;
+  y(elevation_rad: number): number;
+}
+
+export class VarianceImage {
+  readonly #canvas: HTMLCanvasElement;
+  readonly #context: CanvasRenderingContext2D;
+  readonly #pixels = document.createElement('canvas');
+  #image: ImageData | undefined;
+  #theme: Theme;
+  #info: SessionInfo | undefined;
+  #frame: Frame | undefined;
+  #variance = new Float32Array();
+  #profile = new Float32Array();
+  #kinds = new Uint8Array();
+  #hatch: CanvasPattern | null = null;
+
+  constructor(canvas: HTMLCanvasElement, theme: Theme) {
+    const context = canvas.getContext('2d');
+    if (!context) throw new Error('This browser cannot draw on a canvas.');
+    this.#canvas = canvas;
+    this.#context = context;
+    this.#theme = theme;
+    this.theme(theme);
+    new ResizeObserver(() => this.#draw()).observe(canvas);
+  }
+
+  theme(theme: Theme): void {
+    this.#theme = theme;
+    this.#hatch = this.#context.createPattern(hatching(theme.muted), 'repeat');
+    this.#paintPixels();
+    this.#draw();
+  }
+
+  session(info: SessionInfo): void {
+    this.#info = info;
+    const { columns, rows } = info.image;
+    this.#pixels.width = columns;
+    this.#pixels.height = rows;
+    this.#image = new ImageData(columns, rows);
+  }
+
+  /** Takes what it needs from the frame's buffers at once: they go back to the worker. */
+  show(frame: Frame): void {
+    this.#frame = frame;
+    this.#variance = Float32Array.from(frame.buffers.variance);
+    this.#profile = Float32Array.from(frame.buffers.profile);
+    this.#kinds = Uint8Array.from(frame.buffers.kinds);
+    this.#paintPixels();
+    this.#draw();
+  }
+
+  #paintPixels(): void {
+    const image = this.#image;
+    if (!image || !this.#frame) return;
+    const { prior_variance } = this.#frame;
+    const { width: columns, height: rows } = image;
+    for (let column = 0; column < columns; column += 1) {
+      for (let row = 0; row < rows; row += 1) {
+        const value = (this.#variance[column * rows + row] ?? 0) / prior_variance;
+        const [red, green, blue] = ramp(this.#theme.variance, value);
+        // Column 0 looks backwards on the right; row 0 is the lowest beam.
+        const at = 4 * ((rows - 1 - row) * columns + (columns - 1 - column));
+        image.data.set([red, green, blue, 255], at);
+      }
+    }
+    this.#pixels.getContext('2d')?.putImageData(image, 0, 0);
+  }
+
+  #draw(): void {
+    const ratio = window.devicePixelRatio;
+    const { clientWidth: width, clientHeight: height } = this.#canvas;
+    if (width === 0 || height === 0) return;
+    if (this.#canvas.width !== Math.round(width * ratio)) this.#canvas.width = Math.round(width * ratio);
+    if (this.#canvas.height !== Math.round(height * ratio)) this.#canvas.height = Math.round(height * ratio);
+    const context = this.#context;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, width, height);
+    const frame = this.#frame;
+    if (!frame || !this.#info) return;
+    const plot = layout(width, height);
+    context.save();
+    context.beginPath();
+    context.rect(plot.left, plot.top, plot.width, plot.height);
+    context.clip();
+    context.imageSmoothingEnabled = true;
+    context.imageSmoothingQuality = 'high';
+    context.drawImage(this.#pixels, plot.left, plot.top, plot.width, plot.height);
+    this.#drawColumns(plot);
+    this.#drawProfile(plot);
+    this.#drawSegments(plot, frame);
+    context.restore();
+    this.#drawAxes(plot);
+    this.#drawGoal(plot, frame);
+    this.#drawSubgoals(plot, frame.subgoals);
+  }
+
+  /** Unknown columns are hatched; walls carry a solid band along the top. */
+  #drawColumns(plot: Plot): void {
+    const context = this.#context;
+    this.#runs((kind, from, to) => {
+      const left = plot.x(to);
+      const width = plot.x(from) - left;
+      if (kind === 'unknown') {
+        context.fillStyle = css(this.#theme.surface);
+        context.globalAlpha = 0.55;
+        context.fillRect(left, plot.top, width, plot.height);
+        context.globalAlpha = 1;
+        context.fillStyle = this.#hatch ?? css(this.#theme.muted);
+        context.fillRect(left, plot.top, width, plot.height);
+      } else if (kind === 'wall') {
+        context.fillStyle = css(this.#theme.danger);
+        context.globalAlpha = 0.28;
+        context.fillRect(left, plot.top, width, plot.height);
+        context.globalAlpha = 1;
+        context.fillRect(left, plot.top, width, 5);
+      }
+    });
+  }
+
+  /** Calls back with each run of columns of one kind and the azimuths between which it lies. */
+  #runs(visit: (kind: ReturnType<typeof kindOf>, from_rad: number, to_rad: number) => void): void {
+    const kinds = this.#kinds;
+    const step = (2 * HALF_TURN) / kinds.length;
+    for (let begin = 0; begin < kinds.length; ) {
+      let end = begin + 1;
+      while (end < kinds.length && kinds[end] === kinds[begin]) end += 1;
+      visit(kindOf(kinds[begin]), -HALF_TURN + begin * step, -HALF_TURN + end * step);
+      begin = end;
+    }
+  }
+
+  #drawProfile(plot: Plot): void {
+    const context = this.#context;
+    const step = (2 * HALF_TURN) / this.#profile.length;
+    const line = new Path2D();
+    let drawing = false;
+    this.#profile.forEach((elevation_rad, column) => {
+      const ground = kindOf(this.#kinds[column]) === 'ground';
+      const [x, y] = [plot.x(-HALF_TURN + (column + 0.5) * step), plot.y(elevation_rad)];
+      if (ground && drawing) line.lineTo(x, y);
+      else if (ground) line.moveTo(x, y);
+      drawing = ground;
+    });
+    context.lineJoin = 'round';
+    context.strokeStyle = this.#theme.dark ? 'rgb(0 0 0 / 0.5)' : 'rgb(255 255 255 / 0.6)';
+    context.lineWidth = 3.5;
+    context.stroke(line);
+    context.strokeStyle = css(this.#theme.goal);
+    context.lineWidth = 1.5;
+    context.stroke(line);
+  }
+
+  #drawSegments(plot: Plot, frame: Frame): void {
+    const context = this.#context;
+    for (const segment of frame.segments) {
+      const valid = segment.verdict === 'valid';
+      context.strokeStyle = valid ? css(this.#theme.ink) : css(this.#theme.danger);
+      context.lineWidth = valid ? 2.5 : 2;
+      context.setLineDash(valid ? [] : segment.verdict === 'too_narrow' ? [2, 2] : [7, 3]);
+      // A segment across the azimuth behind the robot shows at both ends.
+      for (const turn of [0, -2 * HALF_TURN]) {
+        const [left, right] = [plot.x(segment.end_rad + turn), plot.x(segment.begin_rad + turn)];
+        if (right < plot.left || left > plot.left + plot.width) continue;
+        const y = plot.y(segment.elevation_rad);
+        context.beginPath();
+        context.moveTo(left + 1, y);
+        context.lineTo(right - 1, y);
+        context.stroke();
+      }
+    }
+    context.setLineDash([]);
+  }
+
+  #drawSubgoals(plot: Plot, subgoals: readonly Subgoal[]): void {
+    const context = this.#context;
+    const totals = subgoals.filter((one) => !one.refused).map((one) => one.total);
+    const [lowest, highest] = [Math.min(...totals), Math.max(...totals)];
+    const ordered = [...subgoals].sort((a, b) => Number(a.chosen) - Number(b.chosen));
+    for (const one of ordered) {
+      const [x, y] = [plot.x(wrap(one.azimuth_rad)), plot.y(one.elevation_rad)];
+      const radius = one.chosen ? 7 : one.refused ? 3.2 : 5;
+      context.beginPath();
+      context.arc(x, y, radius, 0, 2 * Math.PI);
+      context.fillStyle = one.refused ? css(this.#theme.muted) : css(costColour(one.total, lowest, highest));
+      context.fill();
+      context.lineWidth = 1.5;
+      context.strokeStyle = '#0d1014';
+      context.stroke();
+      if (!one.chosen) continue;
+      context.beginPath();
+      context.arc(x, y, radius + 3.5, 0, 2 * Math.PI);
+      context.lineWidth = 2;
+      context.strokeStyle = css(this.#theme.ink);
+      context.stroke();
+    }
+  }
+
+  #drawGoal(plot: Plot, { pose }: Frame): void {
+    const goal = this.#info?.goal;
+    if (!goal) return;
+    const context = this.#context;
+    const x = plot.x(wrap(Math.atan2(goal.y - pose.y, goal.x - pose.x) - pose.yaw));
+    context.strokeStyle = css(this.#theme.goal);
+    context.lineWidth = 1.5;
+    context.setLineDash([1, 4]);
+    context.lineCap = 'round';
+    context.beginPath();
+    context.moveTo(x, plot.top);
+    context.lineTo(x, plot.top + plot.height);
+    context.stroke();
+    context.setLineDash([]);
+    context.lineCap = 'butt';
+    context.fillStyle = css(this.#theme.goal);
+    context.beginPath();
+    context.moveTo(x, plot.top + 2);
+    context.lineTo(x - 5, plot.top - 7);
+    context.lineTo(x + 5, plot.top - 7);
+    context.fill();
+    context.font = LABEL_FONT;
+    context.textBaseline = 'bottom';
+    const room = x < plot.left + plot.width - 40;
+    context.textAlign = room ? 'left' : 'right';
+    context.fillText('goal', room ? x + 8 : x - 8, plot.top - 2);
+  }
+
+  #drawAxes(plot: Plot): void {
+    const context = this.#context;
+    context.font = LABEL_FONT;
+    context.fillStyle = css(this.#theme.muted);
+    context.strokeStyle = css(this.#theme.muted);
+    context.lineWidth = 1;
+    context.textAlign = 'right';
+    context.textBaseline = 'middle';
+    for (const elevation_deg of [-15, 0, 15]) {
+      const y = plot.y((elevation_deg * Math.PI) / 180);
+      const label = elevation_deg > 0 ? `+${elevation_deg}°` : elevation_deg < 0 ? `\u2212${-elevation_deg}°` : '0°';
+      const inside = Math.min(Math.max(y, plot.top + 5), plot.top + plot.height - 5);
+      context.fillText(label, plot.left - 6, inside);
+    }
+    context.globalAlpha = 0.5;
+    context.setLineDash([2, 5]);
+    context.beginPath();
+    context.moveTo(plot.left, plot.y(0));
+    context.lineTo(plot.left + plot.width, plot.y(0));
+    context.stroke();
+    context.setLineDash([]);
+    context.globalAlpha = 1;
+    context.textBaseline = 'top';
+    const narrow = plot.width < 460;
+    for (const azimuth_deg of narrow ? [180, 90, 0, -90, -180] : [180, 135, 90, 45, 0, -45, -90, -135, -180]) {
+      const x = plot.x((azimuth_deg * Math.PI) / 180);
+      const bottom = plot.top + plot.height;
+      context.beginPath();
+      context.moveTo(x, bottom);
+      context.lineTo(x, bottom + 4);
+      context.stroke();
+      context.textAlign = azimuth_deg === 180 ? 'left' : azimuth_deg === -180 ? 'right' : 'center';
+      context.fillText(azimuthLabel(azimuth_deg), x, bottom + 6);
+    }
+  }
+}
+
+const LABEL_FONT = '11px system-ui, sans-serif';
+
+function azimuthLabel(azimuth_deg: number): string {
+  if (azimuth_deg === 0) return 'ahead';
+  if (azimuth_deg === 90) return 'left';
+  if (azimuth_deg === -90) return 'right';
+  if (Math.abs(azimuth_deg) === 180) return 'behind';
+  return `${Math.abs(azimuth_deg)}°`;
+}
+
+function layout(width: number, height: number): Plot {
+  const left = MARGIN.left;
+  const top = MARGIN.top;
+  const inner = { width: width - left - MARGIN.right, height: height - top - MARGIN.bottom };
+  return {
+    left,
+    top,
+    ...inner,
+    x: (azimuth_rad) => left + (inner.width * (HALF_TURN - azimuth_rad)) / (2 * HALF_TURN),
+    y: (elevation_rad) => top + (inner.height * (TOP_RAD - elevation_rad)) / (2 * TOP_RAD),
+  };
+}
+
+/** A small tile of diagonal lines. */
+function hatching(colour: Rgb): HTMLCanvasElement {
+  const tile = document.createElement('canvas');
+  tile.width = 8;
+  tile.height = 8;
+  const context = tile.getContext('2d');
+  if (!context) return tile;
+  context.strokeStyle = css(colour);
+  context.globalAlpha = 0.75;
+  context.lineWidth = 1.2;
+  for (const offset of [-8, 0, 8]) {
+    context.beginPath();
+    context.moveTo(offset, 8);
+    context.lineTo(offset + 8, 0);
+    context.stroke();
+  }
+  return tile;
+}

@@ -1,0 +1,134 @@
+/** A low-polygon Clearpath Husky A200 with a VLP-16 on a mast. Origin: ground contact under the centre; x forward, y left, z up. */
+
+import {
+  BoxGeometry,
+  type BufferGeometry,
+  CylinderGeometry,
+  ExtrudeGeometry,
+  Group,
+  Mesh,
+  MeshStandardMaterial,
+  Shape,
+  TorusGeometry,
+  Vector2,
+} from 'three';
+import type { Pose } from '../core/protocol.ts';
+
+const WHEEL_RADIUS_M = 0.165;
+const HALF_WHEELBASE_M = 0.256;
+const HALF_TRACK_M = 0.2855;
+const WHEEL_WIDTH_M = 0.115;
+
+const material = (colour: number, roughness: number, metalness = 0) =>
+  new MeshStandardMaterial({ color: colour, roughness, metalness, flatShading: true });
+const YELLOW = material(0xf0b90b, 0.55);
+const BLACK = material(0x17191c, 0.75);
+const DARK = material(0x2a2e33, 0.7);
+const STEEL = material(0x9aa3ad, 0.35, 0.6);
+const RUBBER = material(0x121315, 0.95);
+const LENS = material(0x0a1a22, 0.15, 0.4);
+
+export class Husky {
+  readonly group = new Group();
+  readonly #wheels: Group[] = [];
+
+  constructor(sensorHeight_m: number) {
+    this.group.rotation.order = 'ZYX';
+    this.#chassis();
+    this.#mast(sensorHeight_m);
+    for (const x of [HALF_WHEELBASE_M, -HALF_WHEELBASE_M]) {
+      for (const y of [HALF_TRACK_M, -HALF_TRACK_M]) this.#wheel(x, y);
+    }
+  }
+
+  pose({ x, y, z, roll, pitch, yaw }: Pose): void {
+    this.group.position.set(x, y, z);
+    // Positive pitch lifts the nose, which is a negative turn about the left-pointing y axis.
+    this.group.rotation.set(roll, -pitch, yaw);
+  }
+
+  /** Turns the wheels by the way driven and the turn made. */
+  roll(forward_m: number, turn_rad: number): void {
+    for (const wheel of this.#wheels) {
+      const arc_m = forward_m - turn_rad * wheel.position.y;
+      wheel.rotation.y += arc_m / WHEEL_RADIUS_M;
+    }
+  }
+
+  #add(geometry: BufferGeometry, look: MeshStandardMaterial, x: number, y: number, z: number): Mesh {
+    const mesh = new Mesh(geometry, look);
+    mesh.position.set(x, y, z);
+    this.group.add(mesh);
+    return mesh;
+  }
+
+  #chassis(): void {
+    // Side profile of the hull, cut back at nose and tail.
+    const outline = [
+      [-0.43, 0.17],
+      [-0.36, 0.13],
+      [0.36, 0.13],
+      [0.43, 0.17],
+      [0.43, 0.27],
+      [0.37, 0.33],
+      [-0.37, 0.33],
+      [-0.43, 0.27],
+    ] as const;
+    const hull = new Shape(outline.map(([x, y]) => new Vector2(x, y)));
+    const body = this.#add(new ExtrudeGeometry(hull, { depth: 0.42, bevelEnabled: false }), DARK, 0, 0.21, 0);
+    body.rotation.x = Math.PI / 2;
+    this.#add(new BoxGeometry(0.7, 0.44, 0.035), YELLOW, 0, 0, 0.345);
+    this.#add(new BoxGeometry(0.3, 0.3, 0.014), BLACK, -0.12, 0, 0.368);
+    for (const end of [1, -1]) {
+      this.#add(new BoxGeometry(0.05, 0.52, 0.1), BLACK, 0.462 * end, 0, 0.225);
+      this.#add(new BoxGeometry(0.02, 0.3, 0.035), YELLOW, 0.482 * end, 0, 0.255);
+    }
+    for (const side of [1, -1]) {
+      this.#add(new BoxGeometry(0.78, 0.075, 0.03), YELLOW, 0, 0.262 * side, 0.352);
+      this.#add(new BoxGeometry(0.86, 0.016, 0.026), BLACK, 0, 0.302 * side, 0.352);
+    }
+  }
+
+  #mast(sensorHeight_m: number): void {
+    const puck_m = 0.072;
+    const plate_m = sensorHeight_m - puck_m / 2 - 0.012;
+    const post_m = plate_m - 0.36;
+    for (const x of [0.11, -0.11]) {
+      for (const y of [0.13, -0.13]) {
+        this.#add(new BoxGeometry(0.028, 0.028, post_m), STEEL, x, y, 0.36 + post_m / 2);
+      }
+    }
+    this.#add(new BoxGeometry(0.29, 0.33, 0.022), BLACK, 0, 0, plate_m - 0.006);
+    const upright = (geometry: CylinderGeometry, look: MeshStandardMaterial, z: number) => {
+      this.#add(geometry, look, 0, 0, z).rotation.x = Math.PI / 2;
+    };
+    upright(new CylinderGeometry(0.052, 0.052, 0.018, 24), STEEL, sensorHeight_m - 0.028);
+    upright(new CylinderGeometry(0.0515, 0.0515, 0.038, 24), LENS, sensorHeight_m);
+    upright(new CylinderGeometry(0.048, 0.052, 0.018, 24), STEEL, sensorHeight_m + 0.028);
+  }
+
+  #wheel(x: number, y: number): void {
+    const wheel = new Group();
+    wheel.position.set(x, y, WHEEL_RADIUS_M);
+    const tyre = new TorusGeometry(0.112, 0.053, 8, 22);
+    tyre.scale(1, 1, 1.12);
+    const parts: [BufferGeometry, MeshStandardMaterial][] = [
+      [tyre, RUBBER],
+      [new CylinderGeometry(0.098, 0.098, WHEEL_WIDTH_M * 0.8, 10).rotateX(Math.PI / 2), YELLOW],
+      [new CylinderGeometry(0.045, 0.045, WHEEL_WIDTH_M, 6).rotateX(Math.PI / 2), BLACK],
+    ];
+    for (let lug = 0; lug < 11; lug += 1) {
+      const angle = (lug / 11) * 2 * Math.PI;
+      const tread = new BoxGeometry(0.022, 0.03, WHEEL_WIDTH_M);
+      tread.translate(WHEEL_RADIUS_M - 0.009, 0, 0).rotateZ(angle);
+      parts.push([tread, RUBBER]);
+    }
+    for (const [geometry, look] of parts) {
+      // Built around z; the axle lies along y.
+      geometry.rotateX(Math.PI / 2);
+      wheel.add(new Mesh(geometry, look));
+    }
+    this.#wheels.push(wheel);
+    this.group.add(wheel);
+  }
+}

@@ -1,0 +1,74 @@
+/** The goal's flag and the start's mark. */
+
+import {
+  BufferGeometry,
+  CylinderGeometry,
+  DoubleSide,
+  Float32BufferAttribute,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  RingGeometry,
+} from 'three';
+import type { Heading, Place } from '../core/protocol.ts';
+import type { Theme } from '../ui/theme.ts';
+import { colour } from './relief.ts';
+
+type Height = (x: number, y: number) => number;
+
+export class Places {
+  readonly group = new Group();
+  readonly #goalLook = new MeshBasicMaterial({ side: DoubleSide });
+  readonly #poleLook = new MeshBasicMaterial();
+  readonly #startLook = new MeshBasicMaterial({ side: DoubleSide });
+  readonly #goal = new Group();
+  readonly #start = new Group();
+  #at: { goal: Place; start: Heading } | undefined;
+
+  constructor() {
+    const pole = new Mesh(
+      new CylinderGeometry(0.05, 0.05, 3.4, 8).rotateX(Math.PI / 2).translate(0, 0, 1.7),
+      this.#poleLook,
+    );
+    const cloth = new BufferGeometry();
+    cloth.setAttribute('position', new Float32BufferAttribute([0, 0, 3.4, 0, 0, 2.3, 1.5, 0, 2.85], 3));
+    const ring = new Mesh(new RingGeometry(0.55, 0.68, 40).translate(0, 0, 0.12), this.#goalLook);
+    this.#goal.add(pole, new Mesh(cloth, this.#goalLook), ring);
+    const arrow = new BufferGeometry();
+    arrow.setAttribute(
+      'position',
+      new Float32BufferAttribute(
+        [0.85, 0, 0.14, -0.5, 0.5, 0.14, -0.22, 0, 0.14, 0.85, 0, 0.14, -0.22, 0, 0.14, -0.5, -0.5, 0.14],
+        3,
+      ),
+    );
+    this.#start.add(new Mesh(arrow, this.#startLook));
+    this.group.add(this.#goal, this.#start);
+  }
+
+  theme(theme: Theme): void {
+    this.#goalLook.color.copy(colour(theme.goal));
+    this.#poleLook.color.copy(colour(theme.ink));
+    this.#startLook.color.copy(colour(theme.ink));
+  }
+
+  show(goal: Place, start: Heading, height: Height): void {
+    this.#at = { goal, start };
+    this.settle(height);
+  }
+
+  /** Stands both on the ground again, after the ground has changed. */
+  settle(height: Height): void {
+    if (!this.#at) return;
+    const { goal, start } = this.#at;
+    this.#goal.position.set(goal.x, goal.y, height(goal.x, goal.y));
+    this.#start.position.set(start.x, start.y, height(start.x, start.y));
+    this.#start.rotation.z = start.heading_rad;
+  }
+
+  /** Turns the flag's cloth to the viewer. */
+  face(x: number, y: number): void {
+    const { position } = this.#goal;
+    this.#goal.rotation.z = Math.atan2(y - position.y, x - position.x) + Math.PI / 2;
+  }
+}

@@ -1,0 +1,204 @@
+/** The ground as a solid relief: a grid displaced by a height texture, with cut sides, contour lines and rings. */
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DataTexture,
+  DoubleSide,
+  FloatType,
+  LinearFilter,
+  Mesh,
+  RedFormat,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+  Vector4,
+} from 'three';
+import type { Rgb } from '../ui/scale.ts';
+import type { Theme } from '../ui/theme.ts';
+import type { HeightField } from './heightfield.ts';
+import { FRAGMENT, VERTEX } from './reliefShader.ts';
+import { SUN, sunlight } from './sunlight.ts';
+
+/** Triangles of finer grids cost more than they show. */
+const MAX_VERTICES_PER_SIDE = 512;
+/** Shadows follow a stroke of the brush after this pause. */
+const RELIGHT_DELAY_MS = 120;
+
+export class Relief {
+  readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
+  readonly field: HeightField;
+  readonly #heights: DataTexture;
+  readonly #light: DataTexture;
+  readonly #brightness: Uint8Array<ArrayBuffer>;
+  readonly #changed: () => void;
+  #relightTimer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(field: HeightField, theme: Theme, changed: () => void) {
+    this.field = field;
+    this.#changed = changed;
+    const { columns, rows } = field;
+    this.#heights = new DataTexture(field.heights_m, columns, rows, RedFormat, FloatType);
+    this.#heights.needsUpdate = true;
+    this.#brightness = new Uint8Array(columns * rows);
+    this.#light = new DataTexture(this.#brightness, columns, rows, RedFormat);
+    this.#light.unpackAlignment = 1;
+    this.#light.minFilter = LinearFilter;
+    this.#light.magFilter = LinearFilter;
+    this.#relight();
+    this.mesh = new Mesh(
+      geometry(field),
+      new ShaderMaterial({
+        vertexShader: VERTEX,
+        fragmentShader: FRAGMENT,
+        side: DoubleSide,
+        uniforms: {
+          heights: { value: this.#heights },
+          light: { value: this.#light },
+          cell: { value: field.cell_m },
+          size: { value: new Vector2(columns, rows) },
+          base: { value: 0 },
+          range: { value: new Vector2() },
+          sun: { value: new Vector3(...SUN) },
+          relief: { value: [] },
+          rock: { value: new Color() },
+          contour: { value: new Vector4() },
+          robot: { value: new Vector4(0, 0, 0, 0) },
+          ringRadius: { value: 0 },
+          ringColour: { value: new Color() },
+          brush: { value: new Vector4(0, 0, 0, 0) },
+          brushColour: { value: new Color() },
+        },
+      }),
+    );
+    // Heights live in a texture: three cannot know the true bounds.
+    this.mesh.frustumCulled = false;
+    this.#fitRange();
+    this.theme(theme);
+  }
+
+  theme(theme: Theme): void {
+    const { uniforms } = this.mesh.material;
+    const set = (name: string, value: unknown) => {
+      const uniform = uniforms[name];
+      if (uniform) uniform.value = value;
+    };
+    set('relief', theme.relief.map(colour));
+    set('rock', colour(theme.rock));
+    const line = colour(theme.contour);
+    set('contour', new Vector4(line.r, line.g, line.b, theme.dark ? 0.34 : 0.3));
+    set('ringColour', colour(theme.ink));
+    set('brushColour', colour(theme.accent));
+  }
+
+  /** Shows the field's new heights. */
+  sculpted(): void {
+    this.#heights.needsUpdate = true;
+    this.#fitRange();
+    clearTimeout(this.#relightTimer);
+    this.#relightTimer = setTimeout(() => {
+      this.#relight();
+      this.#changed();
+    }, RELIGHT_DELAY_MS);
+  }
+
+  /** Ring of the occupancy radius and soft shadow under the robot. */
+  robot(x: number, y: number, yaw: number, ringRadius_m: number): void {
+    const { uniforms } = this.mesh.material;
+    uniforms.robot?.value.set(x, y, Math.cos(yaw), Math.sin(yaw));
+    if (uniforms.ringRadius) uniforms.ringRadius.value = ringRadius_m;
+  }
+
+  /** The brush's ring; a radius of zero hides it. */
+  brush(x: number, y: number, radius_m: number): void {
+    this.mesh.material.uniforms.brush?.value.set(x, y, radius_m, 0);
+  }
+
+  dispose(): void {
+    clearTimeout(this.#relightTimer);
+    this.mesh.geometry.dispose();
+    this.mesh.material.dispose();
+    this.#heights.dispose();
+    this.#light.dispose();
+  }
+
+  #relight(): void {
+    sunlight(this.field, this.#brightness);
+    this.#light.needsUpdate = true;
+  }
+
+  #fitRange(): void {
+    const { uniforms } = this.mesh.material;
+    const { min_m, max_m, width_m } = this.field;
+    uniforms.range?.value.set(min_m, Math.max(max_m, min_m + 1));
+    if (uniforms.base) uniforms.base.value = min_m - 0.035 * width_m;
+  }
+}
+
+export function colour([red, green, blue]: Rgb): Color {
+  return new Color().setRGB(red / 255, green / 255, blue / 255, 'srgb');
+}
+
+/** Grid samples as `place` = (column, row, 0 top | 1 base) and, on the cut sides, the outward `side` normal. */
+function geometry({ columns, rows }: HeightField): BufferGeometry {
+  const stride = Math.max(1, Math.ceil(Math.max(columns, rows) / MAX_VERTICES_PER_SIDE));
+  const xs = samples(columns, stride);
+  const ys = samples(rows, stride);
+  const place: number[] = [];
+  const side: number[] = [];
+  const index: number[] = [];
+  const vertex = (column: number, row: number, base: number, east: number, north: number) => {
+    place.push(column, row, base);
+    side.push(east, north);
+    return place.length / 3 - 1;
+  };
+  for (const row of ys) for (const column of xs) vertex(column, row, 0, 0, 0);
+  for (let j = 0; j + 1 < ys.length; j += 1) {
+    for (let i = 0; i + 1 < xs.length; i += 1) {
+      const a = j * xs.length + i;
+      const d = a + xs.length;
+      index.push(a, a + 1, d + 1, a, d + 1, d);
+    }
+  }
+  const wall = (line: readonly (readonly [number, number])[], east: number, north: number) => {
+    let last: [number, number] | undefined;
+    for (const [column, row] of line) {
+      const pair: [number, number] = [vertex(column, row, 0, east, north), vertex(column, row, 1, east, north)];
+      if (last) index.push(last[0], last[1], pair[1], last[0], pair[1], pair[0]);
+      last = pair;
+    }
+  };
+  wall(
+    xs.map((column) => [column, 0] as const),
+    0,
+    -1,
+  );
+  wall(
+    xs.map((column) => [column, rows - 1] as const),
+    0,
+    1,
+  );
+  wall(
+    ys.map((row) => [0, row] as const),
+    -1,
+    0,
+  );
+  wall(
+    ys.map((row) => [columns - 1, row] as const),
+    1,
+    0,
+  );
+  const result = new BufferGeometry();
+  result.setAttribute('position', new BufferAttribute(new Float32Array(place), 3));
+  result.setAttribute('side', new BufferAttribute(new Float32Array(side), 2));
+  result.setIndex(new BufferAttribute(new Uint32Array(index), 1));
+  return result;
+}
+
+/** Every `stride`-th sample, and always the last. */
+function samples(count: number, stride: number): number[] {
+  const all = Array.from({ length: Math.ceil(count / stride) }, (_, step) => step * stride);
+  if (all.at(-1) !== count - 1) all.push(count - 1);
+  return all;
+}

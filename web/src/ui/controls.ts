@@ -1,0 +1,137 @@
+/** The page's buttons, choosers and sliders: each calls one action, and shows the state it is told. */
+
+import { CATALOGUE } from '../core/catalogue.ts';
+import type { Preset } from '../core/protocol.ts';
+import { TOOLS, type Tool } from '../scene/tools.ts';
+import { byId, html } from './dom.ts';
+
+export const SPEEDS: readonly number[] = [0.5, 1, 2, 4, Number.POSITIVE_INFINITY];
+
+export interface Actions {
+  togglePlay(): void;
+  step(): void;
+  restart(): void;
+  next(): void;
+  setSpeed(speed: number): void;
+  load(scenario: string, preset: Preset, seed: number | undefined): void;
+  selectTool(tool: Tool): void;
+  setBrushRadius(radius_m: number): void;
+  toggleFollow(): void;
+  overview(): void;
+  help(): void;
+}
+
+const MAX_SEED = 0xffff_ffff;
+
+export class Controls {
+  readonly #scenario = byId('scenario', HTMLSelectElement);
+  readonly #preset = byId('preset', HTMLSelectElement);
+  readonly #seed = byId('seed', HTMLInputElement);
+  readonly #play = byId('play', HTMLButtonElement);
+  readonly #follow = byId('follow', HTMLButtonElement);
+  readonly #brush = byId('brush', HTMLElement);
+  readonly #brushSize = byId('brush-size', HTMLInputElement);
+  readonly #brushValue = byId('brush-value', HTMLOutputElement);
+  readonly #actions: Actions;
+
+  constructor(actions: Actions) {
+    this.#actions = actions;
+    this.#fillScenarios();
+    this.#scenario.addEventListener('change', () => this.#load(undefined));
+    this.#preset.addEventListener('change', () => this.#load(this.#readSeed()));
+    this.#seed.addEventListener('change', () => {
+      const seed = this.#readSeed();
+      if (seed !== undefined) this.#load(seed);
+    });
+    this.#onClick('play', () => actions.togglePlay());
+    this.#onClick('step', () => actions.step());
+    this.#onClick('restart', () => actions.restart());
+    this.#onClick('follow', () => actions.toggleFollow());
+    this.#onClick('overview', () => actions.overview());
+    this.#onClick('help', () => actions.help());
+    this.#onClick('next', () => actions.next());
+    for (const input of this.#radios('tool')) {
+      input.addEventListener('change', () => actions.selectTool(TOOLS.find((tool) => tool === input.value) ?? 'look'));
+    }
+    for (const input of this.#radios('speed')) {
+      input.addEventListener('change', () => actions.setSpeed(SPEEDS[Number(input.value)] ?? 1));
+    }
+    this.#brushSize.addEventListener('input', () => this.#readBrush());
+    this.#readBrush();
+  }
+
+  showPlaying(playing: boolean): void {
+    this.#play.dataset.playing = String(playing);
+    const label = playing ? 'Pause' : 'Play';
+    this.#play.setAttribute('aria-label', label);
+    this.#play.title = `${label} (Space)`;
+  }
+
+  showFollowing(following: boolean): void {
+    this.#follow.setAttribute('aria-pressed', String(following));
+  }
+
+  showSession(scenario: string, preset: Preset, seed: number): void {
+    this.#scenario.value = scenario;
+    this.#preset.value = preset;
+    this.#seed.value = String(seed);
+    this.#seed.setCustomValidity('');
+  }
+
+  showTool(tool: Tool): void {
+    for (const input of this.#radios('tool')) input.checked = input.value === tool;
+    this.#brush.hidden = tool !== 'raise' && tool !== 'lower' && tool !== 'smooth';
+  }
+
+  showSpeed(speed: number): void {
+    for (const input of this.#radios('speed')) input.checked = SPEEDS[Number(input.value)] === speed;
+  }
+
+  /** Moves the brush's slider by whole steps. */
+  growBrush(steps: number): void {
+    if (steps > 0) this.#brushSize.stepUp(steps);
+    else this.#brushSize.stepDown(-steps);
+    this.#readBrush();
+  }
+
+  #readBrush(): void {
+    const radius_m = this.#brushSize.valueAsNumber;
+    this.#brushValue.value = `${radius_m.toFixed(1)} m`;
+    this.#actions.setBrushRadius(radius_m);
+  }
+
+  #load(seed: number | undefined): void {
+    const preset = this.#preset.value === 'paper' ? 'paper' : 'default';
+    this.#actions.load(this.#scenario.value, preset, seed);
+  }
+
+  /** The seed, or nothing and a complaint at the field. */
+  #readSeed(): number | undefined {
+    const seed = Number(this.#seed.value);
+    const good = this.#seed.value.trim() !== '' && Number.isInteger(seed) && seed >= 0 && seed <= MAX_SEED;
+    this.#seed.setCustomValidity(good ? '' : `A seed is a whole number from 0 to ${MAX_SEED}.`);
+    if (!good) this.#seed.reportValidity();
+    return good ? seed : undefined;
+  }
+
+  #fillScenarios(): void {
+    const groups = new Map<string, HTMLOptGroupElement>();
+    for (const entry of CATALOGUE) {
+      const group = groups.get(entry.group) ?? html('optgroup');
+      group.label = entry.group;
+      groups.set(entry.group, group);
+      const option = html('option', '', [entry.title]);
+      option.value = entry.id;
+      group.append(option);
+    }
+    this.#scenario.append(...groups.values());
+  }
+
+  #onClick(id: string, act: () => void): void {
+    byId(id, HTMLButtonElement).addEventListener('click', act);
+  }
+
+  #radios(name: string): HTMLInputElement[] {
+    return [...document.querySelectorAll<HTMLInputElement>(`input[name="${name}"]`)];
+  }
+}

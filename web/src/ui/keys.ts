@@ -1,0 +1,53 @@
+/** Keys for everything. They act wherever the focus is, except while text is typed or a control uses the key itself. */
+
+import { TOOLS, type Tool } from '../scene/tools.ts';
+
+export interface KeyActions {
+  togglePlay(): void;
+  step(): void;
+  restart(): void;
+  next(): void;
+  faster(steps: number): void;
+  selectTool(tool: Tool): void;
+  growBrush(steps: number): void;
+  toggleFollow(): void;
+  overview(): void;
+  help(): void;
+}
+
+export function bindKeys(actions: KeyActions): void {
+  const keys: Record<string, () => void> = {
+    ' ': () => actions.togglePlay(),
+    s: () => actions.step(),
+    r: () => actions.restart(),
+    n: () => actions.next(),
+    f: () => actions.toggleFollow(),
+    o: () => actions.overview(),
+    ',': () => actions.faster(-1),
+    '.': () => actions.faster(1),
+    '[': () => actions.growBrush(-1),
+    ']': () => actions.growBrush(1),
+    '?': () => actions.help(),
+    escape: () => actions.selectTool('look'),
+  };
+  TOOLS.forEach((tool, index) => {
+    keys[String(index + 1)] = () => actions.selectTool(tool);
+  });
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    if (document.querySelector('dialog[open]') || takesKey(event)) return;
+    const act = keys[event.key.toLowerCase()];
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+}
+
+/** Whether the focused control has its own use for the key. */
+function takesKey(event: KeyboardEvent): boolean {
+  const { target } = event;
+  if (target instanceof HTMLSelectElement) return true;
+  if (target instanceof HTMLInputElement)
+    return target.type === 'number' || (event.key === ' ' && target.type === 'radio');
+  return event.key === ' ' && (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement);
+}

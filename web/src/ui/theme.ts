@@ -1,0 +1,49 @@
+/** The colours of the drawings, read from the style sheet so that each is written once, for light and for dark. */
+
+import { parseHex, type Rgb } from './scale.ts';
+
+export interface Theme {
+  readonly dark: boolean;
+  readonly ink: Rgb;
+  readonly muted: Rgb;
+  readonly accent: Rgb;
+  readonly goal: Rgb;
+  readonly danger: Rgb;
+  readonly surface: Rgb;
+  /** From the lowest to the highest ground. */
+  readonly relief: readonly Rgb[];
+  readonly rock: Rgb;
+  readonly contour: Rgb;
+  /** From observed (low variance) to free (high variance). */
+  readonly variance: readonly Rgb[];
+  readonly returnNear: Rgb;
+  readonly returnFar: Rgb;
+}
+
+const scheme = window.matchMedia('(prefers-color-scheme: dark)');
+
+export function readTheme(): Theme {
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name: string) => parseHex(style.getPropertyValue(`--${name}`));
+  return {
+    dark: scheme.matches,
+    ink: colour('ink'),
+    muted: colour('muted'),
+    accent: colour('accent'),
+    goal: colour('goal'),
+    danger: colour('danger'),
+    surface: colour('surface'),
+    relief: [0, 1, 2, 3, 4].map((step) => colour(`relief-${step}`)),
+    rock: colour('relief-rock'),
+    contour: colour('relief-contour'),
+    variance: [0, 1, 2].map((step) => colour(`variance-${step}`)),
+    returnNear: colour('return-near'),
+    returnFar: colour('return-far'),
+  };
+}
+
+/** Calls back now and whenever the system changes between light and dark. */
+export function watchTheme(apply: (theme: Theme) => void): void {
+  scheme.addEventListener('change', () => apply(readTheme()));
+  apply(readTheme());
+}
