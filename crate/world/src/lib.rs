@@ -1,1 +1,36 @@
-//! The simulated world.
+//! The simulated world of `mapless`: terrain, a VLP-16 laser scanner and a Husky robot.
+//!
+//! World frame: x east, y north, z up, with the origin at the south-west corner of the terrain. Robot frame: x
+//! forward, y left, z up. Pitch is positive nose-up, roll positive with the left side up, yaw positive
+//! counter-clockwise from east. Lengths are in metres, angles in radians.
+//!
+//! Everything here is a pure function of its arguments and gives the same bits natively and on wasm: no clock, no
+//! threads, no hidden random state.
+
+// Tests state exact values where the arithmetic is exact.
+#![cfg_attr(test, allow(clippy::float_cmp))]
+
+mod attitude;
+mod caster;
+mod config;
+mod height_field;
+mod husky;
+mod import;
+mod random;
+mod recipe;
+mod sculpt;
+mod skyline;
+mod terrain;
+mod vlp16;
+
+pub use attitude::{Attitude, attitude_on, world_from_body};
+pub use caster::Caster;
+pub use config::ConfigError;
+pub use height_field::{FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M};
+pub use husky::{DriveCommand, DriveError, Husky, HuskyConfig, HuskyState};
+pub use sculpt::{Brush, BrushKind, SampleRect};
+pub use skyline::{Skyline, true_skyline};
+#[cfg(not(target_arch = "wasm32"))]
+pub use terrain::load_terrain;
+pub use terrain::{Terrain, TerrainError, TerrainFault, load_terrain_bytes};
+pub use vlp16::{RING_COUNT, Scan, SensorConfig, SensorPose, Vlp16, ring_elevation_rad};

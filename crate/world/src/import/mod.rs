@@ -1,0 +1,38 @@
+//! Height grids from other programs. Geographic origins are ignored: local coordinates begin at the south-west sample.
+
+mod ascii_grid;
+mod geotiff;
+mod png16;
+
+use crate::height_field::HeightField;
+use crate::terrain::{TerrainError, TerrainFault, split_name};
+
+/// What a recipe says about the file it imports.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Scale {
+    /// Spacing in metres, in place of the file's own.
+    pub(crate) cell_m: Option<f64>,
+    /// Heights in metres of black and white, for images.
+    pub(crate) range_m: Option<(f64, f64)>,
+}
+
+/// Reads a grid in the format that the file's extension names.
+pub(crate) fn read(file: &str, bytes: &[u8], scale: &Scale) -> Result<HeightField, TerrainError> {
+    let (_, extension) = split_name(file);
+    let field = match extension.as_str() {
+        "png" => png16::read(bytes, scale),
+        "asc" => ascii_grid::read(bytes, scale.cell_m),
+        "tif" | "tiff" => geotiff::read(bytes, scale.cell_m),
+        _ => Err(TerrainFault::Extension { extension }),
+    };
+    field.map_err(|fault| fault.of(file))
+}
+
+/// Turns rows that begin in the north, as images and maps store them, into rows that begin in the south.
+fn south_first(heights_m: &mut [f32], columns: usize) {
+    let rows = heights_m.len() / columns;
+    for row in 0..rows / 2 {
+        let (south, north) = heights_m.split_at_mut((rows - 1 - row) * columns);
+        south[row * columns..(row + 1) * columns].swap_with_slice(&mut north[..columns]);
+    }
+}

@@ -1,0 +1,63 @@
+//! Randomness without state: a value depends only on its counters, so a run can be resumed at any tick and beams can be
+//! drawn in any order.
+
+use std::f64::consts::TAU;
+
+/// The odd constant of the Weyl sequence of `SplitMix64`.
+const WEYL: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// The output function of `SplitMix64` (Steele, Lea and Flood, 2014): every bit of the result depends on every bit of `x`.
+pub(crate) fn mix(x: u64) -> u64 {
+    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+/// A key for the pair (a, b).
+pub(crate) fn key(a: u64, b: u64) -> u64 {
+    mix(mix(a.wrapping_add(WEYL)).wrapping_add(b.wrapping_mul(WEYL)))
+}
+
+/// A number in (0, 1], never 0 so that its logarithm exists.
+pub(crate) fn uniform(key: u64) -> f64 {
+    ((key >> 11) + 1) as f64 * (1.0 / (1u64 << 53) as f64)
+}
+
+/// A standard normal number, by the method of Box and Muller.
+pub(crate) fn gaussian(key: u64) -> f64 {
+    let radius = (-2.0 * libm::log(uniform(key))).sqrt();
+    radius * libm::cos(TAU * uniform(mix(key.wrapping_add(WEYL))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_and_bounds() {
+        let count = 100_000;
+        let (mut sum, mut squares, mut uniforms) = (0.0, 0.0, 0.0);
+        for beam in 0..count {
+            let number = gaussian(key(7, beam));
+            sum += number;
+            squares += number * number;
+            let share = uniform(key(8, beam));
+            assert!(share > 0.0 && share <= 1.0);
+            uniforms += share;
+        }
+        let count = count as f64;
+        assert!((sum / count).abs() < 0.01, "mean {}", sum / count);
+        assert!((squares / count - 1.0).abs() < 0.02, "variance {}", squares / count);
+        assert!((uniforms / count - 0.5).abs() < 0.005);
+        assert!(gaussian(0).is_finite() && gaussian(u64::MAX).is_finite());
+    }
+
+    #[test]
+    fn neighbouring_keys_share_nothing() {
+        let agreeing = |a: u64, b: u64| (a ^ b).count_zeros();
+        for i in 0..1000 {
+            assert!((10..=54).contains(&agreeing(key(i, 0), key(i + 1, 0))));
+            assert!((10..=54).contains(&agreeing(key(0, i), key(0, i + 1))));
+        }
+    }
+}

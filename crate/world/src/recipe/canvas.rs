@@ -1,0 +1,69 @@
+//! The grid a recipe works on, in double precision.
+
+use crate::height_field::HeightField;
+use glam::DVec2;
+
+pub(super) struct Canvas {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    pub(super) cell_m: f64,
+    pub(super) heights_m: Vec<f64>,
+}
+
+impl Canvas {
+    pub(super) fn from_field(field: &HeightField) -> Self {
+        let heights_m = field.heights_m().iter().map(|&height| f64::from(height)).collect();
+        Self { columns: field.columns(), rows: field.rows(), cell_m: field.cell_m(), heights_m }
+    }
+
+    pub(super) fn extent_m(&self) -> DVec2 {
+        DVec2::new((self.columns - 1) as f64, (self.rows - 1) as f64) * self.cell_m
+    }
+
+    /// Visits every sample with its position and height.
+    pub(super) fn each(&mut self, change: impl FnMut(DVec2, &mut f64)) {
+        let extent = self.extent_m();
+        self.each_within(DVec2::ZERO, extent, change);
+    }
+
+    /// Visits every sample in the box from `low` to `high` with its position and height.
+    pub(super) fn each_within(&mut self, low: DVec2, high: DVec2, mut change: impl FnMut(DVec2, &mut f64)) {
+        let cell_m = self.cell_m;
+        let columns = self.columns;
+        let heights_m = &mut self.heights_m;
+        visit(columns, self.rows, cell_m, low, high, |index, at| change(at, &mut heights_m[index]));
+    }
+
+    /// Visits the index and position of every sample in the box from `low` to `high`.
+    pub(super) fn indices_within(&self, low: DVec2, high: DVec2, see: impl FnMut(usize, DVec2)) {
+        visit(self.columns, self.rows, self.cell_m, low, high, see);
+    }
+
+    /// Height at a position, which is moved to the nearest point of the terrain when it lies off it.
+    pub(super) fn height_m(&self, position: DVec2) -> f64 {
+        let grid = position.clamp(DVec2::ZERO, self.extent_m()) / self.cell_m;
+        let column = (grid.x as usize).min(self.columns - 2);
+        let row = (grid.y as usize).min(self.rows - 2);
+        let (u, v) = (grid.x - column as f64, grid.y - row as f64);
+        let at = |c: usize, r: usize| self.heights_m[(row + r) * self.columns + column + c];
+        (at(0, 0) * (1.0 - u) + at(1, 0) * u) * (1.0 - v) + (at(0, 1) * (1.0 - u) + at(1, 1) * u) * v
+    }
+}
+
+fn visit(
+    columns: usize,
+    rows: usize,
+    cell_m: f64,
+    low: DVec2,
+    high: DVec2,
+    mut see: impl FnMut(usize, DVec2),
+) {
+    // Casts to integers saturate, so boxes that reach beyond the terrain are cut.
+    let first = |value_m: f64| (value_m / cell_m).max(0.0) as usize;
+    let last = |value_m: f64, count: usize| ((value_m / cell_m + 1.0).max(0.0) as usize).min(count);
+    for row in first(low.y)..last(high.y, rows) {
+        for column in first(low.x)..last(high.x, columns) {
+            see(row * columns + column, DVec2::new(column as f64, row as f64) * cell_m);
+        }
+    }
+}

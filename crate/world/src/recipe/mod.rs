@@ -1,0 +1,235 @@
+//! Terrain recipes: a readable TOML file that adds up features.
+//!
+//! ```toml
+//! name = "two hills"
+//! description = "A trail between two hills."
+//! size_m = [60.0, 40.0]          # east, north; multiples of cell_m
+//! cell_m = 0.2
+//! seed = 7                       # for [[noise]]
+//! base_m = 10.0                  # height before any feature, default 0
+//! tilt = [0.01, 0.0]             # dz/dx, dz/dy, default level
+//!
+//! [[hill]]                       # Gaussian
+//! centre = [20.0, 20.0]
+//! height_m = 4.0                 # negative: a hollow
+//! radius_m = 5.0                 # one standard deviation; the steepest slope is 0.61 height_m / radius_m
+//! stretch = 2.0                  # this much longer along ...
+//! heading_rad = 0.5              # ... this direction, counter-clockwise from east
+//!
+//! [[plateau]]                    # flat top, smooth-step flank (steepest slope 1.5 height_m / flank_m)
+//! centre = [40.0, 10.0]
+//! height_m = 3.0
+//! top_radius_m = 4.0
+//! flank_m = 6.0
+//!
+//! [[ridge]]                      # Gaussian across a smooth line through the points
+//! points = [[5.0, 5.0], [20.0, 8.0], [35.0, 5.0]]
+//! height_m = [2.0, 3.0, 1.0]     # one for all, or one per point
+//! width_m = 2.0                  # one standard deviation
+//!
+//! [[valley]]                     # the same downwards, with depth_m
+//! points = [[0.0, 30.0], [60.0, 30.0]]
+//! depth_m = 1.5
+//! width_m = 3.0
+//!
+//! [[crater]]                     # smooth bowl; the rim fades out over about its radius
+//! centre = [50.0, 30.0]
+//! radius_m = 5.0                 # of the rim
+//! depth_m = 1.5                  # of the middle, below the ground around
+//! rim_height_m = 0.5
+//!
+//! [[noise]]                      # gradient noise; each octave has half the wavelength and half the amplitude
+//! amplitude_m = 0.3
+//! wavelength_m = 8.0
+//! octaves = 4
+//!
+//! [[trail]]                      # after all other features, in order
+//! points = [[2.0, 20.0], [30.0, 22.0], [58.0, 20.0]]
+//! height_m = [10.0, 12.0, 10.0]  # optional, one for all or one per point; default: the ground along the line
+//! width_m = 2.0                  # level across
+//! shoulder_m = 2.0               # blends into the ground over this on each side
+//! smoothing_m = 8.0              # the height along the line is averaged over this, default 4 width_m
+//! ```
+//!
+//! In place of `size_m` and `cell_m` a recipe may start from a grid in another file:
+//!
+//! ```toml
+//! [import]
+//! file = "island.png"            # .png, .asc, .tif or .tiff, relative to the recipe
+//! cell_m = 0.2                   # in place of the file's own spacing
+//! height_min_m = -2.0            # of black, and of white; PNG only, both or neither
+//! height_max_m = 8.0
+//! ```
+
+mod canvas;
+mod check;
+mod features;
+mod gradient_noise;
+mod line;
+mod trail;
+
+use crate::height_field::{HeightField, check_grid};
+use crate::import::{self, Scale};
+use crate::terrain::{Terrain, TerrainError, TerrainFault, split_name};
+use canvas::Canvas;
+use check::Table;
+use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
+use serde::Deserialize;
+use toml::Spanned;
+use trail::Trail;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Recipe {
+    name: String,
+    #[serde(default)]
+    description: String,
+    size_m: Option<[f64; 2]>,
+    cell_m: Option<f64>,
+    #[serde(default)]
+    seed: u64,
+    #[serde(default)]
+    base_m: f64,
+    #[serde(default)]
+    tilt: [f64; 2],
+    import: Option<Import>,
+    #[serde(default)]
+    hill: Vec<Spanned<Hill>>,
+    #[serde(default)]
+    plateau: Vec<Spanned<Plateau>>,
+    #[serde(default)]
+    ridge: Vec<Spanned<Ridge>>,
+    #[serde(default)]
+    valley: Vec<Spanned<Valley>>,
+    #[serde(default)]
+    crater: Vec<Spanned<Crater>>,
+    #[serde(default)]
+    noise: Vec<Spanned<Noise>>,
+    #[serde(default)]
+    trail: Vec<Spanned<Trail>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Import {
+    file: String,
+    cell_m: Option<f64>,
+    height_min_m: Option<f64>,
+    height_max_m: Option<f64>,
+}
+
+/// Builds the terrain of a recipe.
+pub(crate) fn load(
+    file: &str,
+    text: &str,
+    resolve: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+) -> Result<Terrain, TerrainError> {
+    let recipe: Recipe = toml::from_str(text)
+        .map_err(|error| TerrainFault::damaged("recipe", error.to_string().trim_end()).of(file))?;
+    let mut canvas = recipe.ground(file, resolve)?;
+    let heights = recipe.shape(text, &mut canvas).and_then(|()| {
+        let heights_m = canvas.heights_m.iter().map(|&height| height as f32).collect();
+        Ok(HeightField::new(canvas.columns, canvas.rows, canvas.cell_m, heights_m)?)
+    });
+    let field = heights.map_err(|fault| fault.of(file))?;
+    Ok(Terrain { name: recipe.name, description: recipe.description, field })
+}
+
+impl Recipe {
+    /// The ground before any feature.
+    fn ground(
+        &self,
+        file: &str,
+        resolve: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+    ) -> Result<Canvas, TerrainError> {
+        let Some(import) = &self.import else {
+            return self.level_ground().map_err(|fault| fault.of(file));
+        };
+        if self.size_m.is_some() || self.cell_m.is_some() {
+            let expected = "none of them beside [import], whose file has its own size";
+            return Err(TerrainFault::value("size_m, cell_m", "present", expected).of(file));
+        }
+        let scale = import.scale().map_err(|fault| fault.of(file))?;
+        let bytes = resolve(&import.file).map_err(|reason| TerrainFault::Read { reason }.of(&import.file))?;
+        Ok(Canvas::from_field(&import::read(&import.file, &bytes, &scale)?))
+    }
+
+    fn level_ground(&self) -> Result<Canvas, TerrainFault> {
+        let missing = |key: &str| TerrainFault::value(key, "absent", "a value, or an [import] table");
+        let size_m = self.size_m.ok_or_else(|| missing("size_m"))?;
+        let cell_m = self.cell_m.ok_or_else(|| missing("cell_m"))?;
+        let mut samples = [0; 2];
+        for (count, side_m) in samples.iter_mut().zip(size_m) {
+            let cells = (side_m / cell_m).round();
+            if !(side_m > 0.0 && (cells * cell_m - side_m).abs() <= 1e-6 * cell_m) {
+                let expected = format!("positive multiples of cell_m = {cell_m}");
+                return Err(TerrainFault::value("size_m", format!("{size_m:?}"), expected));
+            }
+            *count = cells as usize + 1;
+        }
+        let [columns, rows] = samples;
+        let count = check_grid(columns, rows, cell_m)?;
+        Ok(Canvas { columns, rows, cell_m, heights_m: vec![0.0; count] })
+    }
+
+    /// Adds every feature to the ground.
+    fn shape(&self, text: &str, canvas: &mut Canvas) -> Result<(), TerrainFault> {
+        let top = Table::top_level();
+        top.finite("base_m", self.base_m)?;
+        top.finite("tilt", self.tilt[0])?;
+        top.finite("tilt", self.tilt[1])?;
+        canvas.each(|at, height_m| *height_m += self.base_m + self.tilt[0] * at.x + self.tilt[1] * at.y);
+        add(text, "hill", &self.hill, self.seed, canvas)?;
+        add(text, "plateau", &self.plateau, self.seed, canvas)?;
+        add(text, "ridge", &self.ridge, self.seed, canvas)?;
+        add(text, "valley", &self.valley, self.seed, canvas)?;
+        add(text, "crater", &self.crater, self.seed, canvas)?;
+        add(text, "noise", &self.noise, self.seed, canvas)?;
+        add(text, "trail", &self.trail, self.seed, canvas)
+    }
+}
+
+/// Checks all tables of one kind, then applies them in their order.
+fn add<F: Feature>(
+    text: &str,
+    kind: &'static str,
+    features: &[Spanned<F>],
+    seed: u64,
+    canvas: &mut Canvas,
+) -> Result<(), TerrainFault> {
+    for (index, feature) in features.iter().enumerate() {
+        let table = Table::at(text, feature.span().start, kind, index);
+        feature.get_ref().check(&table, canvas)?;
+        feature.get_ref().apply(canvas, crate::random::key(seed, index as u64));
+    }
+    Ok(())
+}
+
+impl Import {
+    fn scale(&self) -> Result<Scale, TerrainFault> {
+        let is_absolute = self.file.starts_with(['/', '\\']) || self.file.contains(':');
+        if is_absolute || split_name(&self.file).1 == "toml" {
+            let expected = "an image or grid, by its path relative to the recipe";
+            return Err(TerrainFault::value("import.file", format!("\"{}\"", self.file), expected));
+        }
+        let range_m = match (self.height_min_m, self.height_max_m) {
+            (None, None) => None,
+            (Some(low), Some(high)) if low < high && low.is_finite() && high.is_finite() => Some((low, high)),
+            (low, high) => {
+                let show =
+                    |height: Option<f64>| height.map_or("absent".to_owned(), |height| height.to_string());
+                let found = format!("{}, {}", show(low), show(high));
+                let expected = "two finite heights, the smaller first, or neither";
+                return Err(TerrainFault::value("import.height_min_m, height_max_m", found, expected));
+            }
+        };
+        if range_m.is_some() && split_name(&self.file).1 != "png" {
+            let expected = "no heights beside a grid that has its own";
+            return Err(TerrainFault::value("import.height_min_m, height_max_m", "present", expected));
+        }
+        Ok(Scale { cell_m: self.cell_m, range_m })
+    }
+}
+
+#[cfg(test)]
+mod tests;

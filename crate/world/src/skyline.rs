@@ -1,0 +1,102 @@
+//! The true elevation profile of the ground around a sensor, against which perception is judged.
+
+use crate::caster::Caster;
+use crate::vlp16::{RING_COUNT, SensorPose, ring_elevation_rad};
+use glam::DVec3;
+
+/// What a sensor would see at one azimuth if its beams were infinitely dense.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Skyline {
+    /// No ground within the radius at any elevation of the sensor: a crest or a drop.
+    Unknown,
+    /// The highest elevation in the sensor frame, in radians, at which there is ground within the radius.
+    Ground {
+        /// That elevation.
+        elevation_rad: f64,
+    },
+    /// Ground up to the sensor's highest elevation and perhaps beyond.
+    Wall,
+}
+
+/// A quarter of a degree, 3 cm at 7 m: nothing narrower than this stands free before the sky.
+const COARSE_STEPS: usize = 120;
+/// Halvings of a coarse step; they leave half a microradian.
+const HALVINGS: usize = 13;
+
+/// The skyline at an azimuth in the sensor frame, from ground within `radius_m` metres of the sensor and elevations
+/// from that of the lowest ring to that of the highest.
+#[must_use]
+pub fn true_skyline(caster: &Caster, pose: &SensorPose, radius_m: f64, azimuth_rad: f64) -> Skyline {
+    let (sin_azimuth, cos_azimuth) = libm::sincos(azimuth_rad);
+    let hits = |elevation_rad: f64| {
+        let (sin, cos) = libm::sincos(elevation_rad);
+        let beam = DVec3::new(cos * cos_azimuth, cos * sin_azimuth, sin);
+        caster.cast(pose.position, pose.world_from_sensor * beam, radius_m).is_some()
+    };
+    let (lowest, highest) = (ring_elevation_rad(0), ring_elevation_rad(RING_COUNT - 1));
+    if hits(highest) {
+        return Skyline::Wall;
+    }
+    let step = (highest - lowest) / COARSE_STEPS as f64;
+    let Some(below) = (0..COARSE_STEPS).rev().find(|&i| hits(lowest + i as f64 * step)) else {
+        return Skyline::Unknown;
+    };
+    let (mut ground, mut sky) = (lowest + below as f64 * step, lowest + (below + 1) as f64 * step);
+    for _ in 0..HALVINGS {
+        let middle = (ground + sky) / 2.0;
+        if hits(middle) { ground = middle } else { sky = middle }
+    }
+    Skyline::Ground { elevation_rad: ground }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Attitude, HeightField, SensorConfig};
+    use glam::DVec2;
+
+    fn pose(height_m: f64, pitch_rad: f64) -> SensorPose {
+        let attitude = Attitude { height_m, roll_rad: 0.0, pitch_rad };
+        SensorConfig::default().pose_on(DVec2::splat(20.0), 0.0, &attitude)
+    }
+
+    fn elevation(skyline: Skyline) -> f64 {
+        match skyline {
+            Skyline::Ground { elevation_rad } => elevation_rad,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn level_ground_ends_where_the_radius_meets_it() {
+        let caster = Caster::new(HeightField::new(81, 81, 0.5, vec![0.0; 81 * 81]).unwrap());
+        for azimuth_rad in [0.0, 1.0, -2.5] {
+            let found = elevation(true_skyline(&caster, &pose(0.0, 0.0), 7.0, azimuth_rad));
+            assert!((found + libm::asin(0.8 / 7.0)).abs() < 1e-6, "{found}");
+        }
+        // Pitched up by 0.1 rad, the ground ahead appears lower and the ground behind higher.
+        let pitched = pose(0.0, 0.1);
+        let above = libm::asin(pitched.position.z / 7.0);
+        assert!((elevation(true_skyline(&caster, &pitched, 7.0, 0.0)) + above + 0.1).abs() < 1e-6);
+        let behind = true_skyline(&caster, &pitched, 7.0, std::f64::consts::PI);
+        assert!((elevation(behind) + above - 0.1).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_drop_is_unknown_and_a_cliff_is_a_wall() {
+        let step = |low: f32, high: f32| {
+            let heights = (0..81 * 81).map(|i| if i % 81 < 44 { low } else { high }).collect();
+            Caster::new(HeightField::new(81, 81, 0.5, heights).unwrap())
+        };
+        assert_eq!(true_skyline(&step(0.0, 9.0), &pose(0.0, 0.0), 7.0, 0.0), Skyline::Wall);
+        let rise = elevation(true_skyline(&step(0.0, 1.2), &pose(0.0, 0.0), 7.0, 0.0));
+        assert!((rise - libm::atan2(0.4, 2.0)).abs() < 1e-4, "the edge of the step at 2 m: {rise}");
+        let drop = step(0.0, -20.0);
+        let ahead = SensorConfig::default().pose_on(
+            DVec2::new(21.0, 20.0),
+            0.0,
+            &Attitude { height_m: 0.0, roll_rad: 0.0, pitch_rad: 0.4 },
+        );
+        assert_eq!(true_skyline(&drop, &ahead, 7.0, 0.0), Skyline::Unknown);
+    }
+}

@@ -1,0 +1,292 @@
+//! A Velodyne VLP-16: 16 rings from -15° to +15°, one revolution per scan.
+
+use crate::attitude::{Attitude, world_from_body};
+use crate::caster::Caster;
+use crate::config::{ConfigError, within};
+use crate::random;
+use glam::{DMat3, DVec2, DVec3, Vec3};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, TAU};
+
+/// Rings of a VLP-16.
+pub const RING_COUNT: usize = 16;
+
+/// Elevation of a ring in the sensor frame, in radians: ring 0 looks down 15°, ring 15 up 15°.
+#[must_use]
+pub fn ring_elevation_rad(ring: usize) -> f64 {
+    (2.0 * ring as f64 - 15.0) * (PI / 180.0)
+}
+
+/// Mounting, resolution and faults of the sensor.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SensorConfig {
+    /// Azimuths per revolution, from 1 to 36 000; a VLP-16 at 10 Hz has 1800.
+    pub columns: usize,
+    /// Standard deviation of the range, in metres.
+    pub range_noise_m: f64,
+    /// Share of returns that are lost, from 0 to 1.
+    pub dropout_probability: f64,
+    /// Nothing closer than this is reported, in metres.
+    pub min_range_m: f64,
+    /// Nothing farther than this is reported, in metres.
+    pub max_range_m: f64,
+    /// Height of the sensor above the contact plane along the body's z, in metres.
+    pub height_m: f64,
+    /// Distance of the sensor ahead of the middle of the wheelbase along the body's x, in metres.
+    pub forward_m: f64,
+}
+
+impl Default for SensorConfig {
+    fn default() -> Self {
+        Self {
+            columns: 1800,
+            range_noise_m: 0.02,
+            dropout_probability: 0.0,
+            min_range_m: 0.5,
+            max_range_m: 100.0,
+            height_m: 0.8,
+            forward_m: 0.0,
+        }
+    }
+}
+
+impl SensorConfig {
+    /// Checks every value.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names the first field outside its range.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        within("columns", self.columns as f64, 1.0, 36_000.0)?;
+        within("range_noise_m", self.range_noise_m, 0.0, 1.0)?;
+        within("dropout_probability", self.dropout_probability, 0.0, 1.0)?;
+        within("max_range_m", self.max_range_m, 1.0, 1000.0)?;
+        within("min_range_m", self.min_range_m, 0.0, self.max_range_m)?;
+        within("height_m", self.height_m, 0.05, 5.0)?;
+        within("forward_m", self.forward_m, -5.0, 5.0)
+    }
+
+    /// Pose of the sensor on a robot that stands at `position` with heading `yaw_rad`.
+    #[must_use]
+    pub fn pose_on(&self, position: DVec2, yaw_rad: f64, attitude: &Attitude) -> SensorPose {
+        let world_from_sensor = world_from_body(yaw_rad, attitude);
+        let mount = world_from_sensor * DVec3::new(self.forward_m, 0.0, self.height_m);
+        SensorPose { position: position.extend(attitude.height_m) + mount, world_from_sensor }
+    }
+}
+
+/// Where the sensor is. Its axes are those of the robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SensorPose {
+    /// World position, in metres.
+    pub position: DVec3,
+    /// Rotation from the sensor frame to the world.
+    pub world_from_sensor: DMat3,
+}
+
+/// One revolution.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scan {
+    /// Range of every beam in metres, NaN without a return: beam `column * RING_COUNT + ring`. The azimuth of column
+    /// k is `-pi + k * 2 pi / columns`, the elevation that of [`ring_elevation_rad`].
+    pub ranges_m: Vec<f32>,
+    /// The returns in the sensor frame, in metres, in the order of their beams.
+    pub points: Vec<Vec3>,
+}
+
+/// The sensor: its configuration and the directions of its beams.
+#[derive(Clone, Debug)]
+pub struct Vlp16 {
+    config: SensorConfig,
+    /// (sine, cosine) of each column's azimuth.
+    azimuths: Vec<(f64, f64)>,
+    /// (sine, cosine) of each ring's elevation.
+    elevations: [(f64, f64); RING_COUNT],
+}
+
+impl Vlp16 {
+    /// Prepares a sensor.
+    ///
+    /// # Errors
+    /// [`ConfigError`] when the configuration is not valid.
+    pub fn new(config: SensorConfig) -> Result<Self, ConfigError> {
+        config.validate()?;
+        let azimuths = (0..config.columns)
+            .map(|column| libm::sincos(-PI + column as f64 * (TAU / config.columns as f64)))
+            .collect();
+        let elevations = std::array::from_fn(|ring| libm::sincos(ring_elevation_rad(ring)));
+        Ok(Self { config, azimuths, elevations })
+    }
+
+    /// The configuration.
+    #[must_use]
+    pub fn config(&self) -> &SensorConfig {
+        &self.config
+    }
+
+    /// Takes one revolution from a standing pose into `scan`, which is reused without allocation.
+    ///
+    /// Noise and drop-outs depend only on `seed`, `tick` and the beam. A return whose range, noise included, lies outside
+    /// the sensor's limits is not reported.
+    pub fn scan(&self, caster: &Caster, pose: &SensorPose, seed: u64, tick: u64, scan: &mut Scan) {
+        let beams = self.azimuths.len() * RING_COUNT;
+        scan.ranges_m.clear();
+        scan.points.clear();
+        scan.ranges_m.reserve(beams);
+        scan.points.reserve(beams);
+        let scan_key = random::key(seed, tick);
+        for &(sin_azimuth, cos_azimuth) in &self.azimuths {
+            for &(sin_elevation, cos_elevation) in &self.elevations {
+                let beam =
+                    DVec3::new(cos_elevation * cos_azimuth, cos_elevation * sin_azimuth, sin_elevation);
+                let true_range_m =
+                    caster.cast(pose.position, pose.world_from_sensor * beam, self.config.max_range_m);
+                let beam_key = random::key(scan_key, scan.ranges_m.len() as u64);
+                match true_range_m.and_then(|range_m| self.measure(range_m, beam_key)) {
+                    Some(range_m) => {
+                        scan.ranges_m.push(range_m as f32);
+                        scan.points.push((beam * range_m).as_vec3());
+                    }
+                    None => scan.ranges_m.push(f32::NAN),
+                }
+            }
+        }
+    }
+
+    fn measure(&self, true_range_m: f64, beam_key: u64) -> Option<f64> {
+        let config = &self.config;
+        if config.dropout_probability > 0.0
+            && random::uniform(random::key(beam_key, 1)) <= config.dropout_probability
+        {
+            return None;
+        }
+        let mut range_m = true_range_m;
+        if config.range_noise_m > 0.0 {
+            range_m += config.range_noise_m * random::gaussian(beam_key);
+        }
+        (config.min_range_m..=config.max_range_m).contains(&range_m).then_some(range_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::HeightField;
+
+    fn flat() -> Caster {
+        Caster::new(HeightField::new(401, 401, 0.25, vec![1.0; 401 * 401]).unwrap())
+    }
+
+    fn take(caster: &Caster, config: SensorConfig, seed: u64, tick: u64) -> Scan {
+        let level = Attitude { height_m: 1.0, ..Attitude::default() };
+        let pose = config.pose_on(DVec2::splat(50.0), 0.4, &level);
+        let mut scan = Scan::default();
+        Vlp16::new(config).unwrap().scan(caster, &pose, seed, tick, &mut scan);
+        scan
+    }
+
+    #[test]
+    fn level_ground_gives_the_ranges_of_trigonometry() {
+        let scan = take(&flat(), SensorConfig { range_noise_m: 0.0, ..SensorConfig::default() }, 0, 0);
+        assert_eq!(scan.ranges_m.len(), 28_800);
+        for (beam, range_m) in scan.ranges_m.iter().enumerate() {
+            let expected = 0.8 / -libm::sin(ring_elevation_rad(beam % RING_COUNT));
+            if beam % RING_COUNT < 8 {
+                assert!((f64::from(*range_m) - expected).abs() < 1e-5, "{range_m} {expected}");
+            } else {
+                assert!(range_m.is_nan());
+            }
+        }
+        // Rings -15° to -7° return inside 7 m, as the paper's occupancy surface expects.
+        let inside = scan.ranges_m[..RING_COUNT].iter().filter(|range_m| **range_m < 7.0).count();
+        assert_eq!(inside, 5);
+        assert!(scan.points.iter().all(|point| (point.z + 0.8).abs() < 1e-4));
+        // Column 0 looks straight back.
+        assert!(scan.points[0].x < -2.0 && scan.points[0].y.abs() < 1e-6);
+    }
+
+    #[test]
+    fn noise_has_the_asked_deviation_and_depends_on_seed_tick_and_beam_alone() {
+        let caster = flat();
+        let noisy = SensorConfig { range_noise_m: 0.05, ..SensorConfig::default() };
+        let truth = take(&caster, SensorConfig { range_noise_m: 0.0, ..SensorConfig::default() }, 0, 0);
+        let scan = take(&caster, noisy.clone(), 3, 5);
+        assert_eq!(scan.points, take(&caster, noisy.clone(), 3, 5).points);
+        assert_ne!(scan.points, take(&caster, noisy.clone(), 4, 5).points);
+        assert_ne!(scan.points, take(&caster, noisy.clone(), 3, 6).points);
+        let errors: Vec<f64> = scan
+            .ranges_m
+            .iter()
+            .zip(&truth.ranges_m)
+            .filter(|(noisy, _)| !noisy.is_nan())
+            .map(|(noisy, truth)| f64::from(noisy - truth))
+            .collect();
+        let count = errors.len() as f64;
+        let mean = errors.iter().sum::<f64>() / count;
+        let deviation = (errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt();
+        assert!(mean.abs() < 0.002 && (deviation - 0.05).abs() < 0.002, "{mean} {deviation}");
+        // Beams that other settings remove leave the noise of the rest unchanged.
+        let short = take(&caster, SensorConfig { max_range_m: 5.0, ..noisy }, 3, 5);
+        for (short, long) in short.ranges_m.iter().zip(&scan.ranges_m) {
+            assert!(short.is_nan() || short.to_bits() == long.to_bits());
+        }
+    }
+
+    #[test]
+    fn dropouts_take_their_share() {
+        let caster = flat();
+        let all = take(&caster, SensorConfig::default(), 1, 1).points.len() as f64;
+        let config = SensorConfig { dropout_probability: 0.3, ..SensorConfig::default() };
+        let kept = take(&caster, config, 1, 1).points.len() as f64;
+        assert!((kept / all - 0.7).abs() < 0.02, "{kept} of {all}");
+        let config = SensorConfig { dropout_probability: 1.0, ..SensorConfig::default() };
+        assert!(take(&caster, config, 1, 1).points.is_empty());
+    }
+
+    #[test]
+    fn range_limits_cut_near_and_far() {
+        let config = SensorConfig { min_range_m: 4.0, max_range_m: 10.0, ..SensorConfig::default() };
+        let scan = take(&flat(), config, 1, 1);
+        assert!(!scan.points.is_empty());
+        assert!(scan.points.iter().all(|point| (4.0..=10.0).contains(&point.length())));
+    }
+
+    #[test]
+    fn a_second_scan_allocates_nothing() {
+        let caster = flat();
+        let config = SensorConfig::default();
+        let pose =
+            config.pose_on(DVec2::splat(50.0), 0.0, &Attitude { height_m: 1.0, ..Attitude::default() });
+        let sensor = Vlp16::new(config).unwrap();
+        let mut scan = Scan::default();
+        sensor.scan(&caster, &pose, 0, 0, &mut scan);
+        let before = (scan.ranges_m.as_ptr(), scan.points.as_ptr(), scan.points.capacity());
+        sensor.scan(&caster, &pose, 0, 1, &mut scan);
+        assert_eq!(before, (scan.ranges_m.as_ptr(), scan.points.as_ptr(), scan.points.capacity()));
+    }
+
+    #[test]
+    fn a_pitched_sensor_leans_back() {
+        let config = SensorConfig { forward_m: 0.1, ..SensorConfig::default() };
+        let attitude = Attitude { height_m: 2.0, roll_rad: 0.0, pitch_rad: 0.3 };
+        let pose = config.pose_on(DVec2::new(5.0, 6.0), 0.0, &attitude);
+        let (sin, cos) = libm::sincos(0.3);
+        let expected = DVec3::new(5.0 + 0.1 * cos - 0.8 * sin, 6.0, 2.0 + 0.1 * sin + 0.8 * cos);
+        assert!(pose.position.distance(expected) < 1e-12);
+        assert!((pose.world_from_sensor * DVec3::X).z > 0.29, "nose up");
+    }
+
+    #[test]
+    fn configuration_is_checked() {
+        for (bad, field) in [
+            (SensorConfig { columns: 0, ..SensorConfig::default() }, "columns"),
+            (SensorConfig { range_noise_m: f64::NAN, ..SensorConfig::default() }, "range_noise_m"),
+            (SensorConfig { dropout_probability: 1.1, ..SensorConfig::default() }, "dropout_probability"),
+            (SensorConfig { min_range_m: 200.0, ..SensorConfig::default() }, "min_range_m"),
+            (SensorConfig { height_m: -1.0, ..SensorConfig::default() }, "height_m"),
+        ] {
+            assert_eq!(Vlp16::new(bad).unwrap_err().field, field);
+        }
+        assert!(toml::from_str::<SensorConfig>("noise = 1").is_err());
+    }
+}
