@@ -57,6 +57,7 @@ const app = new App({
     roll.limit(info.limits.roll_rad);
     pitch.limit(info.limits.pitch_rad);
     decision.session(info);
+    status.session(info);
     controls.showSession(info.scenario, info.preset, info.seed);
     controls.showFollowing(stage?.following ?? false);
     const { group, title, lesson } = entry(info.scenario);

@@ -18,7 +18,7 @@ export interface Brush {
   readonly x: number;
   readonly y: number;
   readonly radius_m: number;
-  /** Height moved at the centre; for `smooth` the part, 0 to 1, of the difference from the neighbourhood's mean. */
+  /** The largest change of a height, reached at the centre. */
   readonly strength_m: number;
   readonly kind: BrushKind;
 }
@@ -65,8 +65,6 @@ export interface SessionInfo {
   readonly sensor_height_m: number;
   /** Lattice of the variance image. */
   readonly image: { readonly columns: number; readonly rows: number };
-  /** Names of the cost terms, in the order of `Subgoal.terms`. */
-  readonly terms: readonly string[];
 }
 
 export interface Pose extends Place {
@@ -82,7 +80,7 @@ export const COLUMN_KINDS = ['ground', 'unknown', 'wall'] as const;
 export type ColumnKind = (typeof COLUMN_KINDS)[number];
 
 /** Whether subgoals may stand on a segment, and if not, why. */
-export const VERDICTS = ['valid', 'too_narrow', 'too_steep'] as const;
+export const VERDICTS = ['valid', 'too_narrow', 'too_steep', 'unknown', 'wall'] as const;
 export type Verdict = (typeof VERDICTS)[number];
 
 /** A run of neighbouring columns at one level of the skyline. */
@@ -90,13 +88,18 @@ export interface Segment {
   readonly begin_rad: number;
   /** At least `begin_rad`; beyond π where the segment crosses the azimuth behind the robot. */
   readonly end_rad: number;
+  /** NaN where unknown, and so is the height. */
   readonly elevation_rad: number;
   readonly height_m: number;
   readonly width_m: number;
   readonly verdict: Verdict;
 }
 
-/** A point on the skyline where the robot could go next. */
+/** Why a subgoal is no candidate. */
+export const REFUSALS = ['none', 'tilt', 'unseen'] as const;
+export type Refusal = (typeof REFUSALS)[number];
+
+/** A place where the robot could go next: on the skyline, or the goal itself once it is in sight. */
 export interface Subgoal {
   readonly azimuth_rad: number;
   readonly elevation_rad: number;
@@ -104,13 +107,19 @@ export interface Subgoal {
   readonly x: number;
   readonly y: number;
   readonly z: number;
-  /** Weighted cost terms, in the order of `SessionInfo.terms`; they sum to `total`. */
-  readonly terms: readonly number[];
-  readonly total: number;
   readonly chosen: boolean;
-  /** Why it may not be chosen; empty when it may. */
-  readonly refused: string;
+  readonly refusal: Refusal;
+  /** Weighted cost terms, in the order of `TERMS`; nothing for the refused and for the goal itself. */
+  readonly terms: readonly number[] | undefined;
+  /** Sum of the terms; NaN without them. */
+  readonly total: number;
 }
+
+/** Names of the cost terms. The paper has the first three. */
+export const TERMS = ['direction', 'distance', 'steepness', 'commitment', 'revisit'] as const;
+
+/** What the planner does at present. */
+export type Activity = 'driving' | 'arrived' | 'looking' | 'stopped';
 
 /** The paper's six metrics, with the names that the command line prints. */
 export interface Metrics {
@@ -126,28 +135,29 @@ export interface Metrics {
 export interface FrameBuffers {
   /** LiDAR returns in the world frame: x, y, z of `Frame.returns` points. */
   readonly points: Float32Array<ArrayBuffer>;
-  /** Predictive variance, azimuth-major: column 0 looks backwards (-π), row 0 is the lowest beam. */
+  /** Predictive variance as a share of the prior's, azimuth-major: column 0 looks backwards (-π), row 0 is the lowest. */
   readonly variance: Float32Array<ArrayBuffer>;
-  /** Elevation of the skyline in each column, in radians. */
+  /** Elevation of the skyline in each column, in radians; NaN where there is none. */
   readonly profile: Float32Array<ArrayBuffer>;
   /** Index into `COLUMN_KINDS` for each column. */
   readonly kinds: Uint8Array<ArrayBuffer>;
 }
 
-/** Everything that one planning tick saw, decided and did. */
+/** Everything that one planning tick saw, decided and did. At tick 0 there is a scan but no decision yet. */
 export interface Frame {
   readonly tick: number;
   readonly time_s: number;
   readonly outcome: Outcome;
-  /** The planner's decision, or the reason for the outcome, in words. */
-  readonly reason: string;
+  readonly activity: Activity;
+  /** Why the planner stopped, where it did. */
+  readonly stopReason: string | undefined;
   readonly pose: Pose;
   readonly v_m_s: number;
   readonly omega_rad_s: number;
   readonly command: { readonly v_m_s: number; readonly omega_rad_s: number };
   readonly returns: number;
+  /** Share of the prior variance above which space counts as free. */
   readonly threshold: number;
-  readonly prior_variance: number;
   readonly segments: readonly Segment[];
   readonly subgoals: readonly Subgoal[];
   readonly metrics: Metrics;

@@ -2,6 +2,7 @@
 
 import { terrainFile } from './catalogue.ts';
 import {
+  type Activity,
   type Brush,
   COLUMN_KINDS,
   type Frame,
@@ -12,12 +13,29 @@ import {
   type Outcome,
   type Place,
   type Preset,
+  REFUSALS,
   type Segment,
   type SessionInfo,
   type Subgoal,
+  TERMS,
   VERDICTS,
 } from './protocol.ts';
 import type { CoreModule, CoreSession } from './wasm.ts';
+
+/** Order of the scalars in `CoreSession.scene`. */
+export const SCENE = [
+  'start_x',
+  'start_y',
+  'start_heading_rad',
+  'goal_x',
+  'goal_y',
+  'roll_limit_rad',
+  'pitch_limit_rad',
+  'occupancy_radius_m',
+  'sensor_height_m',
+  'image_columns',
+  'image_rows',
+] as const;
 
 /** Order of the scalars in `CoreSession.status`. */
 export const STATUS = [
@@ -34,16 +52,13 @@ export const STATUS = [
   'command_v_m_s',
   'command_omega_rad_s',
   'threshold',
-  'prior_variance',
   'distance_m',
   'max_abs_roll_rad',
   'max_abs_pitch_rad',
   'mean_vibration_rad_s',
   'mean_elevation_rate_cm_s',
   'curvature_change_rad_m',
-  'planner_ms',
 ] as const;
-type Status = Record<(typeof STATUS)[number], number>;
 
 const SEGMENT_STRIDE = 6;
 const SUBGOAL_STRIDE = 7;
@@ -52,19 +67,26 @@ const MAX_RETURNS = 28_800;
 
 export class Session {
   readonly #core: CoreSession;
+  readonly #scenario: string;
+  readonly #preset: Preset;
   readonly #pool: FrameBuffers[] = [];
   #info: SessionInfo;
+  #planner_ms = 0;
 
   private constructor(core: CoreSession, scenario: string, preset: Preset) {
     this.#core = core;
-    this.#info = { ...JSON.parse(core.info()), scenario, preset };
+    this.#scenario = scenario;
+    this.#preset = preset;
+    this.#info = this.#readInfo();
   }
 
   static async open(core: CoreModule, scenario: string, preset: Preset, seed: number | undefined): Promise<Session> {
-    const toml = await terrainFile(`scenarios/${scenario}.toml`);
-    const path = core.terrain_of(toml);
+    const file = `scenarios/${scenario}.toml`;
+    const toml = await terrainFile(file);
+    const path = core.terrain_of(file, toml);
     const terrain = new TextEncoder().encode(await terrainFile(`scenarios/${path}`));
-    return new Session(new core.Session(toml, path, terrain, preset, seed), scenario, preset);
+    const whole = seed === undefined ? undefined : BigInt(seed);
+    return new Session(new core.Session(file, toml, path, terrain, preset, whole), scenario, preset);
   }
 
   free(): void {
@@ -83,35 +105,42 @@ export class Session {
 
   restart(): void {
     this.#core.restart();
+    this.#planner_ms = 0;
   }
 
   setGoal(goal: Place): void {
     this.#core.set_goal(goal.x, goal.y);
-    this.#info = { ...this.#info, goal };
+    this.#info = this.#readInfo();
   }
 
   setStart(start: Heading): void {
     this.#core.set_start(start.x, start.y, start.heading_rad);
-    this.#info = { ...this.#info, start };
+    this.#info = this.#readInfo();
+    this.#planner_ms = 0;
   }
 
-  sculpt(brush: Brush): GroundPatch {
-    const [column = 0, row = 0, columns = 0, rows = 0] = this.#core.sculpt(
-      brush.x,
-      brush.y,
-      brush.radius_m,
-      brush.strength_m,
-      brush.kind,
-    );
+  /** One dab; returns the new heights of the rectangle that changed, if any. */
+  sculpt(brush: Brush): GroundPatch | undefined {
+    const { x, y, radius_m, strength_m, kind } = brush;
+    const changed = this.#core.sculpt(x, y, radius_m, strength_m, kind);
+    if (!changed) return undefined;
+    // The next decision sees the new ground anyway; while paused, the scan shows it at once.
+    this.#core.look();
+    const [column = 0, row = 0, columns = 0, rows = 0] = changed;
     return { column, row, columns, rows, heights_m: own(this.#core.heights(column, row, columns, rows)) };
   }
 
-  tick(): boolean {
-    return this.#core.tick();
+  tick(): void {
+    this.#core.look();
+    const began_ms = performance.now();
+    this.#core.plan();
+    this.#planner_ms = performance.now() - began_ms;
+    this.#core.act();
   }
 
-  status(): Status {
-    return decodeStatus(this.#core.status());
+  /** The named scalars of the present state. */
+  status() {
+    return named(STATUS, this.#core.status());
   }
 
   get outcome(): Outcome {
@@ -128,24 +157,31 @@ export class Session {
     const status = this.status();
     const buffers = this.#pool.pop() ?? this.#newBuffers();
     const returns = core.points(buffers.points);
-    core.variance(buffers.variance);
-    core.profile(buffers.profile);
-    core.kinds(buffers.kinds);
+    const decided = status.tick > 0;
+    if (decided) {
+      core.variance(buffers.variance);
+      core.profile(buffers.profile);
+      core.kinds(buffers.kinds);
+    } else {
+      buffers.variance.fill(1);
+      buffers.profile.fill(Number.NaN);
+      buffers.kinds.fill(0);
+    }
     const { x, y, z, roll, pitch, yaw } = status;
     return {
       tick: status.tick,
       time_s: status.time_s,
       outcome: this.outcome,
-      reason: core.reason(),
+      activity: core.activity() as Activity,
+      stopReason: core.stop_reason(),
       pose: { x, y, z, roll, pitch, yaw },
       v_m_s: status.v_m_s,
       omega_rad_s: status.omega_rad_s,
       command: { v_m_s: status.command_v_m_s, omega_rad_s: status.command_omega_rad_s },
       returns,
       threshold: status.threshold,
-      prior_variance: status.prior_variance,
-      segments: decodeSegments(core.segments()),
-      subgoals: decodeSubgoals(core.subgoals(), this.#info.terms.length, (index) => core.refusal(index)),
+      segments: decided ? decodeSegments(core.segments()) : [],
+      subgoals: decided ? decodeSubgoals(core.subgoals()) : [],
       metrics: {
         distance_m: status.distance_m,
         max_abs_roll_rad: status.max_abs_roll_rad,
@@ -154,10 +190,25 @@ export class Session {
         mean_elevation_rate_cm_s: status.mean_elevation_rate_cm_s,
         curvature_change_rad_m: status.curvature_change_rad_m,
       },
-      planner_ms: status.planner_ms,
+      planner_ms: this.#planner_ms,
       digest: core.digest(),
       buffers,
       path,
+    };
+  }
+
+  #readInfo(): SessionInfo {
+    const scene = named(SCENE, this.#core.scene());
+    return {
+      scenario: this.#scenario,
+      preset: this.#preset,
+      seed: Number(this.#core.seed()),
+      start: { x: scene.start_x, y: scene.start_y, heading_rad: scene.start_heading_rad },
+      goal: { x: scene.goal_x, y: scene.goal_y },
+      limits: { roll_rad: scene.roll_limit_rad, pitch_rad: scene.pitch_limit_rad },
+      occupancy_radius_m: scene.occupancy_radius_m,
+      sensor_height_m: scene.sensor_height_m,
+      image: { columns: scene.image_columns, rows: scene.image_rows },
     };
   }
 
@@ -172,11 +223,12 @@ export class Session {
   }
 }
 
-export function decodeStatus(values: Float64Array): Status {
-  if (values.length !== STATUS.length) {
-    throw new Error(`The core sent ${values.length} status values; the page expects ${STATUS.length}.`);
+/** Gives the core's scalars their names. */
+export function named<Name extends string>(names: readonly Name[], values: Float64Array): Record<Name, number> {
+  if (values.length !== names.length) {
+    throw new Error(`The core sent ${values.length} numbers; the page expects ${names.length}: ${names.join(', ')}.`);
   }
-  return Object.fromEntries(STATUS.map((name, index) => [name, values[index]])) as Status;
+  return Object.fromEntries(names.map((name, index) => [name, values[index]])) as Record<Name, number>;
 }
 
 export function decodeSegments(values: Float64Array): Segment[] {
@@ -190,19 +242,21 @@ export function decodeSegments(values: Float64Array): Segment[] {
   }));
 }
 
-export function decodeSubgoals(values: Float64Array, terms: number, refusal: (index: number) => string): Subgoal[] {
-  return chunks(values, SUBGOAL_STRIDE + terms).map((chunk, index) => {
-    const [azimuth_rad = 0, elevation_rad = 0, x = 0, y = 0, z = 0, total = 0, chosen = 0] = chunk;
+export function decodeSubgoals(values: Float64Array): Subgoal[] {
+  return chunks(values, SUBGOAL_STRIDE + TERMS.length).map((chunk) => {
+    const [azimuth_rad = 0, elevation_rad = 0, x = 0, y = 0, z = 0, chosen = 0, refusal = 0] = chunk;
+    const terms = chunk.slice(SUBGOAL_STRIDE);
+    const total = terms.reduce((sum, term) => sum + term, 0);
     return {
       azimuth_rad,
       elevation_rad,
       x,
       y,
       z,
-      total,
       chosen: chosen === 1,
-      terms: chunk.slice(SUBGOAL_STRIDE),
-      refused: refusal(index),
+      refusal: at(REFUSALS, refusal),
+      terms: Number.isNaN(total) ? undefined : terms,
+      total,
     };
   });
 }

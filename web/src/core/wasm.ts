@@ -5,25 +5,28 @@
 
 export interface CoreSession {
   free(): void;
-  /** What does not change between ticks, as the JSON of a `SessionInfo` without names of files. */
-  info(): string;
+  seed(): bigint;
+  /** Scalars in the order of `SCENE` in session.ts. */
+  scene(): Float64Array;
   columns(): number;
   rows(): number;
   cell_m(): number;
   /** A rectangle of the height field, row by row from the south-west. */
   heights(column: number, row: number, columns: number, rows: number): Float32Array;
-  /** Back to the start, with the ground, the start and the goal as they are now. */
   restart(): void;
-  set_goal(x: number, y: number): void;
   set_start(x: number, y: number, heading_rad: number): void;
-  /** Returns column, row, columns and rows of the rectangle that changed. */
-  sculpt(x: number, y: number, radius_m: number, strength_m: number, kind: string): Uint32Array;
-  /** One planning tick; returns whether the trial still runs. */
-  tick(): boolean;
+  set_goal(x: number, y: number): void;
+  /** Column, row, columns and rows of the rectangle that changed. */
+  sculpt(x: number, y: number, radius_m: number, strength_m: number, kind: string): Uint32Array | undefined;
+  /** A tick is `look`, `plan`, `act`; the last returns whether the trial goes on. */
+  look(): void;
+  plan(): void;
+  act(): boolean;
   /** Scalars in the order of `STATUS` in session.ts. */
   status(): Float64Array;
   outcome(): string;
-  reason(): string;
+  activity(): string;
+  stop_reason(): string | undefined;
   digest(): string;
   /** Fills `out` with world-frame returns and returns how many points it wrote. */
   points(out: Float32Array): number;
@@ -34,20 +37,19 @@ export interface CoreSession {
   segments(): Float64Array;
   /** `SUBGOAL_STRIDE` numbers and then one for each cost term, for each subgoal. */
   subgoals(): Float64Array;
-  /** Why subgoal `index` was refused; empty when it was not. */
-  refusal(index: number): string;
 }
 
 export interface CoreModule {
   Session: new (
+    scenario_file: string,
     scenario_toml: string,
-    terrain_name: string,
+    terrain_file: string,
     terrain: Uint8Array,
     preset: string,
-    seed: number | undefined,
+    seed?: bigint | null,
   ) => CoreSession;
   /** The terrain file that a scenario names, relative to the scenario's own folder. */
-  terrain_of(scenario_toml: string): string;
+  terrain_of(scenario_file: string, scenario_toml: string): string;
 }
 
 /** Compiles and starts the core. */
@@ -55,4 +57,9 @@ export async function loadCore(): Promise<CoreModule> {
   const core = await import('../wasm/mapless_wasm.js');
   await core.default();
   return core;
+}
+
+/** What a panic in the core left behind; a trap by itself says nothing. */
+export function panicMessage(): string | undefined {
+  return (globalThis as { maplessPanic?: string }).maplessPanic;
 }

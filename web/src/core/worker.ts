@@ -3,7 +3,7 @@
 import type { Command, Frame, FromWorker, ToWorker } from './protocol.ts';
 import { TICK_RATE_HZ } from './protocol.ts';
 import { Session } from './session.ts';
-import { type CoreModule, loadCore } from './wasm.ts';
+import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
 
 /** Frames that may be on their way at once; when the page is slower than the simulation, frames are skipped. */
 const FRAMES_IN_FLIGHT = 2;
@@ -36,8 +36,9 @@ function post(message: FromWorker, transfer: Transferable[] = []): void {
 
 function fail(error: unknown, id?: number): void {
   playing = false;
-  const message = error instanceof Error ? error.message : String(error);
-  post({ type: 'failed', id, message, panicked: error instanceof WebAssembly.RuntimeError });
+  const panicked = error instanceof WebAssembly.RuntimeError;
+  const plain = error instanceof Error ? error.message : String(error);
+  post({ type: 'failed', id, message: (panicked ? panicMessage() : undefined) ?? plain, panicked });
 }
 
 function running(): Session | undefined {
@@ -155,7 +156,9 @@ async function carryOut(command: Command): Promise<void> {
       break;
     case 'sculpt': {
       const patch = session.sculpt(command.brush);
-      post({ type: 'ground', patch }, [patch.heights_m.buffer]);
+      if (patch) post({ type: 'ground', patch }, [patch.heights_m.buffer]);
+      unsent = true;
+      showIfDue();
       break;
     }
   }

@@ -5,7 +5,9 @@ import { degrees, fixed } from '../ui/format.ts';
 
 /** Part of the limit from which on the instrument warns. */
 const WARN = 0.8;
-const RADIUS = 62;
+const RADIUS = 58;
+/** The dial ends here on either side, in degrees. */
+const SPAN_DEG = 55;
 
 interface Look {
   readonly name: string;
@@ -35,9 +37,9 @@ export class AttitudeInstrument {
     this.#needle = svg('path', { class: 'instrument-needle', d: `M ${RADIUS - 9} 0 h 12 M ${9 - RADIUS} 0 h -12` });
     this.#extent = svg('path', { class: 'instrument-extent' });
     this.#limits = svg('g', { class: 'instrument-limits' });
-    const dial = svg('svg', { viewBox: '-76 -58 152 100', 'aria-hidden': 'true', class: 'instrument-dial' }, [
+    const dial = svg('svg', { viewBox: '-74 -52 148 104', 'aria-hidden': 'true', class: 'instrument-dial' }, [
       svg('path', { class: 'instrument-level', d: 'M -50 20 H 50' }),
-      svg('path', { class: 'instrument-arc', d: arc(-60, 60) }),
+      svg('path', { class: 'instrument-arc', d: arc(-SPAN_DEG, SPAN_DEG) }),
       this.#extent,
       this.#limits,
       this.#robot,
@@ -55,8 +57,8 @@ export class AttitudeInstrument {
     const limit_deg = (limit_rad * 180) / Math.PI;
     const mark = (angle_deg: number) => svg('path', { d: tick(angle_deg), class: 'instrument-limit' });
     this.#limits.replaceChildren(
-      svg('path', { class: 'instrument-forbidden', d: arc(limit_deg, 60) }),
-      svg('path', { class: 'instrument-forbidden', d: arc(-60, -limit_deg) }),
+      svg('path', { class: 'instrument-forbidden', d: arc(limit_deg, SPAN_DEG) }),
+      svg('path', { class: 'instrument-forbidden', d: arc(-SPAN_DEG, -limit_deg) }),
       mark(limit_deg),
       mark(-limit_deg),
     );
@@ -66,12 +68,12 @@ export class AttitudeInstrument {
     const turn = `rotate(${((this.#look.turn * angle_rad * 180) / Math.PI).toFixed(2)})`;
     this.#robot.setAttribute('transform', turn);
     this.#needle.setAttribute('transform', turn);
-    const reach_deg = Math.min((largest_rad * 180) / Math.PI, 60);
+    const reach_deg = Math.min((largest_rad * 180) / Math.PI, SPAN_DEG);
     this.#extent.setAttribute('d', arc(-reach_deg, reach_deg));
     const part = Math.abs(angle_rad) / this.#limit_rad;
     this.element.dataset.state = part >= 1 ? 'over' : part >= WARN ? 'near' : 'safe';
     setText(this.#value, degrees(angle_rad, 1));
-    setText(this.#note, `max ${degrees(largest_rad)} of ${degrees(this.#limit_rad)}`);
+    setText(this.#note, `max ${degrees(largest_rad)} / ${degrees(this.#limit_rad)}`);
     this.element.title = `${this.#look.name} ${fixed(angle_rad, 3)} rad, limit ${fixed(this.#limit_rad, 3)} rad`;
   }
 }

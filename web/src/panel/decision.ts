@@ -1,11 +1,14 @@
 /** Why this subgoal: the cheapest candidates with their cost, term by term. */
 
-import type { Frame, SessionInfo, Subgoal } from '../core/protocol.ts';
+import { type Frame, type SessionInfo, type Subgoal, TERMS } from '../core/protocol.ts';
+import { costColours } from '../ui/costColours.ts';
 import { html, setText } from '../ui/dom.ts';
 import { fixed } from '../ui/format.ts';
-import { costColour, css } from '../ui/scale.ts';
+import { css } from '../ui/scale.ts';
 
 const SHOWN = 5;
+/** The paper knows direction, distance and steepness. */
+const PAPER_TERMS = 3;
 
 interface Line {
   readonly row: HTMLElement;
@@ -27,7 +30,8 @@ export class DecisionPanel {
     this.#summary = summary;
   }
 
-  session({ terms }: SessionInfo): void {
+  session({ preset }: SessionInfo): void {
+    const terms = preset === 'paper' ? TERMS.slice(0, PAPER_TERMS) : TERMS;
     this.#legend.replaceChildren(
       ...terms.map((name, index) => html('li', `legend-item term-${index % 6}`, [html('i', 'legend-key'), name])),
     );
@@ -36,28 +40,25 @@ export class DecisionPanel {
   }
 
   show({ subgoals, segments }: Frame): void {
-    const allowed = subgoals.filter((one) => !one.refused).sort((a, b) => a.total - b.total);
-    const valid = segments.filter((one) => one.verdict === 'valid').length;
-    setText(
-      this.#summary,
-      `${allowed.length} ${allowed.length === 1 ? 'candidate' : 'candidates'} on ${valid} of ${segments.length} segments`,
-    );
-    const highest = allowed.at(-1)?.total ?? 1;
-    const lowest = allowed[0]?.total ?? 0;
-    const chosen = allowed.findIndex((one) => one.chosen);
-    const shown = allowed.slice(0, SHOWN);
-    const last = allowed[chosen];
-    if (chosen >= SHOWN && last) shown[SHOWN - 1] = last;
-    const longest = Math.max(...shown.map((one) => positive(one)), 1e-9);
+    const colourOf = costColours(subgoals);
+    const candidates = subgoals.filter((one) => one.terms).sort((a, b) => a.total - b.total);
+    const refused = subgoals.filter((one) => one.refusal !== 'none').length;
+    setText(this.#summary, summary(candidates.length, refused, segments));
+    const chosen = subgoals.find((one) => one.chosen);
+    const shown = candidates.slice(0, SHOWN);
+    // The choice is always in the list, also when it is the goal itself.
+    if (chosen && !shown.includes(chosen)) shown.splice(candidates.length === 0 ? 0 : SHOWN - 1, 1, chosen);
+    const longest = Math.max(...shown.map(positive), 1e-9);
     this.#lines.forEach((line, index) => {
       const one = shown[index];
       line.row.classList.toggle('is-empty', !one);
       line.row.classList.toggle('is-chosen', one?.chosen === true);
       if (!one) return;
-      line.dot.style.backgroundColor = css(costColour(one.total, lowest, highest));
-      setText(line.where, direction(one.azimuth_rad));
+      const colour = colourOf(one);
+      line.dot.style.backgroundColor = colour ? css(colour) : '';
+      setText(line.where, one.terms ? direction(one.azimuth_rad) : 'the goal');
       line.bars.forEach((bar, term) => {
-        bar.style.width = `${((100 * Math.max(one.terms[term] ?? 0, 0)) / longest).toFixed(2)}%`;
+        bar.style.width = `${((100 * Math.max(one.terms?.[term] ?? 0, 0)) / longest).toFixed(2)}%`;
       });
       setText(line.total, fixed(one.total, 2));
     });
@@ -66,10 +67,17 @@ export class DecisionPanel {
 
 /** Length of a candidate's bar: the terms that charge something. */
 function positive(one: Subgoal): number {
-  return one.terms.reduce((sum, term) => sum + Math.max(term, 0), 0);
+  return (one.terms ?? []).reduce((sum, term) => sum + Math.max(term, 0), 0);
 }
 
-function direction(azimuth_rad: number): string {
+function summary(candidates: number, refused: number, segments: Frame['segments']): string {
+  const valid = segments.filter((one) => one.verdict === 'valid').length;
+  const counted = `${candidates} ${candidates === 1 ? 'candidate' : 'candidates'}`;
+  const turnedDown = refused > 0 ? `, ${refused} refused` : '';
+  return `${counted}${turnedDown}, ${valid} of ${segments.length} segments valid`;
+}
+
+export function direction(azimuth_rad: number): string {
   const degrees = Math.round((azimuth_rad * 180) / Math.PI);
   if (degrees === 0) return 'ahead';
   return `${Math.abs(degrees)}° ${degrees > 0 ? 'left' : 'right'}`;

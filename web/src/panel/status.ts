@@ -1,8 +1,9 @@
 /** How the trial stands: outcome, clock, decision in words, and what the machine did. */
 
-import type { Frame, Outcome } from '../core/protocol.ts';
+import type { Frame, Outcome, SessionInfo } from '../core/protocol.ts';
 import { setText } from '../ui/dom.ts';
 import { clock, fixed } from '../ui/format.ts';
+import { reason } from './reason.ts';
 
 export const OUTCOME_WORDS: Record<Outcome, string> = {
   running: 'Driving',
@@ -30,19 +31,25 @@ export class StatusPanel {
   readonly #elements: StatusElements;
   #outcome: Outcome | undefined;
   #planner_ms = 0;
+  #info: SessionInfo | undefined;
 
   constructor(elements: StatusElements) {
     this.#elements = elements;
   }
 
+  session(info: SessionInfo): void {
+    this.#info = info;
+  }
+
   show(frame: Frame, playing: boolean): void {
-    const { outcome, time, speed, reason, planner, returns, digest, announcement } = this.#elements;
+    const { outcome, time, speed, planner, returns, digest, announcement } = this.#elements;
     const words = frame.outcome === 'running' && !playing ? 'Paused' : OUTCOME_WORDS[frame.outcome];
     setText(outcome, words);
     outcome.dataset.outcome = frame.outcome === 'running' && !playing ? 'paused' : frame.outcome;
     setText(time, clock(frame.time_s));
     setText(speed, `${fixed(frame.v_m_s, 2)} m/s`);
-    setText(reason, frame.reason);
+    const why = this.#info ? reason(frame, this.#info) : '';
+    setText(this.#elements.reason, why);
     // Smoothed: single ticks jump too quickly to read.
     this.#planner_ms =
       frame.tick <= 1 ? frame.planner_ms : this.#planner_ms + 0.1 * (frame.planner_ms - this.#planner_ms);
@@ -51,7 +58,7 @@ export class StatusPanel {
     setText(digest, frame.digest);
     if (this.#outcome !== frame.outcome) {
       this.#outcome = frame.outcome;
-      setText(announcement, frame.outcome === 'running' ? '' : `${words}. ${frame.reason}`);
+      setText(announcement, frame.outcome === 'running' ? '' : `${words}. ${why}`);
     }
   }
 }

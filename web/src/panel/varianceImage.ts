@@ -6,8 +6,9 @@
 
 import type { Frame, SessionInfo, Subgoal } from '../core/protocol.ts';
 import { kindOf } from '../core/session.ts';
+import { costColours } from '../ui/costColours.ts';
 import { wrap } from '../ui/format.ts';
-import { costColour, css, type Rgb, ramp } from '../ui/scale.ts';
+import { css, type Rgb, ramp } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
 
 /** The occupancy surface's limits. */
@@ -75,11 +76,10 @@ export class VarianceImage {
   #paintPixels(): void {
     const image = this.#image;
     if (!image || !this.#frame) return;
-    const { prior_variance } = this.#frame;
     const { width: columns, height: rows } = image;
     for (let column = 0; column < columns; column += 1) {
       for (let row = 0; row < rows; row += 1) {
-        const value = (this.#variance[column * rows + row] ?? 0) / prior_variance;
+        const value = this.#variance[column * rows + row] ?? 0;
         const [red, green, blue] = ramp(this.#theme.variance, value);
         // Column 0 looks backwards on the right; row 0 is the lowest beam.
         const at = 4 * ((rows - 1 - row) * columns + (columns - 1 - column));
@@ -107,7 +107,7 @@ export class VarianceImage {
     context.clip();
     context.imageSmoothingEnabled = true;
     context.imageSmoothingQuality = 'high';
-    context.drawImage(this.#pixels, plot.left, plot.top, plot.width, plot.height);
+    this.#drawPixels(plot);
     this.#drawColumns(plot);
     this.#drawProfile(plot);
     this.#drawSegments(plot, frame);
@@ -115,6 +115,16 @@ export class VarianceImage {
     this.#drawAxes(plot);
     this.#drawGoal(plot, frame);
     this.#drawSubgoals(plot, frame.subgoals);
+  }
+
+  /** Rows and columns are centred on their angles: half of each outermost one lies beyond the plot, or on its other side. */
+  #drawPixels(plot: Plot): void {
+    const { width: columns, height: rows } = this.#pixels;
+    const column = plot.width / columns;
+    const row = plot.height / (rows - 1);
+    for (const left of [plot.left + column / 2, plot.left + column / 2 - plot.width]) {
+      this.#context.drawImage(this.#pixels, left, plot.top - row / 2, plot.width, plot.height + row);
+    }
   }
 
   /** Unknown columns are hatched; walls carry a solid band along the top. */
@@ -147,7 +157,7 @@ export class VarianceImage {
     for (let begin = 0; begin < kinds.length; ) {
       let end = begin + 1;
       while (end < kinds.length && kinds[end] === kinds[begin]) end += 1;
-      visit(kindOf(kinds[begin]), -HALF_TURN + begin * step, -HALF_TURN + end * step);
+      visit(kindOf(kinds[begin]), -HALF_TURN + (begin - 0.5) * step, -HALF_TURN + (end - 0.5) * step);
       begin = end;
     }
   }
@@ -158,8 +168,8 @@ export class VarianceImage {
     const line = new Path2D();
     let drawing = false;
     this.#profile.forEach((elevation_rad, column) => {
-      const ground = kindOf(this.#kinds[column]) === 'ground';
-      const [x, y] = [plot.x(-HALF_TURN + (column + 0.5) * step), plot.y(elevation_rad)];
+      const ground = !Number.isNaN(elevation_rad);
+      const [x, y] = [plot.x(-HALF_TURN + column * step), plot.y(elevation_rad)];
       if (ground && drawing) line.lineTo(x, y);
       else if (ground) line.moveTo(x, y);
       drawing = ground;
@@ -176,6 +186,7 @@ export class VarianceImage {
   #drawSegments(plot: Plot, frame: Frame): void {
     const context = this.#context;
     for (const segment of frame.segments) {
+      if (Number.isNaN(segment.elevation_rad)) continue;
       const valid = segment.verdict === 'valid';
       context.strokeStyle = valid ? css(this.#theme.ink) : css(this.#theme.danger);
       context.lineWidth = valid ? 2.5 : 2;
@@ -196,15 +207,14 @@ export class VarianceImage {
 
   #drawSubgoals(plot: Plot, subgoals: readonly Subgoal[]): void {
     const context = this.#context;
-    const totals = subgoals.filter((one) => !one.refused).map((one) => one.total);
-    const [lowest, highest] = [Math.min(...totals), Math.max(...totals)];
+    const colourOf = costColours(subgoals);
     const ordered = [...subgoals].sort((a, b) => Number(a.chosen) - Number(b.chosen));
     for (const one of ordered) {
       const [x, y] = [plot.x(wrap(one.azimuth_rad)), plot.y(one.elevation_rad)];
-      const radius = one.chosen ? 7 : one.refused ? 3.2 : 5;
+      const radius = one.chosen ? 7 : colourOf(one) ? 5 : 3.2;
       context.beginPath();
       context.arc(x, y, radius, 0, 2 * Math.PI);
-      context.fillStyle = one.refused ? css(this.#theme.muted) : css(costColour(one.total, lowest, highest));
+      context.fillStyle = css(colourOf(one) ?? this.#theme.muted);
       context.fill();
       context.lineWidth = 1.5;
       context.strokeStyle = '#0d1014';

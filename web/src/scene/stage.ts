@@ -30,8 +30,8 @@ import { SUN } from './sunlight.ts';
 const FIELD_OF_VIEW_DEG = 42;
 /** Slower frames than this, on average, lower the resolution. */
 const SLOW_FRAME_MS = 45;
-const FOLLOW_DISTANCE_M = 15;
-const FOLLOW_ELEVATION_RAD = 0.52;
+const FOLLOW_DISTANCE_M = 17;
+const FOLLOW_ELEVATION_RAD = 0.45;
 
 export class Stage {
   readonly #canvas: HTMLCanvasElement;

@@ -16,7 +16,7 @@ import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import type { Subgoal } from '../core/protocol.ts';
-import { costColour } from '../ui/scale.ts';
+import { costColours } from '../ui/costColours.ts';
 import type { Theme } from '../ui/theme.ts';
 import { colour } from './relief.ts';
 
@@ -59,16 +59,16 @@ export class Subgoals {
   }
 
   show(subgoals: readonly Subgoal[], groundHeight: (x: number, y: number) => number): void {
-    const totals = subgoals.filter((one) => !one.refused).map((one) => one.total);
-    const [lowest, highest] = [Math.min(...totals), Math.max(...totals)];
+    const colourOf = costColours(subgoals);
     const shown = subgoals.slice(0, CAPACITY);
     shown.forEach((one, index) => {
-      const radius_m = one.chosen ? 0.26 : one.refused ? 0.1 : 0.17;
+      const cost = colourOf(one);
+      const radius_m = one.chosen ? 0.26 : cost ? 0.17 : 0.1;
       // Half-sunk markers would look smaller than they are: each stands on the ground or on its own height above it.
       const z = Math.max(one.z, groundHeight(one.x, one.y) + radius_m);
       this.#matrix.makeScale(radius_m, radius_m, radius_m).setPosition(one.x, one.y, z);
       this.#spheres.setMatrixAt(index, this.#matrix);
-      this.#spheres.setColorAt(index, one.refused ? REFUSED : colour(costColour(one.total, lowest, highest)));
+      this.#spheres.setColorAt(index, cost ? colour(cost) : REFUSED);
       const rim_m = radius_m + 0.035;
       this.#matrix.makeScale(rim_m, rim_m, rim_m).setPosition(one.x, one.y, z);
       this.#rims.setMatrixAt(index, this.#matrix);

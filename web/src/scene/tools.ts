@@ -14,7 +14,7 @@ export interface ToolActions {
 
 /** Height moved per dab, as a part of the brush's radius. */
 const STRENGTH = 0.035;
-const SMOOTHING = 0.25;
+const SMOOTHING_M = 0.12;
 const DAB_INTERVAL_MS = 40;
 const CURSOR_STEP_M = 0.5;
 /** A start dragged less than this keeps the direction of view as its heading. */
@@ -159,7 +159,7 @@ export class GroundTools {
   #dab(): void {
     if (!this.#cursor || !isBrush(this.#tool)) return;
     this.#lastDab_ms = performance.now();
-    const strength_m = this.#tool === 'smooth' ? SMOOTHING : STRENGTH * this.#radius_m;
+    const strength_m = this.#tool === 'smooth' ? SMOOTHING_M : STRENGTH * this.#radius_m;
     const { x, y } = this.#cursor;
     this.#actions.sculpt({ x, y, radius_m: this.#radius_m, strength_m, kind: this.#tool });
   }

@@ -1,0 +1,69 @@
+//! Planner results as flat arrays.
+
+use mapless::profile::Column;
+use mapless::segments::{Segment, Verdict};
+use mapless::subgoals::{Refusal, Subgoal};
+
+/// Begin and end azimuth (the end not wrapped), elevation, height, width, verdict. What is unknown is NaN.
+pub(crate) fn segment(segment: &Segment) -> [f64; 6] {
+    let verdict = match segment.verdict {
+        Verdict::Valid => 0.0,
+        Verdict::TooNarrow => 1.0,
+        Verdict::TooSteep => 2.0,
+        Verdict::Unknown => 3.0,
+        Verdict::Wall => 4.0,
+    };
+    [
+        segment.begin_rad,
+        segment.begin_rad + segment.extent_rad,
+        segment.elevation_rad.unwrap_or(f64::NAN),
+        segment.height_m.unwrap_or(f64::NAN),
+        segment.width_m,
+        verdict,
+    ]
+}
+
+/// Azimuth and elevation in the sensor frame, world x, y, z, chosen (0 or 1), refusal (0 none, 1 tilt, 2 unseen), the
+/// cost's terms: direction, distance, steepness, commitment, revisit. Without a cost the terms are NaN.
+pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 12] {
+    let refusal = match subgoal.refusal {
+        None => 0.0,
+        Some(Refusal::Tilt) => 1.0,
+        Some(Refusal::Unseen) => 2.0,
+    };
+    let terms = subgoal
+        .cost
+        .map_or([f64::NAN; 5], |c| [c.direction, c.distance, c.steepness, c.commitment, c.revisit]);
+    let position = subgoal.position_m;
+    [
+        subgoal.azimuth_rad,
+        subgoal.elevation_rad,
+        position.x,
+        position.y,
+        position.z,
+        f64::from(u8::from(chosen)),
+        refusal,
+        terms[0],
+        terms[1],
+        terms[2],
+        terms[3],
+        terms[4],
+    ]
+}
+
+/// 0 ground, 1 unknown, 2 wall.
+pub(crate) fn column_kind(column: &Column) -> u8 {
+    match column {
+        Column::Ground { .. } => 0,
+        Column::Unknown => 1,
+        Column::Wall => 2,
+    }
+}
+
+/// The skyline's elevation, NaN where there is none.
+pub(crate) fn column_elevation_rad(column: &Column) -> f32 {
+    match column {
+        Column::Ground { elevation_rad } => *elevation_rad as f32,
+        Column::Unknown | Column::Wall => f32::NAN,
+    }
+}
