@@ -186,6 +186,7 @@ impl HeightField {
     }
 
     /// The patch of cell (column, row); the cell must exist.
+    #[inline]
     pub(crate) fn patch(&self, column: usize, row: usize) -> Patch {
         let south = row * self.columns + column;
         let north = south + self.columns;

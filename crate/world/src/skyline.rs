@@ -1,8 +1,7 @@
 //! The true elevation profile of the ground around a sensor, against which perception is judged.
 
-use crate::caster::Caster;
+use crate::caster::{Caster, Fan};
 use crate::vlp16::{RING_COUNT, SensorPose, ring_elevation_rad};
-use glam::DVec3;
 
 /// What a sensor would see at one azimuth if its beams were infinitely dense.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,23 +27,28 @@ const HALVINGS: usize = 13;
 #[must_use]
 pub fn true_skyline(caster: &Caster, pose: &SensorPose, radius_m: f64, azimuth_rad: f64) -> Skyline {
     let (sin_azimuth, cos_azimuth) = libm::sincos(azimuth_rad);
-    let hits = |elevation_rad: f64| {
+    let mut fan = Fan::new(caster, pose, sin_azimuth, cos_azimuth);
+    let hits = |fan: &mut Fan, elevation_rad: f64| {
         let (sin, cos) = libm::sincos(elevation_rad);
-        let beam = DVec3::new(cos * cos_azimuth, cos * sin_azimuth, sin);
-        caster.cast(pose.position, pose.world_from_sensor * beam, radius_m).is_some()
+        fan.cast(sin, cos, radius_m).is_some()
     };
     let (lowest, highest) = (ring_elevation_rad(0), ring_elevation_rad(RING_COUNT - 1));
-    if hits(highest) {
+    let step = (highest - lowest) / COARSE_STEPS as f64;
+    let mut last_hit = None;
+    for index in 0..=COARSE_STEPS {
+        if hits(&mut fan, lowest + index as f64 * step) {
+            last_hit = Some((index, fan.clone()));
+        }
+    }
+    let Some((index, fan)) = last_hit else { return Skyline::Unknown };
+    if index == COARSE_STEPS {
         return Skyline::Wall;
     }
-    let step = (highest - lowest) / COARSE_STEPS as f64;
-    let Some(below) = (0..COARSE_STEPS).rev().find(|&i| hits(lowest + i as f64 * step)) else {
-        return Skyline::Unknown;
-    };
-    let (mut ground, mut sky) = (lowest + below as f64 * step, lowest + (below + 1) as f64 * step);
+    let mut ground = lowest + index as f64 * step;
+    let mut sky = ground + step;
     for _ in 0..HALVINGS {
         let middle = (ground + sky) / 2.0;
-        if hits(middle) { ground = middle } else { sky = middle }
+        if hits(&mut fan.clone(), middle) { ground = middle } else { sky = middle }
     }
     Skyline::Ground { elevation_rad: ground }
 }

@@ -1,7 +1,7 @@
 //! A Velodyne VLP-16: 16 rings from -15° to +15°, one revolution per scan.
 
 use crate::attitude::{Attitude, world_from_body};
-use crate::caster::Caster;
+use crate::caster::{Caster, Fan};
 use crate::config::{ConfigError, within};
 use crate::random;
 use glam::{DMat3, DVec2, DVec3, Vec3};
@@ -136,14 +136,17 @@ impl Vlp16 {
         scan.points.reserve(beams);
         let scan_key = random::key(seed, tick);
         for &(sin_azimuth, cos_azimuth) in &self.azimuths {
+            let mut fan = Fan::new(caster, pose, sin_azimuth, cos_azimuth);
             for &(sin_elevation, cos_elevation) in &self.elevations {
-                let beam =
-                    DVec3::new(cos_elevation * cos_azimuth, cos_elevation * sin_azimuth, sin_elevation);
-                let true_range_m =
-                    caster.cast(pose.position, pose.world_from_sensor * beam, self.config.max_range_m);
+                let true_range_m = fan.cast(sin_elevation, cos_elevation, self.config.max_range_m);
                 let beam_key = random::key(scan_key, scan.ranges_m.len() as u64);
                 match true_range_m.and_then(|range_m| self.measure(range_m, beam_key)) {
                     Some(range_m) => {
+                        let beam = DVec3::new(
+                            cos_elevation * cos_azimuth,
+                            cos_elevation * sin_azimuth,
+                            sin_elevation,
+                        );
                         scan.ranges_m.push(range_m as f32);
                         scan.points.push((beam * range_m).as_vec3());
                     }

@@ -5,6 +5,7 @@
 //! step; in a single cell the meeting with the bilinear patch is the first root of a quadratic. A ray starts above
 //! the ground and must cross it from above, so the lowest points of the nodes would decide nothing and are not kept.
 
+mod fan;
 mod patch;
 mod pyramid;
 
@@ -13,6 +14,8 @@ use crate::height_field::HeightField;
 use crate::sculpt::{Brush, SampleRect};
 use glam::DVec3;
 use pyramid::Pyramid;
+
+pub(crate) use fan::Fan;
 
 /// A height field prepared for ray casting.
 ///
@@ -32,6 +35,15 @@ struct GridRay {
     z_step: f64,
 }
 
+/// What a stretch of a ray meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Trace {
+    /// The ground, at this distance in metres.
+    Ground(f64),
+    /// Nothing up to this distance in metres, where the stretch, the terrain or all chance of ground ends.
+    Nothing(f64),
+}
+
 /// Where a ray stands: parameter, cell, and level of the hierarchy.
 struct Cursor {
     t: f64,
@@ -39,8 +51,8 @@ struct Cursor {
     level: usize,
 }
 
-/// The level at which a walk begins: sensors stand about a metre above the ground, where large nodes never clear it.
-const FIRST_LEVEL: usize = 2;
+/// The level at which a walk begins: rays begin close above the ground, where large nodes are never clear.
+const FIRST_LEVEL: usize = 1;
 
 impl Caster {
     /// Builds the hierarchy over a field.
@@ -81,8 +93,16 @@ impl Caster {
     /// sees it from outside, but not through the cut below its border; a non-finite ray has no return.
     #[must_use]
     pub fn cast(&self, origin: DVec3, direction: DVec3, max_range_m: f64) -> Option<f64> {
-        if !(origin.is_finite() && direction.is_finite() && max_range_m >= 0.0) {
-            return None;
+        match self.trace(origin, direction, 0.0, max_range_m) {
+            Trace::Ground(range_m) => Some(range_m),
+            Trace::Nothing(_) => None,
+        }
+    }
+
+    /// The first ground on a ray from `begin_m` to `end_m`; before `begin_m` the ray must be known to be free.
+    fn trace(&self, origin: DVec3, direction: DVec3, begin_m: f64, end_m: f64) -> Trace {
+        if !(origin.is_finite() && direction.is_finite() && end_m >= begin_m) {
+            return Trace::Nothing(begin_m);
         }
         let inverse_cell = 1.0 / self.field.cell_m();
         let step = [direction.x * inverse_cell, direction.y * inverse_cell];
@@ -94,10 +114,12 @@ impl Caster {
             z_step: direction.z,
         };
         let cells = [self.field.columns() - 1, self.field.rows() - 1];
-        let (mut begin, mut end) = ray.clip(cells, max_range_m)?;
-        let cell = ray.cell_at(begin, cells);
-        if ray.clearance(&self.field, cell, begin) < 0.0 {
-            return None;
+        let Some((mut begin, mut end)) = ray.clip(cells, begin_m, end_m) else {
+            return Trace::Nothing(begin_m);
+        };
+        let starts_below = || ray.clearance(&self.field, ray.cell_at(begin, cells), begin) < 0.0;
+        if begin_m <= 0.0 && starts_below() {
+            return Trace::Nothing(begin);
         }
         // Above the highest point there is nothing to hit.
         let ceiling = (self.pyramid.highest() - ray.z_m) / ray.z_step;
@@ -107,11 +129,14 @@ impl Caster {
             end = end.min(ceiling);
         }
         if begin > end {
-            return None;
+            return Trace::Nothing(end);
         }
-        let cell = ray.cell_at(begin, cells);
-        let level = FIRST_LEVEL.min(self.pyramid.top());
-        self.walk(&ray, Cursor { t: begin, cell, level }, end, cells)
+        let start =
+            Cursor { t: begin, cell: ray.cell_at(begin, cells), level: FIRST_LEVEL.min(self.pyramid.top()) };
+        match self.walk(&ray, start, end, cells) {
+            Some(range_m) => Trace::Ground(range_m),
+            None => Trace::Nothing(end),
+        }
     }
 
     fn walk(&self, ray: &GridRay, mut at: Cursor, end: f64, cells: [usize; 2]) -> Option<f64> {
@@ -163,9 +188,8 @@ impl Caster {
 }
 
 impl GridRay {
-    /// The part of the ray over the terrain and within range.
-    fn clip(&self, cells: [usize; 2], max_range_m: f64) -> Option<(f64, f64)> {
-        let (mut begin, mut end) = (0.0f64, max_range_m);
+    /// The part of the ray from `begin` to `end` that is over the terrain.
+    fn clip(&self, cells: [usize; 2], mut begin: f64, mut end: f64) -> Option<(f64, f64)> {
         for (axis, &count) in cells.iter().enumerate() {
             let side = count as f64;
             if self.step[axis].abs() > 0.0 {

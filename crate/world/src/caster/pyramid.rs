@@ -1,4 +1,4 @@
-//! A pyramid of the highest points of square groups of cells.
+//! A pyramid of the highest points of square groups of cells, and the steepest slope of the field.
 
 use crate::height_field::HeightField;
 use crate::sculpt::SampleRect;
@@ -8,6 +8,9 @@ use crate::sculpt::SampleRect;
 #[derive(Clone, Debug)]
 pub(super) struct Pyramid {
     levels: Vec<Level>,
+    /// A bound of the slope (rise over run) in each row of cells.
+    row_slopes: Vec<f64>,
+    steepest: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -26,7 +29,7 @@ impl Pyramid {
             rows = rows.div_ceil(2);
             levels.push(Level { columns, rows, max_m: vec![0.0; columns * rows] });
         }
-        let mut pyramid = Self { levels };
+        let mut pyramid = Self { levels, row_slopes: vec![0.0; field.rows() - 1], steepest: 0.0 };
         let all =
             SampleRect { column_begin: 0, column_end: field.columns(), row_begin: 0, row_end: field.rows() };
         pyramid.update(field, all);
@@ -43,6 +46,11 @@ impl Pyramid {
         self.max(self.top(), [0, 0])
     }
 
+    /// A bound of the slope (rise over run) of the whole field.
+    pub(super) fn steepest(&self) -> f64 {
+        self.steepest
+    }
+
     /// The highest point of a node, in metres; level 1 and above.
     pub(super) fn max(&self, level: usize, node: [usize; 2]) -> f64 {
         let level = &self.levels[level - 1];
@@ -54,6 +62,10 @@ impl Pyramid {
         // A sample belongs to the cells on both its sides.
         let mut columns = (changed.column_begin.saturating_sub(1), changed.column_end - 1);
         let mut rows = (changed.row_begin.saturating_sub(1), changed.row_end - 1);
+        for row in rows.0..=rows.1.min(self.row_slopes.len() - 1) {
+            self.row_slopes[row] = slope_bound(field, row);
+        }
+        self.steepest = self.row_slopes.iter().fold(0.0, |steepest, &slope| steepest.max(slope));
         for index in 0..self.levels.len() {
             let (below, above) = self.levels.split_at_mut(index);
             let level = &mut above[0];
@@ -71,6 +83,22 @@ impl Pyramid {
             }
         }
     }
+}
+
+/// A bound of the slope in a row of cells: each component of a patch's gradient lies between those of its edges.
+fn slope_bound(field: &HeightField, row: usize) -> f64 {
+    let columns = field.columns();
+    let (south, north) = field.heights_m()[row * columns..(row + 2) * columns].split_at(columns);
+    let mut largest = 0.0f32;
+    for column in 0..columns - 1 {
+        let east_rise =
+            (south[column + 1] - south[column]).abs().max((north[column + 1] - north[column]).abs());
+        let north_rise =
+            (north[column] - south[column]).abs().max((north[column + 1] - south[column + 1]).abs());
+        largest = largest.max(east_rise * east_rise + north_rise * north_rise);
+    }
+    // The sums above are rounded to f32.
+    f64::from(largest).sqrt() * (1.0 + 1e-6) / field.cell_m()
 }
 
 /// The highest of `side` × `side` values from twice the index of `node`, cut at the border.
@@ -116,6 +144,15 @@ mod tests {
         }
 
         #[test]
+        fn no_point_is_steeper_than_the_bound(
+            heights in prop::collection::vec(-1.0f32..1.0, 25), x in 0.0..2.0f64, y in 0.0..2.0f64,
+        ) {
+            let field = HeightField::new(5, 5, 0.5, heights).unwrap();
+            let gradient = field.gradient(DVec2::new(x, y)).unwrap();
+            prop_assert!(gradient.length() <= Pyramid::new(&field).steepest());
+        }
+
+        #[test]
         fn sculpting_leaves_the_pyramid_as_if_built_anew(
             x in -2.0..40.0f64, y in -2.0..30.0f64, radius_m in 0.1..12.0f64, lower in any::<bool>(),
         ) {
@@ -124,6 +161,7 @@ mod tests {
             let kind = if lower { BrushKind::Lower } else { BrushKind::Raise };
             caster.sculpt(&Brush { centre: DVec2::new(x, y), radius_m, strength_m: 9.0, kind }).unwrap();
             let anew = Pyramid::new(caster.field());
+            prop_assert_eq!(caster.pyramid.steepest(), anew.steepest());
             for (updated, built) in caster.pyramid.levels.iter().zip(&anew.levels) {
                 prop_assert_eq!(&updated.max_m, &built.max_m);
             }
