@@ -93,12 +93,19 @@ pub struct ForecastConfig {
     pub step_m: f64,
     /// Share of the tilt limits that a forecast may use up.
     pub max_limit_share: f64,
+    /// Share of the whole inclination that counts as roll, because the robot may have to turn there: 1 keeps every place
+    /// safe for every heading, 0 trusts the heading of the path.
+    pub turning_share: f64,
+    /// Distance over which a robot that stands on steeper ground than a forecast may use is let off it, metres.
+    pub escape_m: f64,
     /// Standard deviations of the predicted tilt added to it before it is compared.
     pub deviations: f64,
     /// Unseen ground bridged on the way, metres.
     pub max_gap_m: f64,
     /// Unseen ground bridged next to the robot, where no beam reaches, metres.
     pub blind_radius_m: f64,
+    /// How far before steep or unseen ground a subgoal is placed, metres.
+    pub clearance_m: f64,
     /// A subgoal is refused when the forecast reaches less far than this, metres.
     pub min_reach_m: f64,
 }
@@ -214,7 +221,7 @@ impl Default for SegmentConfig {
 
 impl Default for GroundConfig {
     fn default() -> Self {
-        Self { cell_m: 0.2, memory_ticks: 300 }
+        Self { cell_m: 0.2, memory_ticks: 600 }
     }
 }
 
@@ -223,10 +230,13 @@ impl Default for ForecastConfig {
         Self {
             step_m: 0.5,
             max_limit_share: 0.8,
+            turning_share: 0.9,
+            escape_m: 2.5,
             deviations: 1.0,
             max_gap_m: 1.0,
-            blind_radius_m: 3.5,
-            min_reach_m: 1.5,
+            blind_radius_m: 4.5,
+            clearance_m: 0.7,
+            min_reach_m: 1.0,
         }
     }
 }
@@ -358,9 +368,12 @@ impl ForecastConfig {
         positive(self.step_m, place, "step_m")?;
         let share = self.max_limit_share;
         require(share > 0.0 && share <= 1.0, place, "max_limit_share", share, "a share between 0 and 1")?;
+        not_negative(self.turning_share, place, "turning_share")?;
+        not_negative(self.escape_m, place, "escape_m")?;
         not_negative(self.deviations, place, "deviations")?;
         not_negative(self.max_gap_m, place, "max_gap_m")?;
         not_negative(self.blind_radius_m, place, "blind_radius_m")?;
+        not_negative(self.clearance_m, place, "clearance_m")?;
         not_negative(self.min_reach_m, place, "min_reach_m")
     }
 }

@@ -6,7 +6,7 @@ use crate::config::{CostModel, PlannerConfig};
 use crate::controller::{Command, Controller};
 use crate::cost::{self, Situation};
 use crate::error::ConfigError;
-use crate::forecast::{ReachEnd, forecast};
+use crate::forecast::{ReachEnd, Standing, forecast};
 use crate::ground::Ground;
 use crate::occupancy::{LOWEST_ELEVATION_RAD, OccupancySurface, column_of};
 use crate::perception::{Perception, PredictedSurface};
@@ -336,15 +336,8 @@ impl Planner {
 fn look_along(subgoal: &mut Subgoal, ground: &Ground, config: &PlannerConfig, pose: &Pose, length_m: f64) {
     let (sin, cos) = libm::sincos(pose.yaw_rad + subgoal.bearing_rad);
     let direction = DVec2::new(cos, sin);
-    let found = forecast(
-        ground,
-        &config.forecast,
-        &config.limits,
-        pose.plan_m(),
-        pose.position_m.z,
-        direction,
-        length_m,
-    );
+    let standing = Standing { pose, direction };
+    let found = forecast(ground, &config.forecast, &config.limits, &standing, length_m);
     subgoal.position_m = (pose.plan_m() + direction * found.reach_m).extend(found.reach_height_m);
     subgoal.refusal = match found.end {
         _ if found.reach_m >= config.forecast.min_reach_m => None,
