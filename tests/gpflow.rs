@@ -144,8 +144,8 @@ fn within(place: &str, what: &str, ours: &[f64], theirs: &[f64], tolerance: f64)
         return Err(format!("{place}: {} values of {what}, gpflow has {}", ours.len(), theirs.len()));
     }
     for (index, (a, b)) in ours.iter().zip(theirs).enumerate() {
-        // Also refuses NaN.
-        if !((a - b).abs() <= tolerance) {
+        // NaN is never within.
+        if (a - b).abs().partial_cmp(&tolerance).is_none_or(std::cmp::Ordering::is_gt) {
             return Err(format!(
                 "{place}: {what}[{index}] = {a:e}, gpflow has {b:e} (tolerance {tolerance:e})"
             ));

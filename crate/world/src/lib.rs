@@ -17,7 +17,7 @@ mod height_field;
 mod husky;
 mod import;
 mod random;
-mod recipe;
+pub mod recipe;
 mod sculpt;
 mod skyline;
 mod terrain;

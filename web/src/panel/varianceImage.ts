@@ -211,7 +211,8 @@ export class VarianceImage {
     const ordered = [...subgoals].sort((a, b) => Number(a.chosen) - Number(b.chosen));
     for (const one of ordered) {
       const [x, y] = [plot.x(wrap(one.azimuth_rad)), plot.y(one.elevation_rad)];
-      const radius = one.chosen ? 7 : colourOf(one) ? 5 : 3.2;
+      const scale = plot.width < 460 ? 0.8 : 1;
+      const radius = scale * (one.chosen ? 7 : colourOf(one) ? 5 : 3.2);
       context.beginPath();
       context.arc(x, y, radius, 0, 2 * Math.PI);
       context.fillStyle = css(colourOf(one) ?? this.#theme.muted);

@@ -21,7 +21,7 @@ const WHEEL_WIDTH_M = 0.115;
 
 const material = (colour: number, roughness: number, metalness = 0) =>
   new MeshStandardMaterial({ color: colour, roughness, metalness, flatShading: true });
-const YELLOW = material(0xf0b90b, 0.55);
+const YELLOW = material(0xffc414, 0.5);
 const BLACK = material(0x17191c, 0.75);
 const DARK = material(0x2a2e33, 0.7);
 const STEEL = material(0x9aa3ad, 0.35, 0.6);

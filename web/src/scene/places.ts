@@ -16,9 +16,13 @@ import { colour } from './relief.ts';
 
 type Height = (x: number, y: number) => number;
 
+/** A beam over the goal shows above the hills in between. */
+const BEAM_M = 12;
+
 export class Places {
   readonly group = new Group();
   readonly #goalLook = new MeshBasicMaterial({ side: DoubleSide });
+  readonly #beamLook = new MeshBasicMaterial({ transparent: true, opacity: 0.3, depthWrite: false });
   readonly #poleLook = new MeshBasicMaterial();
   readonly #startLook = new MeshBasicMaterial({ side: DoubleSide });
   readonly #goal = new Group();
@@ -33,12 +37,14 @@ export class Places {
     const cloth = new BufferGeometry();
     cloth.setAttribute('position', new Float32BufferAttribute([0, 0, 3.4, 0, 0, 2.3, 1.5, 0, 2.85], 3));
     const ring = new Mesh(new RingGeometry(0.55, 0.68, 40).translate(0, 0, 0.12), this.#goalLook);
-    this.#goal.add(pole, new Mesh(cloth, this.#goalLook), ring);
+    const beam = new Mesh(new CylinderGeometry(0.14, 0.14, BEAM_M, 12, 1, true).rotateX(Math.PI / 2), this.#beamLook);
+    beam.position.z = BEAM_M / 2;
+    this.#goal.add(beam, pole, new Mesh(cloth, this.#goalLook), ring);
     const arrow = new BufferGeometry();
     arrow.setAttribute(
       'position',
       new Float32BufferAttribute(
-        [0.85, 0, 0.14, -0.5, 0.5, 0.14, -0.22, 0, 0.14, 0.85, 0, 0.14, -0.22, 0, 0.14, -0.5, -0.5, 0.14],
+        [0.6, 0, 0.14, -0.35, 0.35, 0.14, -0.15, 0, 0.14, 0.6, 0, 0.14, -0.15, 0, 0.14, -0.35, -0.35, 0.14],
         3,
       ),
     );
@@ -48,6 +54,7 @@ export class Places {
 
   theme(theme: Theme): void {
     this.#goalLook.color.copy(colour(theme.goal));
+    this.#beamLook.color.copy(colour(theme.goal));
     this.#poleLook.color.copy(colour(theme.ink));
     this.#startLook.color.copy(colour(theme.ink));
   }

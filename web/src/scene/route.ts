@@ -10,7 +10,7 @@ import { colour } from './relief.ts';
 /** Points are kept at this distance, so that the longest trials fit. */
 const SPACING_M = 0.15;
 const CAPACITY = 8192;
-const LIFT_M = 0.05;
+const LIFT_M = 0.07;
 
 export class Route {
   readonly line: LineSegments2;
@@ -53,7 +53,6 @@ export class Route {
       this.#count += 1;
     }
     if (this.#count === first) return;
-    this.#buffer.clearUpdateRanges();
     this.#buffer.addUpdateRange(6 * first, 6 * (this.#count - first));
     this.#buffer.needsUpdate = true;
     this.line.geometry.instanceCount = this.#count;

@@ -30,7 +30,7 @@ import { SUN } from './sunlight.ts';
 const FIELD_OF_VIEW_DEG = 42;
 /** Slower frames than this, on average, lower the resolution. */
 const SLOW_FRAME_MS = 45;
-const FOLLOW_DISTANCE_M = 17;
+const FOLLOW_DISTANCE_M = 14.5;
 const FOLLOW_ELEVATION_RAD = 0.45;
 
 export class Stage {
@@ -74,9 +74,9 @@ export class Stage {
     this.#controls.enableDamping = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
     this.#controls.dampingFactor = 0.12;
     this.#controls.addEventListener('change', () => this.invalidate());
-    const sun = new DirectionalLight(0xfff3df, 2.9);
+    const sun = new DirectionalLight(0xfff3df, 3.2);
     sun.position.set(...SUN);
-    this.#scene.add(new AmbientLight(0xc8d6ee, 1.5), sun);
+    this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
     this.#scene.add(this.#route.line, this.#returns.points, this.#subgoals.group, this.#places.group);
     this.theme(theme);
     new ResizeObserver(() => this.#resize()).observe(canvas);
@@ -135,6 +135,8 @@ export class Stage {
     const { pose, tick, buffers, returns } = frame;
     if (tick === 0) this.#route.clear();
     this.#route.extend(frame.path);
+    // Where drawing is slower than ticking, the robot has glided on since it was last drawn.
+    this.#glide();
     const jump = !this.#to || tick === 0 || Math.hypot(pose.x - this.#to.x, pose.y - this.#to.y) > 3;
     this.#from = jump ? pose : (this.#shown ?? pose);
     this.#to = pose;

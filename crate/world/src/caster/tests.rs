@@ -23,7 +23,8 @@ fn brute_force(field: &HeightField, origin: DVec3, direction: DVec3, max_range_m
             let quadratic = -k * du * dv;
             let linear = direction.z - a * du - b * dv - k * (u * dv + v * du);
             let constant = origin.z - h00 - a * u - b * v - k * u * v;
-            let roots = if quadratic.abs() < 1e-12 {
+            // The textbook form loses its digits where the quadratic is nearly linear.
+            let roots = if (quadratic * constant).abs() < 1e-9 * linear * linear {
                 [-constant / linear; 2]
             } else {
                 let root = (linear * linear - 4.0 * quadratic * constant).sqrt();

@@ -60,6 +60,8 @@
 //! height_min_m = -2.0            # of black, and of white; PNG only, both or neither
 //! height_max_m = 8.0
 //! ```
+//!
+//! Every other key is an error, and so is a value outside its range; messages count tables and points from 1.
 
 mod canvas;
 mod check;
