@@ -81,6 +81,9 @@ pub struct SegmentConfig {
 pub struct GroundConfig {
     /// Side of a cell, metres.
     pub cell_m: f64,
+    /// Returns within this range are remembered, metres. It reaches a little beyond r_oc, so that a robot on a knoll,
+    /// which hides what is nearer, knows where the ground goes on.
+    pub radius_m: f64,
     /// Steps after which ground not seen again is forgotten.
     pub memory_ticks: u64,
 }
@@ -201,9 +204,9 @@ impl Default for PerceptionConfig {
             surface_radius_m: 7.0,
             kernel: RationalQuadratic::default(),
             noise_variance_m2: 1.0,
-            inducing_spacing_length_scales: 0.8,
+            inducing_spacing_length_scales: 0.85,
             max_inducing_inputs: 1000,
-            variance_threshold: 0.2,
+            variance_threshold: 0.22,
         }
     }
 }
@@ -221,7 +224,7 @@ impl Default for SegmentConfig {
 
 impl Default for GroundConfig {
     fn default() -> Self {
-        Self { cell_m: 0.2, memory_ticks: 600 }
+        Self { cell_m: 0.2, radius_m: 9.0, memory_ticks: 600 }
     }
 }
 
@@ -234,7 +237,7 @@ impl Default for ForecastConfig {
             escape_m: 2.5,
             deviations: 1.0,
             max_gap_m: 1.0,
-            blind_radius_m: 4.5,
+            blind_radius_m: 7.5,
             clearance_m: 0.7,
             min_reach_m: 1.0,
         }
@@ -311,7 +314,7 @@ impl PlannerConfig {
         angle(self.limits.pitch_rad, "planner.limits", "pitch_rad")?;
         self.perception.validate()?;
         self.segments.validate()?;
-        self.ground.validate(self.perception.surface_radius_m)?;
+        self.ground.validate()?;
         self.forecast.validate()?;
         self.decision.validate()?;
         self.controller.validate()
@@ -347,16 +350,17 @@ impl SegmentConfig {
 }
 
 impl GroundConfig {
-    fn validate(&self, surface_radius_m: f64) -> Result<(), ConfigError> {
+    fn validate(&self) -> Result<(), ConfigError> {
         let place = "planner.ground";
+        positive(self.radius_m, place, "radius_m")?;
         positive(self.cell_m, place, "cell_m")?;
         // Two different places inside the window must not share a slot.
         require(
-            self.cell_m * crate::ground::SIDE as f64 > 2.0 * surface_radius_m,
+            self.cell_m * crate::ground::SIDE as f64 > 2.0 * self.radius_m,
             place,
             "cell_m",
             self.cell_m,
-            "cells large enough that 96 of them span the occupancy surface",
+            "cells large enough that 96 of them span twice radius_m",
         )?;
         require(self.memory_ticks > 0, place, "memory_ticks", self.memory_ticks, "at least 1")
     }

@@ -152,9 +152,8 @@ fn bridge(from: &Station, to: &Station, step_m: f64) -> impl Iterator<Item = Sta
         .map(move |k| {
             let t = k as f64 / (between + 1) as f64;
             // Derivative of the cubic Hermite polynomial.
-            let slope = 6.0 * t * (1.0 - t) * rise
-                + (1.0 - t) * (1.0 - 3.0 * t) * d0
-                + t * (3.0 * t - 2.0) * d1;
+            let slope =
+                6.0 * t * (1.0 - t) * rise + (1.0 - t) * (1.0 - 3.0 * t) * d0 + t * (3.0 * t - 2.0) * d1;
             Station {
                 slope_along: slope / gap,
                 slope_across: from.slope_across + t * (to.slope_across - from.slope_across),

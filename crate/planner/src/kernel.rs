@@ -20,7 +20,7 @@ pub struct RationalQuadratic {
 impl Default for RationalQuadratic {
     /// Length-scales near the sensor's ring spacing and five columns' width; DESIGN.md says how they were chosen.
     fn default() -> Self {
-        Self { variance: 1.0, length_scales_rad: [0.15, 0.05], alpha: 10.0 }
+        Self { variance: 1.0, length_scales_rad: [0.12, 0.04], alpha: 10.0 }
     }
 }
 

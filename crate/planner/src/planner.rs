@@ -242,12 +242,12 @@ impl Planner {
         Ok(())
     }
 
-    /// Adds the scan within r_oc, and the ground the wheels stand on, to what is remembered.
+    /// Adds the near part of the scan, and the ground the wheels stand on, to what is remembered.
     fn remember(&mut self, points_m: &[Vec3], pose: &Pose) {
         self.ground.advance();
         let world_from_robot = pose.world_from_robot();
         let sensor = pose.position_m + world_from_robot * self.config.mount.offset_m();
-        let radius_squared = self.observed.radius_m() * self.observed.radius_m();
+        let radius_squared = self.config.ground.radius_m * self.config.ground.radius_m;
         for point in points_m {
             let point = point.as_dvec3();
             // Also passes over NaN.
