@@ -1,0 +1,85 @@
+//! The folder of `--out`: trajectory.csv, path.svg and result.json.
+//!
+//! One row of trajectory.csv is one planning period: the state of the robot when the scan was taken, and what the planner
+//! decided on it. The last row is where the robot ended, with the outcome in the column `status` and no decision.
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write as _};
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use mapless::Status;
+use mapless_trials::Trial;
+
+use crate::report::Report;
+
+const HEADER: &str = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,speed_m_s,turn_rate_rad_s,\
+    command_speed_m_s,command_turn_rate_rad_s,subgoal_x_m,subgoal_y_m,status";
+
+pub(crate) struct Log {
+    folder: PathBuf,
+    trajectory: BufWriter<File>,
+}
+
+impl Log {
+    /// Makes the folder and begins its trajectory, so that what cannot be written shows before the long run.
+    pub(crate) fn create(folder: &Path) -> anyhow::Result<Self> {
+        fs::create_dir_all(folder).with_context(|| format!("--out: {}", folder.display()))?;
+        let path = folder.join("trajectory.csv");
+        let file = File::create(&path).with_context(|| format!("--out: {}", path.display()))?;
+        let mut log = Self { folder: folder.to_owned(), trajectory: BufWriter::new(file) };
+        log.row(HEADER)?;
+        Ok(log)
+    }
+
+    /// Adds the state and the decision of one planning period, before the robot moves.
+    pub(crate) fn decided(&mut self, trial: &Trial) -> anyhow::Result<()> {
+        let step = trial.step();
+        let command = step.command;
+        let subgoal =
+            step.chosen.and_then(|index| step.subgoals.get(index)).map(|subgoal| subgoal.position_m);
+        let subgoal = subgoal.map_or(",".to_owned(), |place| format!("{:.4},{:.4}", place.x, place.y));
+        let status = match step.status {
+            Status::Driving => "driving",
+            Status::Arrived => "arrived",
+            Status::Looking => "looking",
+            Status::Stopped(_) => "stopped",
+        };
+        let decision = format!("{:.6},{:.6},{subgoal},{status}", command.linear_m_s, command.angular_rad_s);
+        self.row(&format!("{},{decision}", state(trial)))
+    }
+
+    /// Adds the last row and writes the other files.
+    pub(crate) fn finish(mut self, trial: &Trial, report: &Report) -> anyhow::Result<()> {
+        self.row(&format!("{},,,,,{}", state(trial), report.outcome.name()))?;
+        self.trajectory.flush().with_context(|| self.folder.join("trajectory.csv").display().to_string())?;
+        let result = serde_json::to_string_pretty(report)? + "\n";
+        self.write("result.json", result.as_bytes())
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
+        let path = self.folder.join(name);
+        fs::write(&path, bytes).with_context(|| format!("--out: {}", path.display()))
+    }
+
+    fn row(&mut self, row: &str) -> anyhow::Result<()> {
+        let place = || self.folder.join("trajectory.csv").display().to_string();
+        writeln!(self.trajectory, "{row}").with_context(place)
+    }
+}
+
+fn state(trial: &Trial) -> String {
+    let (pose, robot) = (trial.pose(), trial.robot());
+    let values = [
+        pose.position_m.x,
+        pose.position_m.y,
+        pose.position_m.z,
+        pose.roll_rad,
+        pose.pitch_rad,
+        pose.yaw_rad,
+        robot.speed_m_s,
+        robot.turn_rate_rad_s,
+    ];
+    let values: String = values.iter().map(|value| format!(",{value:.6}")).collect();
+    format!("{:.3}{values}", trial.time_s())
+}

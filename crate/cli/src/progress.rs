@@ -1,0 +1,46 @@
+//! How far a running trial has come, on standard error when that is a terminal.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use mapless_trials::Trial;
+
+/// The bar fills as the goal comes closer.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    begun: Instant,
+    straight_m: f64,
+}
+
+impl Progress {
+    pub(crate) fn new(trial: &Trial) -> Self {
+        let straight_m = to_goal_m(trial);
+        // The bar counts centimetres. Indicatif shows nothing where standard error is no terminal.
+        let bar = ProgressBar::new((100.0 * straight_m) as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}") {
+            bar.set_style(style);
+        }
+        bar.enable_steady_tick(Duration::from_millis(100));
+        Self { bar, begun: Instant::now(), straight_m }
+    }
+
+    pub(crate) fn show(&self, trial: &Trial) {
+        let left_m = to_goal_m(trial);
+        let factor = trial.time_s() / self.begun.elapsed().as_secs_f64();
+        self.bar.set_position((100.0 * (self.straight_m - left_m).max(0.0)) as u64);
+        self.bar.set_message(format!(
+            "{:6.1} s driven, {left_m:5.1} m to the goal, {factor:.1} × real time",
+            trial.time_s()
+        ));
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn to_goal_m(trial: &Trial) -> f64 {
+    (trial.goal_m() - trial.robot().position).length()
+}

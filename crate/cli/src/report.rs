@@ -1,0 +1,96 @@
+//! What a trial came to: as JSON and as a table.
+
+use std::time::Duration;
+
+use comfy_table::{CellAlignment, Table, presets};
+use mapless_trials::{Metrics, Outcome, Trial};
+use mapless_world::HuskyConfig;
+
+/// The result of a trial, as `--json` prints it.
+#[derive(serde::Serialize)]
+pub(crate) struct Report {
+    pub(crate) outcome: Outcome,
+    /// Why the planner stopped, where it did.
+    pub(crate) reason: Option<String>,
+    pub(crate) metrics: Metrics,
+    pub(crate) ticks: u64,
+    pub(crate) sim_time_s: f64,
+    pub(crate) planner_ms: PlannerTime,
+    pub(crate) digest: String,
+}
+
+/// Quantiles of the time of one planner step, by wall clock, in milliseconds.
+#[derive(serde::Serialize)]
+pub(crate) struct PlannerTime {
+    pub(crate) p50: f64,
+    pub(crate) p99: f64,
+}
+
+impl Report {
+    pub(crate) fn new(trial: &Trial, outcome: Outcome, planner_times: Vec<Duration>) -> Self {
+        Self {
+            outcome,
+            reason: trial.stop_reason().map(|reason| reason.to_string()),
+            metrics: trial.metrics(),
+            ticks: trial.ticks(),
+            sim_time_s: trial.time_s(),
+            planner_ms: PlannerTime::of(planner_times),
+            digest: trial.digest(),
+        }
+    }
+}
+
+impl PlannerTime {
+    /// Nearest-rank quantiles: each is a time that was measured.
+    fn of(mut times: Vec<Duration>) -> Self {
+        times.sort_unstable();
+        let quantile = |percent: usize| {
+            let rank = (times.len() * percent).div_ceil(100).max(1);
+            times.get(rank - 1).map_or(0.0, |time| time.as_secs_f64() * 1e3)
+        };
+        Self { p50: quantile(50), p99: quantile(99) }
+    }
+}
+
+/// The report for people, with the limits beside the largest tilts.
+pub(crate) fn table(report: &Report, robot: &HuskyConfig) -> String {
+    let metrics = &report.metrics;
+    let tilt = |angle_rad: f64| format!("{:.1}", angle_rad.to_degrees());
+    let limit = |angle_rad: f64| format!("° (limit {:.1}°)", angle_rad.to_degrees());
+    let mut table = Table::new();
+    table.load_preset(presets::NOTHING);
+    let mut row = |name: &str, value: String, unit: &str| {
+        table.add_row([name, &value, unit]);
+    };
+    row("outcome", report.outcome.name().to_owned(), "");
+    row("distance", format!("{:.2}", metrics.distance_m), "m");
+    row("max |roll|", tilt(metrics.max_abs_roll_rad), &limit(robot.roll_limit_rad));
+    row("max |pitch|", tilt(metrics.max_abs_pitch_rad), &limit(robot.pitch_limit_rad));
+    row("mean vibration", format!("{:.4}", metrics.mean_vibration_rad_s), "rad/s");
+    row("mean elevation rate", format!("{:.2}", metrics.mean_elevation_rate_cm_s), "cm/s");
+    row("curvature change", format!("{:.4}", metrics.curvature_change_rad_m), "rad/m");
+    row("simulated time", format!("{:.1}", report.sim_time_s), "s");
+    row("planner steps", report.ticks.to_string(), "");
+    row("planner step, median", format!("{:.1}", report.planner_ms.p50), "ms");
+    row("planner step, 99 %", format!("{:.1}", report.planner_ms.p99), "ms");
+    row("digest", report.digest.clone(), "");
+    if let Some(values) = table.column_mut(1) {
+        values.set_cell_alignment(CellAlignment::Right);
+    }
+    let reason =
+        report.reason.as_ref().map_or(String::new(), |reason| format!("\n The planner stopped: {reason}."));
+    format!("{}{reason}", table.trim_fmt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_measured_times() {
+        let time = PlannerTime::of((1..=200).rev().map(Duration::from_millis).collect());
+        assert!((time.p50 - 100.0).abs() < 1e-9 && (time.p99 - 198.0).abs() < 1e-9);
+        let one = PlannerTime::of(vec![Duration::from_millis(7)]);
+        assert!((one.p50 - 7.0).abs() < 1e-9 && (one.p99 - 7.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,70 @@
+//! `mapless run`: one trial from a scenario file.
+
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use anyhow::Context as _;
+use clap::builder::{PossibleValuesParser, TypedValueParser as _};
+use mapless_trials::{LoadedScenario, Outcome, Preset, Trial};
+
+use crate::log::Log;
+use crate::progress::Progress;
+use crate::report::{Report, table};
+
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Scenario file (TOML): terrain, start, goal, seed and what differs from the defaults.
+    scenario: PathBuf,
+    /// Planner configuration that the scenario's [planner] section starts from.
+    #[arg(long, default_value = "default", value_parser = PossibleValuesParser::new(["default", "paper"]).try_map(|name| name.parse::<Preset>()))]
+    preset: Preset,
+    /// Seed of the sensor's noise, instead of the scenario's own.
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Write trajectory.csv, path.svg and result.json to this folder, which is made when missing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object instead of a table.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the trial and shows how it ended.
+pub(crate) fn run(args: &Args) -> anyhow::Result<Outcome> {
+    let LoadedScenario { scenario, terrain } = LoadedScenario::read(&args.scenario)?;
+    let seed = args.seed.unwrap_or(scenario.seed);
+    let mut trial = Trial::new(terrain.field, &scenario, args.preset, seed)
+        .with_context(|| args.scenario.display().to_string())?;
+    let mut log = args.out.as_deref().map(Log::create).transpose()?;
+
+    let (outcome, planner_times) = drive(&mut trial, &mut log)?;
+    let report = Report::new(&trial, outcome, planner_times);
+    if let Some(log) = log {
+        log.finish(&trial, &report)?;
+    }
+
+    let text = if args.json { serde_json::to_string(&report)? } else { table(&report, &scenario.robot) };
+    writeln!(std::io::stdout(), "{text}").context("standard output")?;
+    Ok(outcome)
+}
+
+/// Drives until the trial ends, and says how long each planner step took.
+fn drive(trial: &mut Trial, log: &mut Option<Log>) -> anyhow::Result<(Outcome, Vec<Duration>)> {
+    let progress = Progress::new(trial);
+    let mut planner_times = Vec::new();
+    loop {
+        trial.look();
+        let start = Instant::now();
+        trial.plan();
+        planner_times.push(start.elapsed());
+        if let Some(log) = log {
+            log.decided(trial)?;
+        }
+        let outcome = trial.act();
+        progress.show(trial);
+        if let Some(outcome) = outcome {
+            return Ok((outcome, planner_times));
+        }
+    }
+}
