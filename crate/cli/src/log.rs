@@ -8,9 +8,11 @@ use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
+use glam::DVec2;
 use mapless::Status;
 use mapless_trials::Trial;
 
+use crate::picture::Picture;
 use crate::report::Report;
 
 const HEADER: &str = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,speed_m_s,turn_rate_rad_s,\
@@ -19,6 +21,8 @@ const HEADER: &str = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,speed_m_s,tu
 pub(crate) struct Log {
     folder: PathBuf,
     trajectory: BufWriter<File>,
+    path_m: Vec<DVec2>,
+    subgoals_m: Vec<DVec2>,
 }
 
 impl Log {
@@ -27,7 +31,12 @@ impl Log {
         fs::create_dir_all(folder).with_context(|| format!("--out: {}", folder.display()))?;
         let path = folder.join("trajectory.csv");
         let file = File::create(&path).with_context(|| format!("--out: {}", path.display()))?;
-        let mut log = Self { folder: folder.to_owned(), trajectory: BufWriter::new(file) };
+        let mut log = Self {
+            folder: folder.to_owned(),
+            trajectory: BufWriter::new(file),
+            path_m: Vec::new(),
+            subgoals_m: Vec::new(),
+        };
         log.row(HEADER)?;
         Ok(log)
     }
@@ -51,15 +60,31 @@ impl Log {
 
     /// Adds the last row and writes the other files.
     pub(crate) fn finish(mut self, trial: &Trial, report: &Report) -> anyhow::Result<()> {
+        self.path_m.push(trial.robot().position);
         self.row(&format!("{},,,,,{}", state(trial), report.outcome.name()))?;
         self.trajectory.flush().with_context(|| self.folder.join("trajectory.csv").display().to_string())?;
         let result = serde_json::to_string_pretty(report)? + "\n";
-        self.write("result.json", result.as_bytes())
+        self.write("result.json", &result)?;
+        self.write("path.svg", &self.picture(trial, report).svg()?)
     }
 
-    fn write(&self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
+    fn picture<'a>(&'a self, trial: &'a Trial, report: &Report) -> Picture<'a> {
+        Picture {
+            title: report.headline(),
+            subtitle: format!("{} · {}", report.subject, report.tilts()),
+            field: trial.field(),
+            start: trial.start(),
+            goal_m: trial.goal_m(),
+            goal_tolerance_m: trial.planner_config().goal_tolerance_m,
+            path_m: &self.path_m,
+            subgoals_m: &self.subgoals_m,
+            outcome: report.outcome,
+        }
+    }
+
+    fn write(&self, name: &str, text: &str) -> anyhow::Result<()> {
         let path = self.folder.join(name);
-        fs::write(&path, bytes).with_context(|| format!("--out: {}", path.display()))
+        fs::write(&path, text).with_context(|| format!("--out: {}", path.display()))
     }
 
     fn row(&mut self, row: &str) -> anyhow::Result<()> {

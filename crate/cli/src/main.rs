@@ -3,6 +3,7 @@
 //! Exit code 0 when the goal was reached, 2 for any other outcome, 1 for an error.
 
 mod log;
+mod picture;
 mod progress;
 mod report;
 mod run;

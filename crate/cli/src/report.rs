@@ -1,14 +1,37 @@
 //! What a trial came to: as JSON and as a table.
 
+use std::fmt;
 use std::time::Duration;
 
 use comfy_table::{CellAlignment, Table, presets};
-use mapless_trials::{Metrics, Outcome, Trial};
-use mapless_world::HuskyConfig;
+use mapless_trials::{Metrics, Outcome, Preset, Trial};
+
+/// What was run; stands above the table and the picture.
+pub(crate) struct Subject {
+    /// Name of the scenario file, without extension.
+    pub(crate) scenario: String,
+    pub(crate) terrain: String,
+    pub(crate) preset: Preset,
+    pub(crate) seed: u64,
+    pub(crate) roll_limit_rad: f64,
+    pub(crate) pitch_limit_rad: f64,
+}
+
+impl fmt::Display for Subject {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let preset = match self.preset {
+            Preset::Default => "default",
+            Preset::Paper => "paper",
+        };
+        write!(f, "{} on {}, preset {preset}, seed {}", self.scenario, self.terrain, self.seed)
+    }
+}
 
 /// The result of a trial, as `--json` prints it.
 #[derive(serde::Serialize)]
 pub(crate) struct Report {
+    #[serde(skip)]
+    pub(crate) subject: Subject,
     pub(crate) outcome: Outcome,
     /// Why the planner stopped, where it did.
     pub(crate) reason: Option<String>,
@@ -27,8 +50,14 @@ pub(crate) struct PlannerTime {
 }
 
 impl Report {
-    pub(crate) fn new(trial: &Trial, outcome: Outcome, planner_times: Vec<Duration>) -> Self {
+    pub(crate) fn new(
+        subject: Subject,
+        trial: &Trial,
+        outcome: Outcome,
+        planner_times: Vec<Duration>,
+    ) -> Self {
         Self {
+            subject,
             outcome,
             reason: trial.stop_reason().map(|reason| reason.to_string()),
             metrics: trial.metrics(),
@@ -37,6 +66,51 @@ impl Report {
             planner_ms: PlannerTime::of(planner_times),
             digest: trial.digest(),
         }
+    }
+
+    /// The outcome in a line.
+    pub(crate) fn headline(&self) -> String {
+        format!("{} after {:.1} m, {:.1} s", self.outcome.name(), self.metrics.distance_m, self.sim_time_s)
+    }
+
+    /// The largest tilts and their limits.
+    pub(crate) fn tilts(&self) -> String {
+        format!(
+            "max |roll| {:.1}° of {:.1}°, max |pitch| {:.1}° of {:.1}°",
+            self.metrics.max_abs_roll_rad.to_degrees(),
+            self.subject.roll_limit_rad.to_degrees(),
+            self.metrics.max_abs_pitch_rad.to_degrees(),
+            self.subject.pitch_limit_rad.to_degrees()
+        )
+    }
+
+    /// The report for people, with the limits beside the largest tilts.
+    pub(crate) fn table(&self) -> String {
+        let metrics = &self.metrics;
+        let tilt = |angle_rad: f64| format!("{:.1}", angle_rad.to_degrees());
+        let limit = |angle_rad: f64| format!("° (limit {:.1}°)", angle_rad.to_degrees());
+        let mut table = Table::new();
+        table.load_preset(presets::NOTHING);
+        let mut row = |name: &str, value: String, unit: &str| {
+            table.add_row([name, &value, unit]);
+        };
+        row("outcome", self.outcome.name().to_owned(), "");
+        row("distance", format!("{:.2}", metrics.distance_m), "m");
+        row("max |roll|", tilt(metrics.max_abs_roll_rad), &limit(self.subject.roll_limit_rad));
+        row("max |pitch|", tilt(metrics.max_abs_pitch_rad), &limit(self.subject.pitch_limit_rad));
+        row("mean vibration", format!("{:.4}", metrics.mean_vibration_rad_s), "rad/s");
+        row("mean elevation rate", format!("{:.2}", metrics.mean_elevation_rate_cm_s), "cm/s");
+        row("curvature change", format!("{:.4}", metrics.curvature_change_rad_m), "rad/m");
+        row("simulated time", format!("{:.1}", self.sim_time_s), "s");
+        row("planner steps", self.ticks.to_string(), "");
+        row("planner step, median", format!("{:.1}", self.planner_ms.p50), "ms");
+        row("planner step, 99 %", format!("{:.1}", self.planner_ms.p99), "ms");
+        if let Some(values) = table.column_mut(1) {
+            values.set_cell_alignment(CellAlignment::Right);
+        }
+        let reason =
+            self.reason.as_ref().map_or(String::new(), |reason| format!("The planner stopped: {reason}.\n"));
+        format!("{}\n{}\n{reason}digest {}", self.subject, table.trim_fmt(), self.digest)
     }
 }
 
@@ -50,36 +124,6 @@ impl PlannerTime {
         };
         Self { p50: quantile(50), p99: quantile(99) }
     }
-}
-
-/// The report for people, with the limits beside the largest tilts.
-pub(crate) fn table(report: &Report, robot: &HuskyConfig) -> String {
-    let metrics = &report.metrics;
-    let tilt = |angle_rad: f64| format!("{:.1}", angle_rad.to_degrees());
-    let limit = |angle_rad: f64| format!("° (limit {:.1}°)", angle_rad.to_degrees());
-    let mut table = Table::new();
-    table.load_preset(presets::NOTHING);
-    let mut row = |name: &str, value: String, unit: &str| {
-        table.add_row([name, &value, unit]);
-    };
-    row("outcome", report.outcome.name().to_owned(), "");
-    row("distance", format!("{:.2}", metrics.distance_m), "m");
-    row("max |roll|", tilt(metrics.max_abs_roll_rad), &limit(robot.roll_limit_rad));
-    row("max |pitch|", tilt(metrics.max_abs_pitch_rad), &limit(robot.pitch_limit_rad));
-    row("mean vibration", format!("{:.4}", metrics.mean_vibration_rad_s), "rad/s");
-    row("mean elevation rate", format!("{:.2}", metrics.mean_elevation_rate_cm_s), "cm/s");
-    row("curvature change", format!("{:.4}", metrics.curvature_change_rad_m), "rad/m");
-    row("simulated time", format!("{:.1}", report.sim_time_s), "s");
-    row("planner steps", report.ticks.to_string(), "");
-    row("planner step, median", format!("{:.1}", report.planner_ms.p50), "ms");
-    row("planner step, 99 %", format!("{:.1}", report.planner_ms.p99), "ms");
-    row("digest", report.digest.clone(), "");
-    if let Some(values) = table.column_mut(1) {
-        values.set_cell_alignment(CellAlignment::Right);
-    }
-    let reason =
-        report.reason.as_ref().map_or(String::new(), |reason| format!("\n The planner stopped: {reason}."));
-    format!("{}{reason}", table.trim_fmt())
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use mapless_trials::{LoadedScenario, Outcome, Preset, Trial};
 
 use crate::log::Log;
 use crate::progress::Progress;
-use crate::report::{Report, table};
+use crate::report::{Report, Subject};
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
@@ -39,12 +39,20 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Outcome> {
     let mut log = args.out.as_deref().map(Log::create).transpose()?;
 
     let (outcome, planner_times) = drive(&mut trial, &mut log)?;
-    let report = Report::new(&trial, outcome, planner_times);
+    let subject = Subject {
+        scenario: args.scenario.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        terrain: terrain.name,
+        preset: args.preset,
+        seed,
+        roll_limit_rad: scenario.robot.roll_limit_rad,
+        pitch_limit_rad: scenario.robot.pitch_limit_rad,
+    };
+    let report = Report::new(subject, &trial, outcome, planner_times);
     if let Some(log) = log {
         log.finish(&trial, &report)?;
     }
 
-    let text = if args.json { serde_json::to_string(&report)? } else { table(&report, &scenario.robot) };
+    let text = if args.json { serde_json::to_string(&report)? } else { report.table() };
     writeln!(std::io::stdout(), "{text}").context("standard output")?;
     Ok(outcome)
 }

@@ -1,0 +1,315 @@
+//! The picture of a trial: its path over the elevation, as SVG.
+
+mod contours;
+mod relief;
+mod scale;
+
+use std::fmt::{self, Write as _};
+
+use base64::Engine as _;
+use glam::DVec2;
+use mapless_trials::{Outcome, StartPose};
+use mapless_world::HeightField;
+
+use scale::{nice_step, ticks};
+
+/// Largest size of the map on the page; the margins come on top. All in pixels of the SVG.
+const MAP_WIDTH: f64 = 820.0;
+const MAP_HEIGHT: f64 = 700.0;
+const LEFT: f64 = 64.0;
+const TOP: f64 = 62.0;
+const RIGHT: f64 = 96.0;
+const BOTTOM: f64 = 96.0;
+/// The legend needs this much even under a narrow map.
+const LEAST_WIDTH: f64 = 640.0;
+
+const INK: &str = "#1c1c1c";
+const PATH: &str = "#b3002d";
+const SUBGOAL: &str = "#ffffff";
+
+/// What the picture shows of a trial.
+pub(crate) struct Picture<'a> {
+    pub(crate) title: String,
+    pub(crate) subtitle: String,
+    pub(crate) field: &'a HeightField,
+    pub(crate) start: StartPose,
+    pub(crate) goal_m: DVec2,
+    pub(crate) goal_tolerance_m: f64,
+    pub(crate) path_m: &'a [DVec2],
+    pub(crate) subgoals_m: &'a [DVec2],
+    pub(crate) outcome: Outcome,
+}
+
+/// Where things are on the page.
+struct Layout {
+    pixels_per_m: f64,
+    size: DVec2,
+}
+
+impl Layout {
+    fn new(extent_m: DVec2) -> Self {
+        let pixels_per_m = (MAP_WIDTH / extent_m.x).min(MAP_HEIGHT / extent_m.y);
+        Self { pixels_per_m, size: extent_m * pixels_per_m }
+    }
+
+    /// The page's x runs right and its y down.
+    fn place(&self, at_m: DVec2) -> DVec2 {
+        DVec2::new(LEFT + at_m.x * self.pixels_per_m, TOP + self.size.y - at_m.y * self.pixels_per_m)
+    }
+}
+
+impl Picture<'_> {
+    /// Draws the picture.
+    pub(crate) fn svg(&self) -> anyhow::Result<String> {
+        let layout = Layout::new(self.field.extent_m());
+        let relief = relief::png(self.field, layout.size)?;
+        let width = (LEFT + layout.size.x + RIGHT).max(LEAST_WIDTH);
+        let height = TOP + layout.size.y + BOTTOM;
+        let mut svg = String::new();
+        writeln!(
+            svg,
+            r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0} {height:.0}" width="{width:.0}" height="{height:.0}" font-family="Helvetica, Arial, 'DejaVu Sans', sans-serif" font-size="13" fill="{INK}">"#
+        )?;
+        writeln!(svg, r##"<rect width="100%" height="100%" fill="#fff"/>"##)?;
+        writeln!(
+            svg,
+            r##"<text x="{LEFT}" y="26" font-size="18" font-weight="bold">{}</text><text x="{LEFT}" y="47" fill="#555">{}</text>"##,
+            escape(&self.title),
+            escape(&self.subtitle)
+        )?;
+        writeln!(
+            svg,
+            r#"<image x="{LEFT}" y="{TOP}" width="{:.2}" height="{:.2}" preserveAspectRatio="none" href="data:image/png;base64,{}"/>"#,
+            layout.size.x,
+            layout.size.y,
+            base64::engine::general_purpose::STANDARD.encode(relief)
+        )?;
+        let interval_m = self.contours(&mut svg, &layout)?;
+        self.axes(&mut svg, &layout)?;
+        self.colour_bar(&mut svg, &layout)?;
+        self.route(&mut svg, &layout)?;
+        self.legend(&mut svg, &layout, interval_m)?;
+        writeln!(svg, "</svg>")?;
+        Ok(svg)
+    }
+
+    /// Contour lines, every fifth thicker; gives their interval, `None` on level ground.
+    fn contours(&self, svg: &mut String, layout: &Layout) -> Result<Option<f64>, fmt::Error> {
+        let (low, high) = self.field.height_range_m();
+        let (low, high) = (f64::from(low), f64::from(high));
+        if high - low < 0.01 {
+            return Ok(None);
+        }
+        let interval_m = nice_step((high - low) / 12.0);
+        let grid = contours::Grid::sample(self.field);
+        for level_m in ticks(low, high, interval_m) {
+            let index = (level_m / interval_m).round() % 5.0 == 0.0;
+            let (width, opacity) = if index { (1.1, 0.55) } else { (0.7, 0.35) };
+            write!(
+                svg,
+                r#"<path fill="none" stroke="{INK}" stroke-linecap="round" stroke-width="{width}" stroke-opacity="{opacity}" d=""#
+            )?;
+            for [from, to] in grid.contour(level_m) {
+                let (from, to) = (layout.place(from), layout.place(to));
+                write!(svg, "M{:.1} {:.1}L{:.1} {:.1}", from.x, from.y, to.x, to.y)?;
+            }
+            writeln!(svg, r#""/>"#)?;
+        }
+        Ok(Some(interval_m))
+    }
+
+    fn axes(&self, svg: &mut String, layout: &Layout) -> fmt::Result {
+        let extent = self.field.extent_m();
+        let step = nice_step(extent.max_element() / 9.0);
+        let (right, bottom) = (LEFT + layout.size.x, TOP + layout.size.y);
+        writeln!(
+            svg,
+            r#"<rect x="{LEFT}" y="{TOP}" width="{:.2}" height="{:.2}" fill="none" stroke="{INK}"/>"#,
+            layout.size.x, layout.size.y
+        )?;
+        for x_m in ticks(0.0, extent.x, step) {
+            let x = layout.place(DVec2::new(x_m, 0.0)).x;
+            writeln!(
+                svg,
+                r#"<path stroke="{INK}" d="M{x:.1} {bottom:.1}v5"/><text x="{x:.1}" y="{:.1}" text-anchor="middle">{x_m}</text>"#,
+                bottom + 19.0
+            )?;
+        }
+        for y_m in ticks(0.0, extent.y, step) {
+            let y = layout.place(DVec2::new(0.0, y_m)).y;
+            writeln!(
+                svg,
+                r#"<path stroke="{INK}" d="M{LEFT} {y:.1}h-5"/><text x="{:.1}" y="{:.1}" text-anchor="end">{y_m}</text>"#,
+                LEFT - 9.0,
+                y + 4.5
+            )?;
+        }
+        let (middle_x, middle_y) = ((LEFT + right) / 2.0, (TOP + bottom) / 2.0);
+        writeln!(
+            svg,
+            r#"<text x="{middle_x:.1}" y="{:.1}" text-anchor="middle">x, east (m)</text>"#,
+            bottom + 38.0
+        )?;
+        writeln!(
+            svg,
+            r#"<text transform="translate(18 {middle_y:.1}) rotate(-90)" text-anchor="middle">y, north (m)</text>"#
+        )
+    }
+
+    fn colour_bar(&self, svg: &mut String, layout: &Layout) -> fmt::Result {
+        const WIDTH: f64 = 16.0;
+        let (low, high) = self.field.height_range_m();
+        let (low, high) = (f64::from(low), f64::from(high));
+        let left = LEFT + layout.size.x + 20.0;
+        let bottom = TOP + layout.size.y;
+        write!(svg, r#"<linearGradient id="elevation" x1="0" y1="1" x2="0" y2="0">"#)?;
+        for percent in (0..=100).step_by(5) {
+            let [r, g, b] = relief::tint(f64::from(percent) / 100.0);
+            write!(svg, r#"<stop offset="{percent}%" stop-color="rgb({r:.0} {g:.0} {b:.0})"/>"#)?;
+        }
+        writeln!(svg, "</linearGradient>")?;
+        writeln!(
+            svg,
+            r#"<rect x="{left:.1}" y="{TOP}" width="{WIDTH}" height="{:.1}" fill="url(#elevation)" stroke="{INK}"/>"#,
+            layout.size.y
+        )?;
+        let middle = (TOP + bottom) / 2.0;
+        writeln!(
+            svg,
+            r#"<text transform="translate({:.1} {middle:.1}) rotate(-90)" text-anchor="middle">elevation (m)</text>"#,
+            left + WIDTH + 50.0
+        )?;
+        if high - low < 0.01 {
+            return Ok(());
+        }
+        for level_m in ticks(low, high, nice_step((high - low) / 6.0)) {
+            let y = bottom - (level_m - low) / (high - low) * layout.size.y;
+            writeln!(
+                svg,
+                r#"<path stroke="{INK}" d="M{:.1} {y:.1}h5"/><text x="{:.1}" y="{:.1}">{level_m}</text>"#,
+                left + WIDTH,
+                left + WIDTH + 9.0,
+                y + 4.5
+            )?;
+        }
+        Ok(())
+    }
+
+    fn route(&self, svg: &mut String, layout: &Layout) -> fmt::Result {
+        for &subgoal in self.subgoals_m.iter().filter(|&&subgoal| self.field.contains(subgoal)) {
+            subgoal_mark(svg, layout.place(subgoal))?;
+        }
+        let mut line = String::new();
+        for &place in self.path_m {
+            let at = layout.place(place);
+            write!(line, "{:.1},{:.1} ", at.x, at.y)?;
+        }
+        for (stroke, width) in [("#fff", 6.0), (PATH, 3.0)] {
+            writeln!(
+                svg,
+                r#"<polyline fill="none" stroke="{stroke}" stroke-width="{width}" stroke-linejoin="round" stroke-linecap="round" points="{line}"/>"#
+            )?;
+        }
+        goal_mark(svg, layout.place(self.goal_m), Some(self.goal_tolerance_m * layout.pixels_per_m))?;
+        start_mark(svg, layout.place(self.start.position_m), self.start.heading_rad)?;
+        match self.path_m.last() {
+            Some(&end) if self.outcome != Outcome::Reached => end_mark(svg, layout.place(end)),
+            _ => Ok(()),
+        }
+    }
+
+    fn legend(&self, svg: &mut String, layout: &Layout, interval_m: Option<f64>) -> fmt::Result {
+        let y = TOP + layout.size.y + 68.0;
+        let mut x = LEFT + 8.0;
+        let entry = |svg: &mut String, x_mark: &mut f64, words: &str| {
+            let result =
+                writeln!(svg, r#"<text x="{:.1}" y="{:.1}">{words}</text>"#, *x_mark + 16.0, y + 4.5);
+            *x_mark += 46.0 + 6.6 * words.chars().count() as f64;
+            result
+        };
+        start_mark(svg, DVec2::new(x, y), 0.0)?;
+        entry(svg, &mut x, "start")?;
+        goal_mark(svg, DVec2::new(x, y), None)?;
+        entry(svg, &mut x, "goal")?;
+        writeln!(svg, r#"<path stroke="{PATH}" stroke-width="3" d="M{:.1} {y:.1}h20"/>"#, x - 10.0)?;
+        entry(svg, &mut x, "path")?;
+        subgoal_mark(svg, DVec2::new(x, y))?;
+        entry(svg, &mut x, "chosen subgoals")?;
+        if self.outcome != Outcome::Reached {
+            end_mark(svg, DVec2::new(x, y))?;
+            entry(svg, &mut x, self.outcome.name())?;
+        }
+        if let Some(interval_m) = interval_m {
+            writeln!(svg, r#"<path stroke="{INK}" stroke-opacity="0.55" d="M{:.1} {y:.1}h20"/>"#, x - 10.0)?;
+            entry(svg, &mut x, &format!("contours every {interval_m} m"))?;
+        }
+        self.scale_bar(svg, layout)
+    }
+
+    /// At the right under the map, in two halves.
+    fn scale_bar(&self, svg: &mut String, layout: &Layout) -> fmt::Result {
+        let length_m = nice_step(self.field.extent_m().x / 8.0);
+        let length = length_m * layout.pixels_per_m;
+        let (right, y) = (LEFT + layout.size.x, TOP + layout.size.y + 46.0);
+        let left = right - length;
+        writeln!(
+            svg,
+            r##"<rect x="{left:.1}" y="{y:.1}" width="{length:.1}" height="6" fill="#fff" stroke="{INK}"/><rect x="{left:.1}" y="{y:.1}" width="{:.1}" height="6"/><text x="{:.1}" y="{:.1}" text-anchor="end">{length_m} m</text>"##,
+            length / 2.0,
+            left - 8.0,
+            y + 7.5
+        )
+    }
+}
+
+/// A disc with a beak in the heading.
+fn start_mark(svg: &mut String, at: DVec2, heading_rad: f64) -> fmt::Result {
+    writeln!(
+        svg,
+        r##"<g transform="translate({:.1} {:.1}) rotate({:.1})"><path d="M13 0L5 -5.2A7 7 0 1 0 5 5.2Z" fill="#fff" stroke="{INK}" stroke-width="1.8" stroke-linejoin="round"/></g>"##,
+        at.x,
+        at.y,
+        -heading_rad.to_degrees()
+    )
+}
+
+/// A flag, with the circle that counts as arrival where its radius is given.
+fn goal_mark(svg: &mut String, at: DVec2, tolerance: Option<f64>) -> fmt::Result {
+    let (x, y) = (at.x, at.y);
+    if let Some(radius) = tolerance {
+        writeln!(
+            svg,
+            r##"<circle cx="{x:.1}" cy="{y:.1}" r="{radius:.1}" fill="#fff" fill-opacity="0.35" stroke="{INK}" stroke-dasharray="4 3"/>"##
+        )?;
+    }
+    let foot = if tolerance.is_some() { y } else { y + 8.0 };
+    writeln!(
+        svg,
+        r#"<path d="M{x:.1} {foot:.1}v-22l16 6l-16 6" fill="{PATH}" stroke="{INK}" stroke-width="1.8" stroke-linejoin="round"/>"#
+    )
+}
+
+fn subgoal_mark(svg: &mut String, at: DVec2) -> fmt::Result {
+    writeln!(
+        svg,
+        r#"<circle cx="{:.1}" cy="{:.1}" r="2.4" fill="{SUBGOAL}" fill-opacity="0.8" stroke="{INK}" stroke-opacity="0.5" stroke-width="0.7"/>"#,
+        at.x, at.y
+    )
+}
+
+/// A cross where the robot ended without reaching the goal.
+fn end_mark(svg: &mut String, at: DVec2) -> fmt::Result {
+    for (stroke, width) in [("#fff", 6.0), (INK, 3.0)] {
+        writeln!(
+            svg,
+            r#"<path stroke="{stroke}" stroke-width="{width}" stroke-linecap="round" d="M{:.1} {:.1}l14 14m0 -14l-14 14"/>"#,
+            at.x - 7.0,
+            at.y - 7.0
+        )?;
+    }
+    Ok(())
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
