@@ -12,8 +12,11 @@ use crate::config::GroundConfig;
 pub(crate) const SIDE: usize = 96;
 /// Returns that a cell averages before new ones begin to outweigh old ones.
 const MOST_RETURNS: f64 = 30.0;
-/// Ground around a place that carries the robot: its four wheels are within this distance.
-const FOOTPRINT_RADIUS_M: f64 = 0.5;
+/// Ground around a place that carries the robot: its four wheels are within the first distance. Where the rings of a
+/// scan lie further apart than that, a wider plane stands in.
+const FOOTPRINT_RADII_M: [f64; 3] = [0.5, 0.8, 1.2];
+/// A plane whose slope the cells leave more uncertain than this says nothing.
+const LARGEST_SLOPE_DEVIATION: f64 = 0.08;
 /// Cells a plane needs at least.
 const FEWEST_CELLS: usize = 5;
 /// Roughness that is always allowed for: sensor noise and what a cell averages away.
@@ -75,11 +78,15 @@ impl Ground {
         }
     }
 
-    /// The least-squares plane through the ground within a footprint of `place_m`; `None` where too little was seen.
+    /// The least-squares plane through the ground around `place_m`; `None` where too little was seen.
     pub(crate) fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
+        FOOTPRINT_RADII_M.iter().find_map(|&radius_m| self.plane_within(place_m, radius_m))
+    }
+
+    fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
         let mut count = 0;
         let mut centroid = DVec3::ZERO;
-        self.each_cell_near(place_m, |mean| {
+        self.each_cell_near(place_m, radius_m, |mean| {
             count += 1;
             centroid += mean;
         });
@@ -89,7 +96,7 @@ impl Ground {
         centroid /= count as f64;
 
         let (mut xx, mut xy, mut yy, mut xz, mut yz, mut zz) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        self.each_cell_near(place_m, |mean| {
+        self.each_cell_near(place_m, radius_m, |mean| {
             let d = mean - centroid;
             xx += d.x * d.x;
             xy += d.x * d.y;
@@ -100,31 +107,30 @@ impl Ground {
         });
         let spread = Matrix2::new(xx, xy, xy, yy);
         let least_spread = spread.symmetric_eigenvalues().min();
-        // Cells in a line say nothing of the slope across it.
-        if least_spread < 1e-3 * count as f64 {
+        // Cells in a line, such as those of a single ring, say nothing of the slope across it.
+        let least_variance = LEAST_ROUGHNESS_M * LEAST_ROUGHNESS_M;
+        if least_spread * LARGEST_SLOPE_DEVIATION * LARGEST_SLOPE_DEVIATION < least_variance {
             return None;
         }
         let solved = spread.cholesky()?.solve(&Vector2::new(xz, yz));
         let gradient = DVec2::new(solved.x, solved.y);
         let residual = (zz - gradient.x * xz - gradient.y * yz).max(0.0) / (count - 2) as f64;
-        let roughness_squared = residual.max(LEAST_ROUGHNESS_M * LEAST_ROUGHNESS_M);
         Some(Plane {
             height_m: centroid.z + gradient.dot(place_m - centroid.truncate()),
             gradient,
-            gradient_deviation: (roughness_squared / least_spread).sqrt(),
+            gradient_deviation: (residual.max(least_variance) / least_spread).sqrt(),
         })
     }
 
-    fn each_cell_near(&self, place_m: DVec2, mut visit: impl FnMut(DVec3)) {
-        let reach = DVec2::splat(FOOTPRINT_RADIUS_M);
+    fn each_cell_near(&self, place_m: DVec2, radius_m: f64, mut visit: impl FnMut(DVec3)) {
+        let reach = DVec2::splat(radius_m);
         let (low, high) = (self.index_of(place_m - reach), self.index_of(place_m + reach));
         for y in low.y..=high.y {
             for x in low.x..=high.x {
                 let index = IVec2::new(x, y);
                 let Some(cell) = self.cells[slot_of(index)] else { continue };
                 let fresh = self.tick - cell.seen_tick <= self.config.memory_ticks;
-                let near = (cell.mean_m.truncate() - place_m).length_squared()
-                    <= FOOTPRINT_RADIUS_M * FOOTPRINT_RADIUS_M;
+                let near = (cell.mean_m.truncate() - place_m).length_squared() <= radius_m * radius_m;
                 if cell.index == index && fresh && near {
                     visit(cell.mean_m);
                 }

@@ -2,6 +2,7 @@
 //! k(z, z') = σ² (1 + r² / (2γ))^(-γ) with r² = Σ ((z - z') / ℓ)² over azimuth and elevation.
 
 use glam::DVec2;
+use multiversion::multiversion;
 
 use crate::error::{ConfigError, require};
 
@@ -49,54 +50,57 @@ impl RationalQuadratic {
 
     /// Covariances of one point with many; all coordinates are already divided by the length-scales.
     pub(crate) fn row(&self, point: DVec2, azimuths: &[f64], elevations: &[f64], out: &mut [f64]) {
-        let quotient = 1.0 / (2.0 * self.alpha);
-        let (azimuth_chunks, azimuth_rest) = azimuths.as_chunks::<LANES>();
-        let (elevation_chunks, elevation_rest) = elevations.as_chunks::<LANES>();
-        let (out_chunks, out_rest) = out.as_chunks_mut::<LANES>();
-        for ((azimuth, elevation), out) in azimuth_chunks.iter().zip(elevation_chunks).zip(out_chunks) {
-            *out = self.lanes(point, azimuth, elevation, quotient);
-        }
-        for ((azimuth, elevation), out) in azimuth_rest.iter().zip(elevation_rest).zip(out_rest) {
-            *out = self.lanes(point, &[*azimuth; LANES], &[*elevation; LANES], quotient)[0];
-        }
-    }
-
-    #[inline]
-    fn lanes(
-        &self,
-        point: DVec2,
-        azimuths: &[f64; LANES],
-        elevations: &[f64; LANES],
-        quotient: f64,
-    ) -> [f64; LANES] {
-        let mut base = [0.0; LANES];
-        for lane in 0..LANES {
-            let (dx, dy) = (point.x - azimuths[lane], point.y - elevations[lane]);
-            base[lane] = 1.0 + (dx * dx + dy * dy) * quotient;
-        }
-        if let Some(exponent) = self.whole_alpha() {
-            let mut factor = base.map(|b| 1.0 / b);
-            let mut power = [self.variance; LANES];
-            let mut bits = exponent;
-            while bits > 0 {
-                if bits & 1 == 1 {
-                    for lane in 0..LANES {
-                        power[lane] *= factor[lane];
-                    }
-                }
-                for value in &mut factor {
-                    *value *= *value;
-                }
-                bits >>= 1;
-            }
-            power
+        if self.alpha <= 64.0 && self.alpha.fract() == 0.0 {
+            whole_power_row(self, self.alpha as u32, point, azimuths, elevations, out);
         } else {
-            base.map(|b| self.variance * libm::pow(b, -self.alpha))
+            for ((&azimuth, &elevation), out) in azimuths.iter().zip(elevations).zip(out) {
+                *out = self.variance * libm::pow(self.base(point, azimuth, elevation), -self.alpha);
+            }
         }
     }
 
-    fn whole_alpha(&self) -> Option<u32> {
-        (self.alpha <= 64.0 && self.alpha.fract() == 0.0).then_some(self.alpha as u32)
+    /// 1 + r² / (2γ).
+    #[inline(always)]
+    fn base(&self, point: DVec2, azimuth: f64, elevation: f64) -> f64 {
+        let (dx, dy) = (point.x - azimuth, point.y - elevation);
+        1.0 + (dx * dx + dy * dy) * (0.5 / self.alpha)
+    }
+}
+
+/// A kernel row for a whole γ: one division and repeated squaring, a chunk at a time so that it vectorises.
+#[multiversion(targets("x86_64+avx2"))]
+fn whole_power_row(
+    kernel: &RationalQuadratic,
+    exponent: u32,
+    point: DVec2,
+    azimuths: &[f64],
+    elevations: &[f64],
+    out: &mut [f64],
+) {
+    let chunks = azimuths.chunks(LANES).zip(elevations.chunks(LANES)).zip(out.chunks_mut(LANES));
+    for ((azimuths, elevations), out) in chunks {
+        // The last chunk may be short; its idle lanes hold the point itself.
+        let (mut x, mut y) = ([point.x; LANES], [point.y; LANES]);
+        x[..azimuths.len()].copy_from_slice(azimuths);
+        y[..elevations.len()].copy_from_slice(elevations);
+        let mut factor = [0.0; LANES];
+        for lane in 0..LANES {
+            factor[lane] = 1.0 / kernel.base(point, x[lane], y[lane]);
+        }
+        let mut power = [kernel.variance; LANES];
+        let mut bits = exponent;
+        while bits > 0 {
+            if bits & 1 == 1 {
+                for lane in 0..LANES {
+                    power[lane] *= factor[lane];
+                }
+            }
+            for value in &mut factor {
+                *value *= *value;
+            }
+            bits >>= 1;
+        }
+        out.copy_from_slice(&power[..out.len()]);
     }
 }
 

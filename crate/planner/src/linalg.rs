@@ -4,12 +4,15 @@
 //! the bits are the same on every target and at every vector width. They are ours because the libraries choose
 //! their kernels at run time. Tests compare them with nalgebra.
 
+use multiversion::multiversion;
+
 /// A pivot was not positive: the matrix is not numerically positive definite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NotPositiveDefinite;
 
 const LANES: usize = 4;
 
+#[inline(always)]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a_chunks, a_rest) = a.as_chunks::<LANES>();
     let (b_chunks, b_rest) = b.as_chunks::<LANES>();
@@ -27,6 +30,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Factors the symmetric `a` (n × n) as L Lᵀ and leaves L in its lower triangle, zeros above.
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn cholesky(a: &mut [f64], n: usize) -> Result<(), NotPositiveDefinite> {
     for i in 0..n {
         let (above, row_on) = a.split_at_mut(i * n);
@@ -50,6 +54,7 @@ pub(crate) fn cholesky(a: &mut [f64], n: usize) -> Result<(), NotPositiveDefinit
 const PANEL: usize = 8;
 
 /// Solves L X = B in place for lower triangular `l` (n × n) and `b` (n × columns).
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn solve_lower(l: &[f64], n: usize, b: &mut [f64], columns: usize) {
     let full = columns - columns % PANEL;
     for start in (0..full).step_by(PANEL) {
@@ -66,6 +71,7 @@ pub(crate) fn solve_lower(l: &[f64], n: usize, b: &mut [f64], columns: usize) {
     }
 }
 
+#[inline(always)]
 fn solve_panel(l: &[f64], n: usize, b: &mut [f64], columns: usize, start: usize) {
     let panel_row = |row: usize| row * columns + start..row * columns + start + PANEL;
     let load = |b: &[f64], row: usize| -> [f64; PANEL] {
@@ -119,6 +125,7 @@ pub(crate) fn solve_lower_vector(l: &[f64], n: usize, b: &mut [f64]) {
 }
 
 /// Writes A Aᵀ (rows × rows) of `a` (rows × columns) to `out`.
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn outer_product(a: &[f64], rows: usize, columns: usize, out: &mut [f64]) {
     let row = |i: usize| &a[i * columns..(i + 1) * columns];
     let mut i = 0;
@@ -150,6 +157,7 @@ pub(crate) fn outer_product(a: &[f64], rows: usize, columns: usize, out: &mut [f
 }
 
 /// The four dot products of two pairs of rows; each has the bits of [`dot`].
+#[inline(always)]
 fn dot_2x2(a0: &[f64], a1: &[f64], b0: &[f64], b1: &[f64]) -> [[f64; 2]; 2] {
     let mut sums = [[[0.0; LANES]; 2]; 2];
     let (a0_chunks, a0_rest) = a0.as_chunks::<LANES>();

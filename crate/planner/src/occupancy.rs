@@ -5,6 +5,7 @@
 //! mean over its returns, so that every return of a full 28 800-beam scan counts.
 
 use core::f64::consts::{PI, TAU};
+use core::ops::Range;
 
 use glam::{DVec2, Vec3};
 
@@ -15,7 +16,7 @@ pub const RINGS: usize = 16;
 /// Elevation of the lowest ring, and minus that of the highest.
 pub const LOWEST_ELEVATION_RAD: f64 = -PI / 12.0;
 
-const COLUMN_STEP_RAD: f64 = TAU / COLUMNS as f64;
+pub(crate) const COLUMN_STEP_RAD: f64 = TAU / COLUMNS as f64;
 const RING_STEP_RAD: f64 = PI / 90.0;
 
 /// Azimuth of the centre of a column, in the sensor frame, in [-π, π).
@@ -120,7 +121,12 @@ impl OccupancySurface {
 
     /// The occupied cells of one column, lowest ring first.
     pub fn column(&self, column: usize) -> &[Cell] {
-        &self.cells[self.column_starts[column]..self.column_starts[column + 1]]
+        &self.cells[self.column_span(column)]
+    }
+
+    /// Where a column's cells are among [`OccupancySurface::cells`].
+    pub(crate) fn column_span(&self, column: usize) -> Range<usize> {
+        self.column_starts[column]..self.column_starts[column + 1]
     }
 }
 
