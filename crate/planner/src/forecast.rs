@@ -79,8 +79,9 @@ pub(crate) fn forecast(
         let place = standing.pose.plan_m() + standing.direction * distance_m;
         let Some(plane) = ground.plane_at(place) else { continue };
         let gap_m = distance_m - last.distance_m;
-        // No beam reaches the ground next to the robot; until it has driven on, that is bridged. Other gaps are not.
-        let bridge_m = if last.distance_m == 0.0 { config.blind_radius_m } else { config.max_gap_m };
+        // No beam reaches the ground that begins at the wheels; until it has driven on, that is bridged.
+        let at_the_wheels = last.distance_m <= config.max_gap_m;
+        let bridge_m = if at_the_wheels { config.blind_radius_m } else { config.max_gap_m };
         if gap_m > bridge_m + config.step_m {
             break;
         }
