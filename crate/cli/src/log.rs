@@ -45,9 +45,11 @@ impl Log {
     pub(crate) fn decided(&mut self, trial: &Trial) -> anyhow::Result<()> {
         let step = trial.step();
         let command = step.command;
-        let subgoal =
-            step.chosen.and_then(|index| step.subgoals.get(index)).map(|subgoal| subgoal.position_m);
-        let subgoal = subgoal.map_or(",".to_owned(), |place| format!("{:.4},{:.4}", place.x, place.y));
+        let chosen = step.chosen.and_then(|index| step.subgoals.get(index));
+        let subgoal_m = chosen.map(|subgoal| subgoal.position_m.truncate());
+        self.path_m.push(trial.robot().position);
+        self.subgoals_m.extend(subgoal_m);
+        let subgoal = subgoal_m.map_or(",".to_owned(), |place| format!("{:.6},{:.6}", place.x, place.y));
         let status = match step.status {
             Status::Driving => "driving",
             Status::Arrived => "arrived",

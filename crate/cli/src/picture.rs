@@ -109,9 +109,12 @@ impl Picture<'_> {
                 svg,
                 r#"<path fill="none" stroke="{INK}" stroke-linecap="round" stroke-width="{width}" stroke-opacity="{opacity}" d=""#
             )?;
-            for [from, to] in grid.contour(level_m) {
-                let (from, to) = (layout.place(from), layout.place(to));
-                write!(svg, "M{:.1} {:.1}L{:.1} {:.1}", from.x, from.y, to.x, to.y)?;
+            for line in grid.contour(level_m) {
+                write!(svg, "M")?;
+                for place in line {
+                    let at = layout.place(place);
+                    write!(svg, "{:.1} {:.1} ", at.x, at.y)?;
+                }
             }
             writeln!(svg, r#""/>"#)?;
         }

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use mapless_world::HeightField;
 
 /// Slopes are drawn this much steeper, since gentle ones matter to a robot.
-const EXAGGERATION: f64 = 1.6;
+const EXAGGERATION: f64 = 1.3;
 /// Share of white in the colours, so that path and marks stand out on paper too.
 const PALENESS: f64 = 0.42;
 
@@ -53,7 +53,7 @@ pub(crate) fn tint(height: f64) -> [f64; 3] {
 /// Darkens a channel in shadow and lightens it in the sun, less than the light itself changes.
 fn shade(channel: f64, light: f64) -> f64 {
     if light < 1.0 {
-        channel * (0.3 + 0.7 * light)
+        channel * (0.5 + 0.5 * light)
     } else {
         channel + (255.0 - channel) * (light - 1.0).min(1.0)
     }
