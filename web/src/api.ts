@@ -34,6 +34,8 @@ export interface MaplessApi {
   sculpt(brush: Brush): Promise<void>;
   /** Height of the ground in metres, nothing outside it. */
   heightAt(place: Place): number | undefined;
+  /** World-frame x, y, z of the newest scan's returns. */
+  scan(): Float32Array;
 }
 
 declare global {
@@ -61,5 +63,6 @@ export function publish(app: App): void {
     setStart: used((start: Heading) => app.setStart(start)),
     sculpt: used((brush: Brush) => app.sculpt(brush)),
     heightAt: (place) => app.heightAt(place),
+    scan: () => app.scan(),
   };
 }

@@ -90,6 +90,11 @@ export class App {
     this.#views.clearNotice();
   }
 
+  /** Loads a scenario and runs it at once. */
+  async run(scenario: string, preset?: Preset, seed?: number): Promise<void> {
+    await Promise.all([this.load(scenario, preset, seed), this.#setPlaying(true)]);
+  }
+
   async play(): Promise<void> {
     if (this.#frame && this.#frame.outcome !== 'running') await this.restart();
     await this.#setPlaying(true);
@@ -100,7 +105,8 @@ export class App {
   }
 
   togglePlay(): Promise<void> {
-    return this.#playing && this.#frame?.outcome === 'running' ? this.pause() : this.play();
+    const ended = this.#frame !== undefined && this.#frame.outcome !== 'running';
+    return this.#playing && !ended ? this.pause() : this.play();
   }
 
   async step(): Promise<void> {
@@ -115,8 +121,7 @@ export class App {
   }
 
   async next(): Promise<void> {
-    await this.load(following(this.scenario).id);
-    await this.#setPlaying(true);
+    await this.run(following(this.scenario).id);
   }
 
   async setSpeed(speed: number): Promise<void> {
@@ -165,6 +170,11 @@ export class App {
     return this.#field?.contains(x, y) ? this.#field.height(x, y) : undefined;
   }
 
+  /** World-frame x, y, z of the newest scan's returns. */
+  scan(): Float32Array {
+    return this.#frame?.buffers.points.slice(0, 3 * this.#frame.returns) ?? new Float32Array();
+  }
+
   hidden(hidden: boolean): Promise<void> {
     return this.#core.request({ type: 'hidden', hidden });
   }
@@ -193,11 +203,13 @@ export class App {
   }
 
   #onFrame(frame: Frame): void {
-    const ended = this.#frame?.outcome === 'running' && frame.outcome !== 'running';
+    const last = this.#frame;
     this.#frame = frame;
     this.#views.frame(frame);
     this.#views.status(frame, this.#playing);
-    this.#core.recycle(frame.buffers);
+    // The newest frame stays readable; the one before goes back.
+    if (last) this.#core.recycle(last.buffers);
+    const ended = last?.outcome === 'running' && frame.outcome !== 'running';
     if (ended) this.#linger();
   }
 

@@ -108,7 +108,7 @@ const actions = {
   next: () => app.attempt(app.next()),
   setSpeed: (speed: number) => app.attempt(app.setSpeed(speed)),
   faster: (steps: number) => app.attempt(app.faster(steps)),
-  load: (...args: Parameters<App['load']>) => app.attempt(app.load(...args).then(() => app.play())),
+  load: (...args: Parameters<App['run']>) => app.attempt(app.run(...args)),
   selectTool(tool: Parameters<GroundTools['select']>[0]) {
     tools?.select(tool);
     controls.showTool(tool);
@@ -147,4 +147,4 @@ view.addEventListener('webglcontextrestored', () => notice.hide());
 publish(app);
 
 const first = CATALOGUE[0];
-if (first) app.attempt(app.load(first.id).then(() => app.play()));
+if (first) app.attempt(app.run(first.id));

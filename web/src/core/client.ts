@@ -47,7 +47,6 @@ export class CoreClient {
   /** Gives a frame's buffers back; also tells the worker that the page is ready for another frame. */
   recycle(buffers: FrameBuffers): void {
     const { points, variance, profile, kinds } = buffers;
-    // A frame from before a panic has nowhere to return to, and its buffers may already be gone.
     this.#send({ type: 'recycle', buffers }, [points.buffer, variance.buffer, profile.buffer, kinds.buffer]);
   }
 

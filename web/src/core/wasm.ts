@@ -6,7 +6,7 @@
 export interface CoreSession {
   free(): void;
   seed(): bigint;
-  /** Scalars in the order of `SCENE` in session.ts. */
+  /** Scalars in the order of `SCENE` in decode.ts. */
   scene(): Float64Array;
   columns(): number;
   rows(): number;
@@ -22,7 +22,7 @@ export interface CoreSession {
   look(): void;
   plan(): void;
   act(): boolean;
-  /** Scalars in the order of `STATUS` in session.ts. */
+  /** Scalars in the order of `STATUS` in decode.ts. */
   status(): Float64Array;
   outcome(): string;
   activity(): string;
@@ -33,9 +33,9 @@ export interface CoreSession {
   variance(out: Float32Array): void;
   profile(out: Float32Array): void;
   kinds(out: Uint8Array): void;
-  /** `SEGMENT_STRIDE` numbers for each segment. */
+  /** Six numbers for each segment. */
   segments(): Float64Array;
-  /** `SUBGOAL_STRIDE` numbers and then one for each cost term, for each subgoal. */
+  /** Seven numbers and then one for each cost term, for each subgoal. */
   subgoals(): Float64Array;
 }
 
@@ -54,9 +54,14 @@ export interface CoreModule {
 
 /** Compiles and starts the core. */
 export async function loadCore(): Promise<CoreModule> {
-  const core = await import('../wasm/mapless_wasm.js');
-  await core.default();
-  return core;
+  try {
+    const core = await import('../wasm/mapless_wasm.js');
+    await core.default();
+    return core;
+  } catch (cause) {
+    const why = cause instanceof Error ? cause.message : String(cause);
+    throw new Error(`The simulation could not be loaded; reload the page to try again. (${why})`, { cause });
+  }
 }
 
 /** What a panic in the core left behind; a trap by itself says nothing. */

@@ -5,8 +5,8 @@ import { TICK_RATE_HZ } from './protocol.ts';
 import { Session } from './session.ts';
 import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
 
-/** Frames that may be on their way at once; when the page is slower than the simulation, frames are skipped. */
-const FRAMES_IN_FLIGHT = 2;
+/** Frames that the page may have at once, the one it shows among them; while it is slower, frames are skipped. */
+const FRAMES_IN_FLIGHT = 3;
 /** How long the loop may simulate before it listens again, in milliseconds. */
 const SLICE_MS = 12;
 /** No frame is posted sooner after the one before than this: screens show no more. */

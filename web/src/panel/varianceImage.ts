@@ -4,8 +4,8 @@
  * the subgoals upon them.
  */
 
-import type { Frame, SessionInfo, Subgoal } from '../core/protocol.ts';
-import { kindOf } from '../core/session.ts';
+import { kindOf } from '../core/decode.ts';
+import type { ColumnKind, Frame, SessionInfo, Subgoal } from '../core/protocol.ts';
 import { costColours } from '../ui/costColours.ts';
 import { wrap } from '../ui/format.ts';
 import { css, type Rgb, ramp } from '../ui/scale.ts';
@@ -33,9 +33,6 @@ export class VarianceImage {
   #theme: Theme;
   #info: SessionInfo | undefined;
   #frame: Frame | undefined;
-  #variance = new Float32Array();
-  #profile = new Float32Array();
-  #kinds = new Uint8Array();
   #hatch: CanvasPattern | null = null;
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
@@ -63,12 +60,9 @@ export class VarianceImage {
     this.#image = new ImageData(columns, rows);
   }
 
-  /** Takes what it needs from the frame's buffers at once: they go back to the worker. */
+  /** The frame's buffers stay readable until the next call. */
   show(frame: Frame): void {
     this.#frame = frame;
-    this.#variance = Float32Array.from(frame.buffers.variance);
-    this.#profile = Float32Array.from(frame.buffers.profile);
-    this.#kinds = Uint8Array.from(frame.buffers.kinds);
     this.#paintPixels();
     this.#draw();
   }
@@ -76,10 +70,11 @@ export class VarianceImage {
   #paintPixels(): void {
     const image = this.#image;
     if (!image || !this.#frame) return;
+    const { variance } = this.#frame.buffers;
     const { width: columns, height: rows } = image;
     for (let column = 0; column < columns; column += 1) {
       for (let row = 0; row < rows; row += 1) {
-        const value = this.#variance[column * rows + row] ?? 0;
+        const value = variance[column * rows + row] ?? 0;
         const [red, green, blue] = ramp(this.#theme.variance, value);
         // Column 0 looks backwards on the right; row 0 is the lowest beam.
         const at = 4 * ((rows - 1 - row) * columns + (columns - 1 - column));
@@ -108,8 +103,8 @@ export class VarianceImage {
     context.imageSmoothingEnabled = true;
     context.imageSmoothingQuality = 'high';
     this.#drawPixels(plot);
-    this.#drawColumns(plot);
-    this.#drawProfile(plot);
+    this.#drawColumns(plot, frame.buffers.kinds);
+    this.#drawProfile(plot, frame.buffers.profile);
     this.#drawSegments(plot, frame);
     context.restore();
     this.#drawAxes(plot);
@@ -128,9 +123,9 @@ export class VarianceImage {
   }
 
   /** Unknown columns are hatched; walls carry a solid band along the top. */
-  #drawColumns(plot: Plot): void {
+  #drawColumns(plot: Plot, kinds: Uint8Array): void {
     const context = this.#context;
-    this.#runs((kind, from, to) => {
+    visitRuns(kinds, (kind, from, to) => {
       const left = plot.x(to);
       const width = plot.x(from) - left;
       if (kind === 'unknown') {
@@ -150,24 +145,12 @@ export class VarianceImage {
     });
   }
 
-  /** Calls back with each run of columns of one kind and the azimuths between which it lies. */
-  #runs(visit: (kind: ReturnType<typeof kindOf>, from_rad: number, to_rad: number) => void): void {
-    const kinds = this.#kinds;
-    const step = (2 * HALF_TURN) / kinds.length;
-    for (let begin = 0; begin < kinds.length; ) {
-      let end = begin + 1;
-      while (end < kinds.length && kinds[end] === kinds[begin]) end += 1;
-      visit(kindOf(kinds[begin]), -HALF_TURN + (begin - 0.5) * step, -HALF_TURN + (end - 0.5) * step);
-      begin = end;
-    }
-  }
-
-  #drawProfile(plot: Plot): void {
+  #drawProfile(plot: Plot, profile: Float32Array): void {
     const context = this.#context;
-    const step = (2 * HALF_TURN) / this.#profile.length;
+    const step = (2 * HALF_TURN) / profile.length;
     const line = new Path2D();
     let drawing = false;
-    this.#profile.forEach((elevation_rad, column) => {
+    profile.forEach((elevation_rad, column) => {
       const ground = !Number.isNaN(elevation_rad);
       const [x, y] = [plot.x(-HALF_TURN + column * step), plot.y(elevation_rad)];
       if (ground && drawing) line.lineTo(x, y);
@@ -315,6 +298,17 @@ function layout(width: number, height: number): Plot {
     x: (azimuth_rad) => left + (inner.width * (HALF_TURN - azimuth_rad)) / (2 * HALF_TURN),
     y: (elevation_rad) => top + (inner.height * (TOP_RAD - elevation_rad)) / (2 * TOP_RAD),
   };
+}
+
+/** Calls back with each run of columns of one kind and the azimuths between which it lies. */
+function visitRuns(kinds: Uint8Array, visit: (kind: ColumnKind, from_rad: number, to_rad: number) => void): void {
+  const step = (2 * HALF_TURN) / kinds.length;
+  for (let begin = 0; begin < kinds.length; ) {
+    let end = begin + 1;
+    while (end < kinds.length && kinds[end] === kinds[begin]) end += 1;
+    visit(kindOf(kinds[begin]), -HALF_TURN + (begin - 0.5) * step, -HALF_TURN + (end - 0.5) * step);
+    begin = end;
+  }
 }
 
 /** A small tile of diagonal lines. */

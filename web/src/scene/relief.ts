@@ -21,8 +21,6 @@ import type { HeightField } from './heightfield.ts';
 import { FRAGMENT, VERTEX } from './reliefShader.ts';
 import { SUN, sunlight } from './sunlight.ts';
 
-/** Triangles of finer grids cost more than they show. */
-const MAX_VERTICES_PER_SIDE = 512;
 /** Shadows follow a stroke of the brush after this pause. */
 const RELIGHT_DELAY_MS = 120;
 
@@ -35,7 +33,8 @@ export class Relief {
   readonly #changed: () => void;
   #relightTimer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(field: HeightField, theme: Theme, changed: () => void) {
+  /** A grid of at most `verticesPerSide` squared; `changed` is called when the picture changes by itself. */
+  constructor(field: HeightField, verticesPerSide: number, theme: Theme, changed: () => void) {
     this.field = field;
     this.#changed = changed;
     const { columns, rows } = field;
@@ -48,7 +47,7 @@ export class Relief {
     this.#light.magFilter = LinearFilter;
     this.#relight();
     this.mesh = new Mesh(
-      geometry(field),
+      geometry(field, verticesPerSide),
       new ShaderMaterial({
         vertexShader: VERTEX,
         fragmentShader: FRAGMENT,
@@ -141,8 +140,8 @@ export function colour([red, green, blue]: Rgb): Color {
 }
 
 /** Grid samples as `place` = (column, row, 0 top | 1 base) and, on the cut sides, the outward `side` normal. */
-function geometry({ columns, rows }: HeightField): BufferGeometry {
-  const stride = Math.max(1, Math.ceil(Math.max(columns, rows) / MAX_VERTICES_PER_SIDE));
+function geometry({ columns, rows }: HeightField, verticesPerSide: number): BufferGeometry {
+  const stride = Math.max(1, Math.ceil(Math.max(columns, rows) / verticesPerSide));
   const xs = samples(columns, stride);
   const ys = samples(rows, stride);
   const place: number[] = [];

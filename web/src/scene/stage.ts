@@ -20,6 +20,7 @@ import { wrap } from '../ui/format.ts';
 import type { Theme } from '../ui/theme.ts';
 import type { HeightField, Vector } from './heightfield.ts';
 import { Husky } from './husky.ts';
+import { Pacer } from './pacer.ts';
 import { Places } from './places.ts';
 import { Relief } from './relief.ts';
 import { Returns } from './returns.ts';
@@ -28,13 +29,14 @@ import { Subgoals } from './subgoals.ts';
 import { SUN } from './sunlight.ts';
 
 const FIELD_OF_VIEW_DEG = 42;
-/** Slower frames than this, on average, lower the resolution. */
-const SLOW_FRAME_MS = 45;
+/** Triangles of finer grids cost more than they show; a processor draws far fewer of them than a graphics card. */
+const GRID_VERTICES = { hardware: 512, software: 160 };
 const FOLLOW_DISTANCE_M = 14.5;
 const FOLLOW_ELEVATION_RAD = 0.45;
 
 export class Stage {
   readonly #canvas: HTMLCanvasElement;
+  readonly #pacer = new Pacer();
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   readonly #camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.1, 1500);
@@ -57,14 +59,11 @@ export class Stage {
   #speed = 1;
   #follow = true;
   #dirty = true;
-  #pixelRatio = Math.min(window.devicePixelRatio, 2);
-  #averageFrame_ms = 16;
-  #lastDraw_ms = 0;
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
     this.#canvas = canvas;
     this.#theme = theme;
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.#renderer = new WebGLRenderer({ canvas, antialias: !this.#pacer.software, alpha: true });
     this.#renderer.outputColorSpace = SRGBColorSpace;
     this.#camera.up.set(0, 0, 1);
     this.#controls = new OrbitControls(this.#camera, canvas);
@@ -119,7 +118,8 @@ export class Stage {
         this.#scene.remove(this.#relief.mesh);
         this.#relief.dispose();
       }
-      this.#relief = new Relief(field, this.#theme, () => this.invalidate());
+      const vertices = this.#pacer.software ? GRID_VERTICES.software : GRID_VERTICES.hardware;
+      this.#relief = new Relief(field, vertices, this.#theme, () => this.invalidate());
       this.#scene.add(this.#relief.mesh);
     }
     if (!this.#husky) {
@@ -270,11 +270,11 @@ export class Stage {
   #resize(): void {
     const { clientWidth, clientHeight } = this.#canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
-    this.#renderer.setPixelRatio(this.#pixelRatio);
+    this.#renderer.setPixelRatio(this.#pacer.pixelRatio);
     this.#renderer.setSize(clientWidth, clientHeight, false);
     this.#camera.aspect = clientWidth / clientHeight;
     this.#camera.updateProjectionMatrix();
-    this.#returns.scale((clientHeight * this.#pixelRatio) / Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2)));
+    this.#returns.scale((clientHeight * this.#pacer.pixelRatio) / Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2)));
     this.invalidate();
   }
 
@@ -282,13 +282,13 @@ export class Stage {
     requestAnimationFrame((next_ms) => this.#loop(next_ms));
     this.#controls.update();
     this.#glide();
-    if (!this.#dirty) return;
+    if (!this.#pacer.due(now_ms) || !this.#dirty) return;
     this.#dirty = false;
     this.#keepAbove();
     this.#subgoals.attach(this.#sensor, this.#camera.position);
     this.#places.face(this.#camera.position.x, this.#camera.position.y);
     this.#renderer.render(this.#scene, this.#camera);
-    this.#adapt(now_ms);
+    if (this.#pacer.drew(now_ms)) this.#resize();
   }
 
   /** Moves the drawn robot from the last tick's pose to the newest. */
@@ -330,18 +330,5 @@ export class Stage {
     if (!this.field?.contains(position.x, position.y)) return;
     const floor = this.#height(position.x, position.y) + 0.8;
     if (position.z < floor) position.z = floor;
-  }
-
-  /** Lowers the resolution where drawing is slow, as with rendering in software. */
-  #adapt(now_ms: number): void {
-    const took_ms = now_ms - this.#lastDraw_ms;
-    this.#lastDraw_ms = now_ms;
-    if (took_ms > 1000) return;
-    this.#averageFrame_ms += 0.1 * (took_ms - this.#averageFrame_ms);
-    if (this.#averageFrame_ms > SLOW_FRAME_MS && this.#pixelRatio > 0.7) {
-      this.#pixelRatio = Math.max(0.7, this.#pixelRatio * 0.8);
-      this.#averageFrame_ms = 16;
-      this.#resize();
-    }
   }
 }

@@ -24,6 +24,7 @@ export interface Actions {
 const MAX_SEED = 0xffff_ffff;
 
 export class Controls {
+  readonly #setup = byId('setup', HTMLFormElement);
   readonly #scenario = byId('scenario', HTMLSelectElement);
   readonly #preset = byId('preset', HTMLSelectElement);
   readonly #seed = byId('seed', HTMLInputElement);
@@ -37,6 +38,8 @@ export class Controls {
   constructor(actions: Actions) {
     this.#actions = actions;
     this.#fillScenarios();
+    // Enter in a field changes the field; there is nothing to send.
+    this.#setup.addEventListener('submit', (event) => event.preventDefault());
     this.#scenario.addEventListener('change', () => this.#load(undefined));
     this.#preset.addEventListener('change', () => this.#load(this.#readSeed()));
     this.#seed.addEventListener('change', () => {

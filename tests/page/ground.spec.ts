@@ -1,0 +1,79 @@
+import { expect, state, test, until } from './page.ts';
+
+test('a stroke of the brush raises the ground, and the next scan shows it', async ({ mapless: page }) => {
+  await page.evaluate(() => window.mapless?.pause());
+  const before = await page.evaluate(() => window.mapless?.scan());
+  await page.keyboard.press('4');
+  await expect(page.locator('#brush')).toBeVisible();
+  const box = await page.locator('#view').boundingBox();
+  if (!box) throw new Error('The view has no place.');
+  // The view follows the robot: above its centre lies the ground ahead.
+  const [x, y] = [box.x + box.width / 2, box.y + 0.36 * box.height];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let step = 0; step < 12; step += 1) {
+    await page.mouse.move(x + 4 * step, y);
+    await page.waitForTimeout(50);
+  }
+  await page.mouse.up();
+  const changed = await page.evaluate(async (old) => {
+    const scan = window.mapless?.scan() ?? [];
+    let moved = 0;
+    for (let at = 2; at < Math.min(scan.length, Object.keys(old ?? {}).length); at += 3) {
+      if (Math.abs((scan[at] ?? 0) - ((old as unknown as Record<number, number>)[at] ?? 0)) > 0.1) moved += 1;
+    }
+    return moved;
+  }, before);
+  expect(changed).toBeGreaterThan(20);
+});
+
+test('raise, lower and smooth do what they say, where they say it, while the robot drives', async ({
+  mapless: page,
+}) => {
+  const { pose } = await state(page);
+  const place = { x: pose.x + 9 * Math.cos(pose.yaw), y: pose.y + 9 * Math.sin(pose.yaw) };
+  const height = () => page.evaluate((at) => window.mapless?.heightAt(at) ?? Number.NaN, place);
+  const dab = (kind: 'raise' | 'lower' | 'smooth', strength_m: number) =>
+    page.evaluate((brush) => window.mapless?.sculpt(brush), { ...place, radius_m: 1.5, strength_m, kind });
+  const level = await height();
+  await dab('raise', 0.8);
+  const raised = await height();
+  expect(raised - level).toBeCloseTo(0.8, 1);
+  for (let round = 0; round < 5; round += 1) await dab('smooth', 0.1);
+  const smoothed = await height();
+  expect(smoothed).toBeLessThan(raised);
+  await dab('lower', 0.5);
+  expect((await height()) - smoothed).toBeCloseTo(-0.5, 1);
+  const { tick } = await state(page);
+  await until(page, (now) => now.tick > tick + 3);
+});
+
+test('a click sets the goal, and a drag the start with its heading', async ({ mapless: page }) => {
+  await page.evaluate(() => window.mapless?.pause());
+  const old = await state(page);
+  const box = await page.locator('#view').boundingBox();
+  if (!box) throw new Error('The view has no place.');
+  const [x, y] = [box.x + 0.55 * box.width, box.y + 0.45 * box.height];
+  await page.getByRole('radio', { name: 'Goal' }).check();
+  await page.mouse.click(x, y);
+  await until(page, (now) => now.goal.x !== old.goal.x);
+  const { goal, tick } = await state(page);
+  expect(tick).toBe(old.tick);
+  await page.getByRole('radio', { name: 'Start' }).check();
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 160, y, { steps: 4 });
+  await page.mouse.up();
+  await until(page, (now) => now.start.x !== old.start.x);
+  const now = await state(page);
+  expect(Math.hypot(now.start.x - goal.x, now.start.y - goal.y)).toBeLessThan(0.1);
+  expect(Math.hypot(now.pose.x - now.start.x, now.pose.y - now.start.y)).toBeLessThan(0.1);
+  expect(now.tick).toBe(0);
+});
+
+test('a goal off the terrain is refused in words', async ({ mapless: page }) => {
+  const old = await state(page);
+  const refusal = await page.evaluate(() => window.mapless?.setGoal({ x: -5, y: 3 }).catch((error) => error.message));
+  expect(refusal).toContain('goal = (-5.000, 3.000)');
+  expect((await state(page)).goal).toEqual(old.goal);
+});

@@ -1,0 +1,96 @@
+import { expect, state, test, until } from './page.ts';
+
+test('everything runs by keyboard', async ({ mapless: page }) => {
+  await page.keyboard.press('Space');
+  await until(page, (now) => !now.playing);
+  await expect(page.locator('#outcome')).toHaveText('Paused');
+  const { tick } = await state(page);
+  await page.keyboard.press('s');
+  await until(page, (now) => now.tick === tick + 1);
+  await page.keyboard.press('.');
+  await until(page, (now) => now.speed === 2);
+  await page.keyboard.press(',');
+  await until(page, (now) => now.speed === 1);
+  await page.keyboard.press('r');
+  await until(page, (now) => now.playing && now.tick < tick);
+  await page.keyboard.press('5');
+  await expect(page.getByRole('radio', { name: 'Lower' })).toBeChecked();
+  const size = page.getByRole('slider', { name: 'Brush' });
+  const before = Number(await size.inputValue());
+  await page.keyboard.press(']');
+  expect(Number(await size.inputValue())).toBeGreaterThan(before);
+  await page.keyboard.press('Escape');
+  await expect(page.getByRole('radio', { name: 'Look' })).toBeChecked();
+  const follow = page.getByRole('button', { name: 'Follow the robot' });
+  await page.keyboard.press('o');
+  await expect(follow).toHaveAttribute('aria-pressed', 'false');
+  await page.keyboard.press('f');
+  await expect(follow).toHaveAttribute('aria-pressed', 'true');
+  const { scenario } = await state(page);
+  await page.keyboard.press('n');
+  await until(page, (now) => now.scenario !== scenario);
+});
+
+test('the help sheet opens, lists the keys and closes', async ({ mapless: page }) => {
+  await page.keyboard.press('?');
+  const sheet = page.getByRole('dialog', { name: 'How it works' });
+  await expect(sheet).toBeVisible();
+  await expect(sheet).toContainText('play or pause');
+  await page.keyboard.press('Escape');
+  await expect(sheet).toBeHidden();
+});
+
+test('the ground is reached by keyboard too: a goal and a hill', async ({ mapless: page }) => {
+  await page.evaluate(() => window.mapless?.pause());
+  // The cursor starts from the robot as it is drawn: it glides to where it stands within a tick.
+  await page.waitForTimeout(500);
+  const old = await state(page);
+  await page.locator('#view').focus();
+  await page.keyboard.press('2');
+  for (let step = 0; step < 4; step += 1) await page.keyboard.press('ArrowUp');
+  await page.keyboard.press('Enter');
+  await until(page, (now) => now.goal.x !== old.goal.x);
+  const { goal } = await state(page);
+  expect(Math.hypot(goal.x - old.pose.x, goal.y - old.pose.y)).toBeCloseTo(2, 1);
+  await page.keyboard.press('4');
+  for (let step = 0; step < 4; step += 1) await page.keyboard.press('ArrowUp');
+  const height = () => page.evaluate((at) => window.mapless?.heightAt(at) ?? Number.NaN, goal);
+  const before = await height();
+  for (let dab = 0; dab < 5; dab += 1) await page.keyboard.press('Enter');
+  await expect.poll(height).toBeGreaterThan(before + 0.1);
+});
+
+test('every control can be reached and has a name', async ({ mapless: page }) => {
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll<HTMLElement>('button, select, input, [tabindex]')]
+      .filter(
+        (one) =>
+          !one.hasAttribute('aria-label') && !(one as HTMLInputElement).labels?.length && !one.textContent?.trim(),
+      )
+      .map((one) => one.outerHTML),
+  );
+  expect(nameless).toEqual([]);
+  const visited = new Set<string>();
+  for (let press = 0; press < 40; press += 1) {
+    await page.keyboard.press('Tab');
+    visited.add(
+      await page.evaluate(() => document.activeElement?.id || document.activeElement?.getAttribute('name') || ''),
+    );
+  }
+  for (const id of [
+    'scenario',
+    'preset',
+    'seed',
+    'help',
+    'view',
+    'tool',
+    'follow',
+    'overview',
+    'restart',
+    'play',
+    'step',
+    'speed',
+  ]) {
+    expect([...visited]).toContain(id);
+  }
+});

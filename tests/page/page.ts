@@ -1,0 +1,66 @@
+/** What the page's tests share: opening it, and what is under the 3D view's pixels. */
+
+import { test as base, expect, type Page } from '@playwright/test';
+import type { MaplessApi, MaplessState } from '../../web/src/api.ts';
+
+declare global {
+  interface Window {
+    mapless?: MaplessApi;
+  }
+}
+
+/** A page that fails its test when a script throws or a request leaves the page's own origin. */
+export const test = base.extend<{ mapless: Page }>({
+  mapless: async ({ page, baseURL }, use) => {
+    const faults: string[] = [];
+    page.on('pageerror', (error) => faults.push(String(error)));
+    page.on('console', (message) => {
+      if (message.type() === 'error') faults.push(message.text());
+    });
+    page.on('request', (request) => {
+      const { origin, protocol } = new URL(request.url());
+      const local = origin === new URL(baseURL ?? '').origin || protocol === 'blob:' || protocol === 'data:';
+      if (!local) faults.push(`request to ${request.url()}`);
+    });
+    await page.goto('/');
+    await loaded(page);
+    await use(page);
+    expect(faults).toEqual([]);
+  },
+});
+
+export { expect };
+
+/** Waits until the first scenario is there. */
+export async function loaded(page: Page): Promise<void> {
+  await page.waitForFunction(() => window.mapless?.state() !== undefined);
+}
+
+export async function state(page: Page): Promise<MaplessState> {
+  const now = await page.evaluate(() => window.mapless?.state());
+  if (!now) throw new Error('The page has no scenario.');
+  return now;
+}
+
+/** Waits until what `read` gives passes `check`. */
+export async function until(page: Page, check: (now: MaplessState) => boolean, timeout = 60_000): Promise<void> {
+  await expect.poll(async () => check(await state(page)), { timeout, intervals: [100] }).toBe(true);
+}
+
+/** Number of different colours in a screenshot of an element: a blank drawing has one or a few. */
+export async function colours(page: Page, selector: string): Promise<number> {
+  const png = await page.locator(selector).screenshot();
+  return page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const context = canvas.getContext('2d');
+    context?.drawImage(image, 0, 0);
+    const { data } = context?.getImageData(0, 0, image.width, image.height) ?? { data: [] };
+    const seen = new Set<number>();
+    for (let at = 0; at < data.length; at += 4 * 7) {
+      seen.add(((data[at] ?? 0) << 16) | ((data[at + 1] ?? 0) << 8) | (data[at + 2] ?? 0));
+    }
+    return seen.size;
+  }, png.toString('base64'));
+}

@@ -1,0 +1,58 @@
+import { test as plain } from '@playwright/test';
+import { colours, expect, loaded, state, test, until } from './page.ts';
+
+test('an unknown scenario is named in the message, and the old one goes on', async ({ mapless: page }) => {
+  const message = await page.evaluate(() => window.mapless?.loadScenario('atlantis').catch((error) => error.message));
+  expect(message).toContain('atlantis');
+  const { tick } = await state(page);
+  await until(page, (now) => now.tick > tick);
+});
+
+test('a lost graphics context is explained, and the view comes back', async ({ mapless: page }) => {
+  await page.evaluate(() => {
+    const canvas = document.getElementById('view') as HTMLCanvasElement;
+    const lose = canvas.getContext('webgl2')?.getExtension('WEBGL_lose_context');
+    lose?.loseContext();
+    setTimeout(() => lose?.restoreContext(), 1500);
+  });
+  await expect(page.locator('#notice')).toContainText('3D view');
+  await expect(page.locator('#notice')).toBeHidden();
+  const { tick } = await state(page);
+  await until(page, (now) => now.tick > tick + 3);
+  expect(await colours(page, '#view')).toBeGreaterThan(500);
+});
+
+test('the policy of the page allows its own origin only', async ({ mapless: page }) => {
+  const policy = await page.locator('meta[http-equiv="Content-Security-Policy"]').getAttribute('content');
+  expect(policy).toContain("default-src 'none'");
+  expect(policy).not.toMatch(/https?:|\*|unsafe-inline|unsafe-eval'(?<!wasm-unsafe-eval')/);
+});
+
+plain('a damaged wasm file is explained', async ({ page }) => {
+  await page.route('**/*.wasm', (route) => route.fulfill({ contentType: 'application/wasm', body: 'not wasm' }));
+  await page.goto('/');
+  await expect(page.locator('#notice')).toBeVisible();
+  await expect(page.locator('#notice-text')).toContainText('simulation');
+});
+
+plain('after a panic in the core the simulation starts anew, and says why', async ({ page }) => {
+  let served = 0;
+  // The first worker gets a core whose fifth decision traps.
+  await page.route('**/mapless_wasm*.js', async (route) => {
+    const response = await route.fetch();
+    const script = await response.text();
+    served += 1;
+    const trap =
+      'if((globalThis.ticks=(globalThis.ticks??0)+1)===5){globalThis.maplessPanic="panicked at the fifth tick";throw new WebAssembly.RuntimeError("unreachable")}';
+    const broken = script.replace(/\bplan\(\)\s*\{/, `plan(){${trap}`);
+    expect(broken).not.toBe(script);
+    await route.fulfill({ response, body: served === 1 ? broken : script });
+  });
+  await page.goto('/');
+  await loaded(page);
+  await expect(page.locator('#notice-text')).toContainText('panicked at the fifth tick');
+  await until(page, (now) => now.tick === 0 && !now.playing);
+  await page.locator('#notice-close').click();
+  await page.getByRole('button', { name: 'Play' }).click();
+  await until(page, (now) => now.tick > 8);
+});

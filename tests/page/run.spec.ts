@@ -1,0 +1,63 @@
+import { colours, expect, state, test, until } from './page.ts';
+
+test('opens running: the robot moves without a click, and both views show it', async ({ mapless: page }) => {
+  const { pose } = await state(page);
+  await until(page, (now) => now.tick >= 15 && Math.hypot(now.pose.x - pose.x, now.pose.y - pose.y) > 0.3);
+  await expect(page.locator('#outcome')).toHaveText('Driving');
+  await expect(page.locator('#reason')).not.toBeEmpty();
+  expect(await colours(page, '#view')).toBeGreaterThan(500);
+  expect(await colours(page, '#variance')).toBeGreaterThan(50);
+});
+
+test('reaches a goal, says so, and stays there', async ({ mapless: page }) => {
+  const { pose } = await state(page);
+  const goal = { x: pose.x + 3 * Math.cos(pose.yaw), y: pose.y + 3 * Math.sin(pose.yaw) };
+  await page.evaluate((place) => window.mapless?.setGoal(place), goal);
+  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+  await until(page, (now) => now.outcome === 'reached');
+  await expect(page.locator('#result')).toBeVisible();
+  await expect(page.locator('#result-words')).toHaveText('Goal reached');
+  await expect(page.locator('#announcement')).toContainText('Goal reached');
+  const { pose: end, metrics } = await state(page);
+  expect(Math.hypot(end.x - goal.x, end.y - goal.y)).toBeLessThan(1);
+  expect(metrics.distance_m).toBeGreaterThan(1.5);
+});
+
+test('steps, restarts and repeats itself bit by bit', async ({ mapless: page }) => {
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await page.evaluate(() => window.mapless?.restart());
+  expect((await state(page)).tick).toBe(0);
+  for (let tick = 1; tick <= 3; tick += 1) {
+    await page.getByRole('button', { name: 'One tick' }).click();
+    await until(page, (now) => now.tick === tick);
+  }
+  const { digest } = await state(page);
+  await page.evaluate(() => window.mapless?.restart());
+  for (let tick = 1; tick <= 3; tick += 1) await page.evaluate(() => window.mapless?.step());
+  expect((await state(page)).digest).toBe(digest);
+});
+
+test('goes faster and slower', async ({ mapless: page }) => {
+  const ticksIn = async (seconds: number) => {
+    const from = (await state(page)).tick;
+    await page.waitForTimeout(1000 * seconds);
+    return (await state(page)).tick - from;
+  };
+  await page.getByRole('radio', { name: '½×' }).check();
+  const slow = await ticksIn(3);
+  await page.getByRole('radio', { name: 'max' }).check();
+  const fast = await ticksIn(3);
+  expect(slow).toBeGreaterThan(5);
+  expect(slow).toBeLessThan(22);
+  expect(fast).toBeGreaterThan(slow);
+});
+
+test('another scenario, planner and seed are loaded from the bar', async ({ mapless: page }) => {
+  await page.locator('#scenario').selectOption('ht');
+  await until(page, (now) => now.scenario === 'ht' && now.playing);
+  await page.locator('#preset').selectOption('paper');
+  await until(page, (now) => now.preset === 'paper');
+  await page.locator('#seed').fill('42');
+  await page.locator('#seed').press('Enter');
+  await until(page, (now) => now.seed === 42 && now.scenario === 'ht' && now.preset === 'paper');
+});

@@ -1,0 +1,37 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import type { Frame, SessionInfo, Subgoal } from '../src/core/protocol.ts';
+import { reason } from '../src/panel/reason.ts';
+
+const info = { limits: { roll_rad: 0.524, pitch_rad: 0.785 } } as SessionInfo;
+const candidate = (azimuth_rad: number, chosen: boolean): Subgoal => ({
+  azimuth_rad,
+  elevation_rad: 0,
+  x: 0,
+  y: 0,
+  z: 0,
+  chosen,
+  refusal: 'none',
+  terms: [0.1, 0.1, 0.1, 0, 0],
+  total: 0.3,
+});
+const frame = (part: Partial<Frame>): Frame =>
+  ({ tick: 5, outcome: 'running', activity: 'driving', subgoals: [], metrics: {}, ...part }) as Frame;
+
+test('says which way and out of how many', () => {
+  const subgoals = [candidate(0.35, true), candidate(-1, false)];
+  assert.equal(reason(frame({ subgoals }), info), 'Heads 20° left: the cheapest of 2 candidates.');
+  assert.equal(reason(frame({ subgoals: [candidate(0, true)] }), info), 'Straight ahead: the only candidate.');
+});
+
+test('names the angle that broke its limit', () => {
+  const metrics = { max_abs_roll_rad: 0.53, max_abs_pitch_rad: 0.2 } as Frame['metrics'];
+  assert.match(reason(frame({ outcome: 'tilt_limit', metrics }), info), /^Roll came to 30\.4°; the limit is 30\.0°/);
+  const steep = { max_abs_roll_rad: 0.1, max_abs_pitch_rad: 0.8 } as Frame['metrics'];
+  assert.match(reason(frame({ outcome: 'tilt_limit', metrics: steep }), info), /^Pitch came to 45\.8°/);
+});
+
+test('passes on why the planner stopped', () => {
+  const stopped = frame({ outcome: 'no_subgoal', stopReason: 'no subgoal found after looking around' });
+  assert.equal(reason(stopped, info), 'No subgoal found after looking around.');
+});
