@@ -6,7 +6,7 @@ use mapless_world::HeightField;
 /// Slopes are drawn this much steeper, since gentle ones matter to a robot.
 const EXAGGERATION: f64 = 1.3;
 /// Share of white in the colours, so that path and marks stand out on paper too.
-const PALENESS: f64 = 0.42;
+const PALENESS: f64 = 0.5;
 
 /// The relief of the whole field as an RGB PNG of about `size` pixels, north up.
 pub(crate) fn png(field: &HeightField, size: DVec2) -> anyhow::Result<Vec<u8>> {
