@@ -245,12 +245,15 @@ impl Trial {
         Ok(())
     }
 
-    /// Changes the ground under way; the robot settles on it. Gives the samples that changed.
+    /// Changes the ground under way; the robot settles on it and forgets what it remembers of it. Gives the samples that changed.
     ///
     /// # Errors
     /// [`TrialError::Config`] for a brush that makes no sense.
     pub fn sculpt(&mut self, brush: &Brush) -> Result<Option<SampleRect>, TrialError> {
         let changed = self.caster.sculpt(brush).map_err(|e| TrialError::Config(format!("brush.{e}")))?;
+        if changed.is_some() {
+            self.planner.reset();
+        }
         if self.husky.settle(self.caster.field()).is_err() {
             self.outcome = Some(Outcome::LeftTerrain);
         } else if self.outcome.is_some_and(|outcome| outcome != Outcome::Reached) {

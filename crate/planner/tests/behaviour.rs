@@ -1,0 +1,153 @@
+//! What the planner does with scans of simple ground, and with what it cannot understand.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
+
+use glam::{DVec2, DVec3, Vec3};
+use mapless::pose::Pose;
+use mapless::segments::Verdict;
+use mapless::{Command, Planner, PlannerConfig, Status, StopReason};
+use proptest::prelude::*;
+
+const START: Pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
+const AHEAD: DVec2 = DVec2::new(50.0, 0.0);
+
+/// A full scan, 16 rings × 1800 azimuths, from 0.8 m above the origin; `range_m` gives the range of a beam's unit direction.
+fn scan(range_m: impl Fn(DVec3) -> Option<f64>) -> Vec<Vec3> {
+    let mut points = Vec::new();
+    for column in 0..1800 {
+        let (sin_a, cos_a) = libm::sincos(f64::from(column) * 0.2_f64.to_radians() - std::f64::consts::PI);
+        for ring in 0..16 {
+            let (sin_e, cos_e) = libm::sincos((f64::from(ring) * 2.0 - 15.0).to_radians());
+            let direction = DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e);
+            if let Some(range) = range_m(direction) {
+                points.push((direction * range).as_vec3());
+            }
+        }
+    }
+    points
+}
+
+/// Level ground.
+fn level(direction: DVec3) -> Option<f64> {
+    (direction.z < -0.01).then(|| 0.8 / -direction.z)
+}
+
+/// Level ground inside a round wall.
+fn walled(radius_m: f64) -> impl Fn(DVec3) -> Option<f64> {
+    move |direction| {
+        let wall = radius_m / libm::hypot(direction.x, direction.y);
+        Some(level(direction).map_or(wall, |ground| ground.min(wall)))
+    }
+}
+
+/// Both presets, with less patience: a scan full of walls is the dearest there is.
+fn both_presets() -> [Planner; 2] {
+    [PlannerConfig::default(), PlannerConfig::paper()].map(|mut config| {
+        config.decision.look_ticks = 3;
+        Planner::new(config).unwrap()
+    })
+}
+
+#[test]
+fn level_ground_is_seen_level_all_around_and_driven_over() {
+    for mut planner in both_presets() {
+        let step = planner.step(&scan(level), &START, AHEAD);
+        assert_eq!(step.status, Status::Driving);
+        assert!(
+            step.command.linear_m_s > 0.5 && step.command.angular_rad_s.abs() < 0.2,
+            "{:?}",
+            step.command
+        );
+        assert!(step.segments.iter().all(|segment| segment.verdict == Verdict::Valid));
+        let chosen = step.subgoals[step.chosen.unwrap()];
+        assert!(chosen.bearing_rad.abs() < 0.2 && chosen.cost.is_some());
+    }
+}
+
+#[test]
+fn a_wall_all_around_ends_in_a_named_stop() {
+    for mut planner in both_presets() {
+        let points = scan(walled(1.5));
+        let first = planner.step(&points, &START, AHEAD);
+        assert!(first.segments.iter().all(|segment| segment.verdict == Verdict::Wall));
+        assert_eq!(first.status, Status::Looking);
+        assert!(first.command.linear_m_s.abs() < 1e-12 && first.command.angular_rad_s > 0.0);
+        for _ in 0..planner.config().decision.look_ticks {
+            planner.step(&points, &START, AHEAD);
+        }
+        let last = planner.last_step();
+        assert_eq!(last.status, Status::Stopped(StopReason::NoSubgoal));
+        assert_eq!(last.command, Command::STOP);
+    }
+}
+
+#[test]
+fn a_planner_that_gave_up_goes_on_once_the_world_has_changed() {
+    let [mut planner, _] = both_presets();
+    let points = scan(walled(1.5));
+    for _ in 0..=planner.config().decision.look_ticks {
+        planner.step(&points, &START, AHEAD);
+    }
+    assert_eq!(planner.last_step().status, Status::Stopped(StopReason::NoSubgoal));
+    // The walls are remembered until the planner is told to forget them.
+    planner.reset();
+    assert_eq!(planner.step(&scan(level), &START, AHEAD).status, Status::Driving);
+}
+
+#[test]
+fn a_goal_in_sight_is_driven_to_and_arrived_at() {
+    for mut planner in both_presets() {
+        let points = scan(level);
+        let goal = DVec2::new(0.0, 4.0);
+        let step = planner.step(&points, &START, goal);
+        let chosen = step.subgoals[step.chosen.unwrap()];
+        assert_eq!(chosen.segment, None);
+        assert!((chosen.position_m.truncate() - goal).length() < 1e-9);
+        assert_eq!(planner.step(&points, &START, DVec2::new(0.3, 0.3)).status, Status::Arrived);
+    }
+}
+
+#[test]
+fn what_makes_no_sense_is_answered_with_a_stop_and_its_reason() {
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    let points = scan(level);
+    let lost = Pose { yaw_rad: f64::NAN, ..START };
+    for (points, pose, goal, reason) in [
+        (&points[..], lost, AHEAD, StopReason::InvalidInput),
+        (&points[..], START, DVec2::new(f64::INFINITY, 0.0), StopReason::InvalidInput),
+        (&[][..], START, AHEAD, StopReason::EmptyScan),
+    ] {
+        let step = planner.step(points, &pose, goal);
+        assert_eq!((step.status, step.command), (Status::Stopped(reason), Command::STOP));
+    }
+    assert_eq!(planner.step(&points, &START, AHEAD).status, Status::Driving);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn any_scan_gets_a_finite_command_inside_the_limits(
+        points in prop::collection::vec(
+            prop_oneof![
+                8 => (-12.0..12.0_f32, -12.0..12.0_f32, -3.0..3.0_f32).prop_map(|(x, y, z)| Vec3::new(x, y, z)),
+                1 => Just(Vec3::NAN),
+                1 => Just(Vec3::new(f32::INFINITY, 0.0, 0.0)),
+                1 => Just(Vec3::ZERO),
+            ],
+            0..400,
+        ),
+        roll in -0.5..0.5_f64, pitch in -0.7..0.7_f64, yaw in -10.0..10.0_f64,
+        goal_x in -50.0..50.0_f64, goal_y in -50.0..50.0_f64,
+    ) {
+        let pose = Pose { roll_rad: roll, pitch_rad: pitch, yaw_rad: yaw, ..START };
+        for mut planner in both_presets() {
+            let limits = planner.config().controller;
+            let step = planner.step(&points, &pose, DVec2::new(goal_x, goal_y));
+            prop_assert!(step.command.linear_m_s >= 0.0 && step.command.linear_m_s <= limits.max_speed_m_s);
+            prop_assert!(step.command.angular_rad_s.abs() <= limits.max_turn_rate_rad_s);
+            prop_assert!(step.predicted.relative_variance.iter().all(|v| v.is_finite()));
+            prop_assert!(step.predicted.mean_m.iter().all(|m| m.is_finite()));
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! In the browser, kernel, mean and variance agree with gpflow, and every scenario gives the trajectory recorded natively,
+//! to the bit.
+#![cfg(target_arch = "wasm32")]
+#![allow(clippy::panic, clippy::unwrap_used)]
+
+use mapless_tests::{gpflow, scenarios_text::SCENARIOS};
+use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
+
+wasm_bindgen_test_configure!(run_in_browser);
+
+#[wasm_bindgen_test]
+fn gpflow_fixtures_agree() {
+    assert_eq!(gpflow::compare(gpflow::SCENE).unwrap(), 4);
+    assert_eq!(gpflow::compare(gpflow::KERNELS).unwrap(), 6);
+}
+
+fn check(name: &str) {
+    let scenario = SCENARIOS.iter().find(|scenario| scenario.name == name).unwrap();
+    scenario.check().unwrap();
+}
+
+#[wasm_bindgen_test]
+fn cht_ab_gives_the_native_digest() {
+    check("cht-ab");
+}
+
+#[wasm_bindgen_test]
+fn cht_ac_gives_the_native_digest() {
+    check("cht-ac");
+}
+
+#[wasm_bindgen_test]
+fn cht_ad_gives_the_native_digest() {
+    check("cht-ad");
+}
+
+#[wasm_bindgen_test]
+fn cht_ae_gives_the_native_digest() {
+    check("cht-ae");
+}
+
+#[wasm_bindgen_test]
+fn cht_ba_gives_the_native_digest() {
+    check("cht-ba");
+}
+
+#[wasm_bindgen_test]
+fn cht_bd_gives_the_native_digest() {
+    check("cht-bd");
+}
+
+#[wasm_bindgen_test]
+fn gsb_gives_the_native_digest() {
+    check("gsb");
+}
+
+#[wasm_bindgen_test]
+fn ht_gives_the_native_digest() {
+    check("ht");
+}
+
+#[wasm_bindgen_test]
+fn ml_gives_the_native_digest() {
+    check("ml");
+}
+
+#[wasm_bindgen_test]
+fn vta_gives_the_native_digest() {
+    check("vta");
+}
