@@ -2,7 +2,8 @@ import { expect, state, test, until } from './page.ts';
 
 test('a stroke of the brush raises the ground, and the next scan shows it', async ({ mapless: page }) => {
   await page.evaluate(() => window.mapless?.pause());
-  const before = await page.evaluate(() => window.mapless?.scan());
+  // Only handles leave the page: tens of thousands of numbers would take long to hand over and back.
+  const before = await page.evaluateHandle(() => window.mapless?.scan() ?? new Float32Array());
   await page.keyboard.press('4');
   await expect(page.locator('#brush')).toBeVisible();
   const box = await page.locator('#view').boundingBox();
@@ -16,11 +17,13 @@ test('a stroke of the brush raises the ground, and the next scan shows it', asyn
     await page.waitForTimeout(50);
   }
   await page.mouse.up();
-  const changed = await page.evaluate(async (old) => {
-    const scan = window.mapless?.scan() ?? [];
+  const after = await page.evaluate(() => window.mapless?.state()?.returns);
+  expect(after).toBeGreaterThan(1000);
+  const changed = await page.evaluate((old) => {
+    const scan = window.mapless?.scan() ?? new Float32Array();
     let moved = 0;
-    for (let at = 2; at < Math.min(scan.length, Object.keys(old ?? {}).length); at += 3) {
-      if (Math.abs((scan[at] ?? 0) - ((old as unknown as Record<number, number>)[at] ?? 0)) > 0.1) moved += 1;
+    for (let at = 2; at < Math.min(scan.length, old.length); at += 3) {
+      if (Math.abs((scan[at] ?? 0) - (old[at] ?? 0)) > 0.1) moved += 1;
     }
     return moved;
   }, before);

@@ -34,8 +34,9 @@ function post(message: FromWorker, transfer: Transferable[] = []): void {
   self.postMessage(message, { transfer });
 }
 
+/** Reports an error: of a request, which changes nothing else, or of the loop, which then stands still. */
 function fail(error: unknown, id?: number): void {
-  playing = false;
+  if (id === undefined) playing = false;
   const panicked = error instanceof WebAssembly.RuntimeError;
   const plain = error instanceof Error ? error.message : String(error);
   post({ type: 'failed', id, message: (panicked ? panicMessage() : undefined) ?? plain, panicked });

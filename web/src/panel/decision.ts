@@ -42,8 +42,7 @@ export class DecisionPanel {
   show({ subgoals, segments }: Frame): void {
     const colourOf = costColours(subgoals);
     const candidates = subgoals.filter((one) => one.terms).sort((a, b) => a.total - b.total);
-    const refused = subgoals.filter((one) => one.refusal !== 'none').length;
-    setText(this.#summary, summary(candidates.length, refused, segments));
+    setText(this.#summary, summary(candidates.length, subgoals, segments));
     const chosen = subgoals.find((one) => one.chosen);
     const shown = candidates.slice(0, SHOWN);
     // The choice is always in the list, also when it is the goal itself.
@@ -70,11 +69,14 @@ function positive(one: Subgoal): number {
   return (one.terms ?? []).reduce((sum, term) => sum + Math.max(term, 0), 0);
 }
 
-function summary(candidates: number, refused: number, segments: Frame['segments']): string {
-  const valid = segments.filter((one) => one.verdict === 'valid').length;
+function summary(candidates: number, subgoals: Frame['subgoals'], segments: Frame['segments']): string {
   const counted = `${candidates} ${candidates === 1 ? 'candidate' : 'candidates'}`;
-  const turnedDown = refused > 0 ? `, ${refused} refused` : '';
-  return `${counted}${turnedDown}, ${valid} of ${segments.length} segments valid`;
+  const refused = (['tilt', 'unseen'] as const)
+    .map((refusal) => ({ refusal, count: subgoals.filter((one) => one.refusal === refusal).length }))
+    .filter(({ count }) => count > 0)
+    .map(({ refusal, count }) => (refusal === 'tilt' ? `${count} would tilt` : `${count} unseen`));
+  const valid = segments.filter((one) => one.verdict === 'valid').length;
+  return [counted, ...refused, `${valid}/${segments.length} segments`].join(' · ');
 }
 
 export function direction(azimuth_rad: number): string {

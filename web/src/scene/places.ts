@@ -12,7 +12,11 @@ import {
 } from 'three';
 import type { Heading, Place } from '../core/protocol.ts';
 import type { Theme } from '../ui/theme.ts';
+import type { Vector } from './heightfield.ts';
 import { colour } from './relief.ts';
+
+/** From farther away the flag grows with the distance. */
+const FULL_SIZE_WITHIN_M = 40;
 
 type Height = (x: number, y: number) => number;
 
@@ -73,9 +77,11 @@ export class Places {
     this.#start.rotation.z = start.heading_rad;
   }
 
-  /** Turns the flag's cloth to the viewer. */
-  face(x: number, y: number): void {
-    const { position } = this.#goal;
-    this.#goal.rotation.z = Math.atan2(y - position.y, x - position.x) + Math.PI / 2;
+  /** Turns the flag's cloth to the viewer, and keeps it in sight from afar. */
+  face({ x, y, z }: Vector): void {
+    const { position, rotation, scale } = this.#goal;
+    const [east, north] = [x - position.x, y - position.y];
+    rotation.z = Math.atan2(north, east) + Math.PI / 2;
+    scale.setScalar(Math.max(1, Math.hypot(east, north, z - position.z) / FULL_SIZE_WITHIN_M));
   }
 }

@@ -15,7 +15,7 @@ void main() {
   near = 1.0 - smoothstep(radius - 0.02, radius + 0.02, distance(position, sensor));
   vec4 view = viewMatrix * vec4(position + vec3(0.0, 0.0, 0.02), 1.0);
   gl_Position = projectionMatrix * view;
-  gl_PointSize = clamp(scale * mix(0.045, 0.06, near) / -view.z, 1.5, 9.0);
+  gl_PointSize = clamp(scale * mix(0.028, 0.036, near) / -view.z, 1.3, 8.0);
 }
 `;
 

@@ -58,6 +58,7 @@ export class Stage {
   #frameSpan_ms = 100;
   #speed = 1;
   #follow = true;
+  #dragging = false;
   #dirty = true;
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
@@ -73,6 +74,12 @@ export class Stage {
     this.#controls.enableDamping = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
     this.#controls.dampingFactor = 0.12;
     this.#controls.addEventListener('change', () => this.invalidate());
+    this.#controls.addEventListener('start', () => {
+      this.#dragging = true;
+    });
+    this.#controls.addEventListener('end', () => {
+      this.#dragging = false;
+    });
     const sun = new DirectionalLight(0xfff3df, 3.2);
     sun.position.set(...SUN);
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
@@ -173,7 +180,7 @@ export class Stage {
     if (!field) return;
     const middle = { x: field.width_m / 2, y: field.depth_m / 2 };
     const away_m =
-      (0.62 * Math.max(field.width_m / Math.min(this.#camera.aspect, 1.5), field.depth_m)) /
+      (0.55 * Math.max(field.width_m / Math.min(this.#camera.aspect, 1.5), field.depth_m)) /
       Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
     this.#controls.target.set(middle.x, middle.y, field.min_m);
     this.#camera.position.set(middle.x, middle.y - 0.66 * away_m, field.min_m + 0.75 * away_m);
@@ -285,8 +292,9 @@ export class Stage {
     if (!this.#pacer.due(now_ms) || !this.#dirty) return;
     this.#dirty = false;
     this.#keepAbove();
+    if (this.#follow && !this.#dragging) this.#keepSight();
     this.#subgoals.attach(this.#sensor, this.#camera.position);
-    this.#places.face(this.#camera.position.x, this.#camera.position.y);
+    this.#places.face(this.#camera.position);
     this.#renderer.render(this.#scene, this.#camera);
     if (this.#pacer.drew(now_ms)) this.#resize();
   }
@@ -322,6 +330,17 @@ export class Stage {
     this.#sensorAt(pose);
     this.#relief?.robot(pose.x, pose.y, pose.yaw, this.#info?.occupancy_radius_m ?? 0);
     this.invalidate();
+  }
+
+  /** Lifts the following camera, a little with each picture, while a hill hides the robot. */
+  #keepSight(): void {
+    const { position } = this.#camera;
+    const { target } = this.#controls;
+    const line = target.clone().sub(position);
+    const hit = this.field?.intersect(position, line);
+    // The target hovers above the robot's feet; what the ray meets beyond it hides nothing.
+    if (!hit || Math.hypot(hit.x - position.x, hit.y - position.y) > Math.hypot(line.x, line.y) - 0.6) return;
+    this.nudge(0, 0.03, 1);
   }
 
   /** The camera never dips into a hill. */
