@@ -1,6 +1,7 @@
 //! The picture of a trial: its path over the elevation, as SVG.
 
 mod contours;
+mod marks;
 mod relief;
 mod scale;
 
@@ -23,9 +24,10 @@ const BOTTOM: f64 = 96.0;
 /// The legend needs this much even under a narrow map.
 const LEAST_WIDTH: f64 = 640.0;
 
+/// Colour of lines and words.
 const INK: &str = "#1c1c1c";
+/// Colour of the path and the flag.
 const PATH: &str = "#b3002d";
-const SUBGOAL: &str = "#ffffff";
 
 /// What the picture shows of a trial.
 pub(crate) struct Picture<'a> {
@@ -200,7 +202,7 @@ impl Picture<'_> {
 
     fn route(&self, svg: &mut String, layout: &Layout) -> fmt::Result {
         for &subgoal in self.subgoals_m.iter().filter(|&&subgoal| self.field.contains(subgoal)) {
-            subgoal_mark(svg, layout.place(subgoal))?;
+            marks::subgoal(svg, layout.place(subgoal))?;
         }
         let mut line = String::new();
         for &place in self.path_m {
@@ -213,10 +215,12 @@ impl Picture<'_> {
                 r#"<polyline fill="none" stroke="{stroke}" stroke-width="{width}" stroke-linejoin="round" stroke-linecap="round" points="{line}"/>"#
             )?;
         }
-        goal_mark(svg, layout.place(self.goal_m), Some(self.goal_tolerance_m * layout.pixels_per_m))?;
-        start_mark(svg, layout.place(self.start.position_m), self.start.heading_rad)?;
+        let goal = layout.place(self.goal_m);
+        marks::arrival(svg, goal, self.goal_tolerance_m * layout.pixels_per_m)?;
+        marks::flag(svg, goal)?;
+        marks::start(svg, layout.place(self.start.position_m), self.start.heading_rad)?;
         match self.path_m.last() {
-            Some(&end) if self.outcome != Outcome::Reached => end_mark(svg, layout.place(end)),
+            Some(&end) if self.outcome != Outcome::Reached => marks::end(svg, layout.place(end)),
             _ => Ok(()),
         }
     }
@@ -224,27 +228,26 @@ impl Picture<'_> {
     fn legend(&self, svg: &mut String, layout: &Layout, interval_m: Option<f64>) -> fmt::Result {
         let y = TOP + layout.size.y + 68.0;
         let mut x = LEFT + 8.0;
-        let entry = |svg: &mut String, x_mark: &mut f64, words: &str| {
-            let result =
-                writeln!(svg, r#"<text x="{:.1}" y="{:.1}">{words}</text>"#, *x_mark + 16.0, y + 4.5);
-            *x_mark += 46.0 + 6.6 * words.chars().count() as f64;
-            result
+        // Writes the words beside the mark at x and gives the place of the next mark.
+        let words = |svg: &mut String, x: f64, words: &str| -> Result<f64, fmt::Error> {
+            writeln!(svg, r#"<text x="{:.1}" y="{:.1}">{words}</text>"#, x + 18.0, y + 4.5)?;
+            Ok(x + 52.0 + 6.6 * words.chars().count() as f64)
         };
-        start_mark(svg, DVec2::new(x, y), 0.0)?;
-        entry(svg, &mut x, "start")?;
-        goal_mark(svg, DVec2::new(x, y), None)?;
-        entry(svg, &mut x, "goal")?;
+        marks::start(svg, DVec2::new(x, y), 0.0)?;
+        x = words(svg, x, "start")?;
+        marks::flag(svg, DVec2::new(x - 6.0, y + 9.0))?;
+        x = words(svg, x, "goal")?;
         writeln!(svg, r#"<path stroke="{PATH}" stroke-width="3" d="M{:.1} {y:.1}h20"/>"#, x - 10.0)?;
-        entry(svg, &mut x, "path")?;
-        subgoal_mark(svg, DVec2::new(x, y))?;
-        entry(svg, &mut x, "chosen subgoals")?;
+        x = words(svg, x, "path")?;
+        marks::subgoal(svg, DVec2::new(x, y))?;
+        x = words(svg, x, "chosen subgoals")?;
         if self.outcome != Outcome::Reached {
-            end_mark(svg, DVec2::new(x, y))?;
-            entry(svg, &mut x, self.outcome.name())?;
+            marks::end(svg, DVec2::new(x, y))?;
+            x = words(svg, x, self.outcome.name())?;
         }
         if let Some(interval_m) = interval_m {
             writeln!(svg, r#"<path stroke="{INK}" stroke-opacity="0.55" d="M{:.1} {y:.1}h20"/>"#, x - 10.0)?;
-            entry(svg, &mut x, &format!("contours every {interval_m} m"))?;
+            words(svg, x, &format!("contours every {interval_m} m"))?;
         }
         self.scale_bar(svg, layout)
     }
@@ -263,54 +266,6 @@ impl Picture<'_> {
             y + 7.5
         )
     }
-}
-
-/// A disc with a beak in the heading.
-fn start_mark(svg: &mut String, at: DVec2, heading_rad: f64) -> fmt::Result {
-    writeln!(
-        svg,
-        r##"<g transform="translate({:.1} {:.1}) rotate({:.1})"><path d="M13 0L5 -5.2A7 7 0 1 0 5 5.2Z" fill="#fff" stroke="{INK}" stroke-width="1.8" stroke-linejoin="round"/></g>"##,
-        at.x,
-        at.y,
-        -heading_rad.to_degrees()
-    )
-}
-
-/// A flag, with the circle that counts as arrival where its radius is given.
-fn goal_mark(svg: &mut String, at: DVec2, tolerance: Option<f64>) -> fmt::Result {
-    let (x, y) = (at.x, at.y);
-    if let Some(radius) = tolerance {
-        writeln!(
-            svg,
-            r##"<circle cx="{x:.1}" cy="{y:.1}" r="{radius:.1}" fill="#fff" fill-opacity="0.35" stroke="{INK}" stroke-dasharray="4 3"/>"##
-        )?;
-    }
-    let foot = if tolerance.is_some() { y } else { y + 8.0 };
-    writeln!(
-        svg,
-        r#"<path d="M{x:.1} {foot:.1}v-22l16 6l-16 6" fill="{PATH}" stroke="{INK}" stroke-width="1.8" stroke-linejoin="round"/>"#
-    )
-}
-
-fn subgoal_mark(svg: &mut String, at: DVec2) -> fmt::Result {
-    writeln!(
-        svg,
-        r#"<circle cx="{:.1}" cy="{:.1}" r="2.4" fill="{SUBGOAL}" fill-opacity="0.8" stroke="{INK}" stroke-opacity="0.5" stroke-width="0.7"/>"#,
-        at.x, at.y
-    )
-}
-
-/// A cross where the robot ended without reaching the goal.
-fn end_mark(svg: &mut String, at: DVec2) -> fmt::Result {
-    for (stroke, width) in [("#fff", 6.0), (INK, 3.0)] {
-        writeln!(
-            svg,
-            r#"<path stroke="{stroke}" stroke-width="{width}" stroke-linecap="round" d="M{:.1} {:.1}l14 14m0 -14l-14 14"/>"#,
-            at.x - 7.0,
-            at.y - 7.0
-        )?;
-    }
-    Ok(())
 }
 
 fn escape(text: &str) -> String {

@@ -1,6 +1,6 @@
 //! How far a running trial has come, on standard error when that is a terminal.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use mapless_trials::Trial;
@@ -20,7 +20,6 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}") {
             bar.set_style(style);
         }
-        bar.enable_steady_tick(Duration::from_millis(100));
         Self { bar, begun: Instant::now(), straight_m }
     }
 
