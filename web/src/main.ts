@@ -116,7 +116,7 @@ const actions = {
   setBrushRadius: (radius_m: number) => tools?.radius(radius_m),
   growBrush: (steps: number) => controls.growBrush(steps),
   toggleFollow() {
-    stage?.follow(!stage.following);
+    stage?.toggleFollow();
     controls.showFollowing(stage?.following ?? false);
   },
   overview() {

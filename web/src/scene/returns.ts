@@ -15,7 +15,7 @@ void main() {
   near = 1.0 - smoothstep(radius - 0.02, radius + 0.02, distance(position, sensor));
   vec4 view = viewMatrix * vec4(position + vec3(0.0, 0.0, 0.02), 1.0);
   gl_Position = projectionMatrix * view;
-  gl_PointSize = clamp(scale * mix(0.028, 0.036, near) / -view.z, 1.3, 8.0);
+  gl_PointSize = clamp(scale * mix(0.055, 0.07, near) / -view.z, 1.3, 8.0);
 }
 `;
 
@@ -62,7 +62,7 @@ export class Returns {
     this.points.material.uniforms.farColour?.value.copy(colour(theme.returnFar));
   }
 
-  /** Drawing height in device pixels over the tangent of half the field of view: points keep a size in metres. */
+  /** Device pixels that one metre has, one metre away: points keep a size in metres. */
   scale(pixels: number): void {
     const { scale } = this.points.material.uniforms;
     if (scale) scale.value = pixels;
