@@ -4,6 +4,7 @@
 
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use glam::DVec2;
 use mapless_trials::LoadedScenario;
@@ -18,9 +19,17 @@ fn terrains() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../terrains")
 }
 
-fn scenario(name: &str) -> LoadedScenario {
-    let path = terrains().join("scenarios").join(name).with_extension("toml");
-    LoadedScenario::read(&path).unwrap_or_else(|error| panic!("{error}"))
+/// Every scenario, loaded once for all tests.
+static LOADED: LazyLock<Vec<LoadedScenario>> = LazyLock::new(|| {
+    let load = |name| {
+        let path = terrains().join("scenarios").join(name).with_extension("toml");
+        LoadedScenario::read(&path).unwrap_or_else(|error| panic!("{error}"))
+    };
+    SCENARIOS.map(load).into()
+});
+
+fn loaded() -> impl Iterator<Item = (&'static str, &'static LoadedScenario)> {
+    SCENARIOS.into_iter().zip(LOADED.iter())
 }
 
 /// Names of the recipes or scenarios in a folder, in order.
@@ -54,8 +63,9 @@ fn a_recipe_gives_the_same_bits_twice() {
 /// The same letter is the same place in every route of the Challenging Hilly Terrain.
 #[test]
 fn routes_share_their_places() {
-    let start = |name| scenario(name).scenario.start.position_m;
-    let goal = |name| scenario(name).scenario.goal_m;
+    let scenario = |wanted| &loaded().find(|(name, _)| *name == wanted).unwrap().1.scenario;
+    let start = |name| scenario(name).start.position_m;
+    let goal = |name| scenario(name).goal_m;
     let (a, b, d) = (start("cht-ab"), goal("cht-ab"), goal("cht-ad"));
     for name in ["cht-ac", "cht-ad", "cht-ae"] {
         assert_eq!(start(name), a, "{name}");
@@ -97,8 +107,7 @@ fn drive_straight(field: &HeightField, start: DVec2, heading_rad: f64, goal: DVe
 
 #[test]
 fn driving_straight_at_the_goal_fails() {
-    for name in SCENARIOS {
-        let LoadedScenario { scenario, terrain } = scenario(name);
+    for (name, LoadedScenario { scenario, terrain }) in loaded() {
         let start = scenario.start;
         let end = drive_straight(&terrain.field, start.position_m, start.heading_rad, scenario.goal_m);
         assert!(end.is_some(), "{name}: reached its goal straight on");
@@ -171,8 +180,7 @@ fn safe_way_m(field: &HeightField, start: DVec2, goal: DVec2) -> Option<f64> {
 
 #[test]
 fn a_safe_way_to_the_goal_exists() {
-    for name in SCENARIOS {
-        let LoadedScenario { scenario, terrain } = scenario(name);
+    for (name, LoadedScenario { scenario, terrain }) in loaded() {
         let (start, goal) = (scenario.start.position_m, scenario.goal_m);
         let length_m =
             safe_way_m(&terrain.field, start, goal).unwrap_or_else(|| panic!("{name}: no safe way"));
@@ -184,8 +192,7 @@ fn a_safe_way_to_the_goal_exists() {
 /// Start and goal are places to stand on, away from the border.
 #[test]
 fn start_and_goal_are_nearly_level() {
-    for name in SCENARIOS {
-        let LoadedScenario { scenario, terrain } = scenario(name);
+    for (name, LoadedScenario { scenario, terrain }) in loaded() {
         for (what, centre) in [("start", scenario.start.position_m), ("goal", scenario.goal_m)] {
             let inside = centre.min_element().min((terrain.field.extent_m() - centre).min_element());
             assert!(inside >= 5.0, "{name}: {what} is {inside} m from the border");
