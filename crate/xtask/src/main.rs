@@ -1,4 +1,5 @@
-//! The chores of the repository: `cargo xtask demo`, `cargo xtask test` and `cargo xtask build`.
+//! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build` and
+//! `cargo xtask scenarios`.
 //!
 //! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a browser),
 //! so that a fresh clone on a machine with Rust and Node needs nothing by hand.
@@ -6,6 +7,7 @@
 mod browser;
 mod count;
 mod page;
+mod scenarios;
 mod setup;
 mod test;
 
@@ -39,6 +41,12 @@ enum Command {
         /// The part to run; all of them when absent.
         part: Option<test::Part>,
     },
+    /// Run every scenario with both presets and several seeds, and write docs/SCENARIOS.md.
+    Scenarios {
+        /// Seeds 1 to N.
+        #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
+        seeds: u64,
+    },
 }
 
 fn main() -> ExitCode {
@@ -59,5 +67,6 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Demo { port } => page::demo(&sh, port),
         Command::Build => page::build(&sh),
         Command::Test { part } => test::run(&sh, part),
+        Command::Scenarios { seeds } => scenarios::run(&sh, seeds),
     }
 }
