@@ -282,7 +282,7 @@ fn help_is_no_error() {
     assert!(String::from_utf8(output.stdout).unwrap().contains("--preset"));
 }
 
-/// Real ground: a river terrace with a scarp across it, sampled every metre.
+/// Real ground, sampled every metre: from one corner, down a scarp of five metres, to the opposite one.
 #[test]
 fn a_trial_on_a_real_elevation_model_ends_in_a_named_outcome() {
     let grid =
@@ -295,7 +295,7 @@ fn a_trial_on_a_real_elevation_model_ends_in_a_named_outcome() {
     fs::copy(grid, folder.path("kootenai.asc")).unwrap();
     folder.write(
         "kootenai.toml",
-        "terrain = \"kootenai.asc\"\nstart = [2.0, 2.0, 0.6]\ngoal = [47.0, 34.0]\nseed = 1\n",
+        "terrain = \"kootenai.asc\"\nstart = [2.0, 34.0, -0.6]\ngoal = [47.0, 2.0]\nseed = 1\n",
     );
     let output = folder.run("kootenai.toml", &["--json"]);
     let result: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -114,7 +114,11 @@ fn run_one(program: &Path, folder: &Path, job: &Job) -> anyhow::Result<Trial> {
         .args(["--json", "--preset", job.preset, "--seed", &job.seed.to_string()])
         .output()
         .with_context(|| program.display().to_string())?;
-    ensure!(matches!(output.status.code(), Some(0 | 2)), "{}", String::from_utf8_lossy(&output.stderr));
+    ensure!(
+        matches!(output.status.code(), Some(0 | 2)),
+        "{}",
+        String::from_utf8_lossy(&output.stderr).trim_start_matches("error: ")
+    );
     serde_json::from_slice(&output.stdout).context("output of mapless run --json")
 }
 
