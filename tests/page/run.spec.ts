@@ -18,6 +18,7 @@ test('reaches a goal, says so, and stays there', async ({ mapless: page }) => {
   await expect(page.locator('#result')).toBeVisible();
   await expect(page.locator('#result-words')).toHaveText('Goal reached');
   await expect(page.locator('#announcement')).toContainText('Goal reached');
+  await expect(page.getByRole('button', { name: 'Play' })).toBeVisible();
   const { pose: end, metrics } = await state(page);
   expect(Math.hypot(end.x - goal.x, end.y - goal.y)).toBeLessThan(1);
   expect(metrics.distance_m).toBeGreaterThan(1.5);

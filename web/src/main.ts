@@ -75,6 +75,8 @@ const app = new App({
   },
   status(frame, playing) {
     status.show(frame, playing);
+    // Once a trial has ended, the button starts it anew.
+    controls.showPlaying(playing && frame.outcome === 'running');
     result.hidden = frame.outcome === 'running';
     result.dataset.outcome = frame.outcome;
     setText(element('result-words'), OUTCOME_WORDS[frame.outcome]);

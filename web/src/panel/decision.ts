@@ -39,10 +39,13 @@ export class DecisionPanel {
     this.#list.replaceChildren(...this.#lines.map((line) => line.row));
   }
 
-  show({ subgoals, segments }: Frame): void {
+  show({ activity, subgoals, segments }: Frame): void {
     const colourOf = costColours(subgoals);
     const candidates = subgoals.filter((one) => one.terms).sort((a, b) => a.total - b.total);
-    setText(this.#summary, summary(candidates.length, subgoals, segments));
+    setText(
+      this.#summary,
+      activity === 'arrived' ? 'nothing left to decide' : summary(candidates.length, subgoals, segments),
+    );
     const chosen = subgoals.find((one) => one.chosen);
     const shown = candidates.slice(0, SHOWN);
     // The choice is always in the list, also when it is the goal itself.
