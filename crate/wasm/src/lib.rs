@@ -1,7 +1,7 @@
 //! The closed loop for the page: [`Trial`](mapless_trials::Trial) behind typed arrays.
 //!
 //! Nothing is decided here. Numbers leave as flat arrays whose order is written at each function; the page's
-//! `web/src/core/session.ts` names them again. All are in SI units and radians, in the frames of `mapless-world`.
+//! `web/src/core/decode.ts` names them again. All are in SI units and radians, in the frames of `mapless-world`.
 
 mod encode;
 mod panic;
