@@ -6,7 +6,8 @@
 use mapless_tests::{gpflow, scenarios_text::SCENARIOS};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
-wasm_bindgen_test_configure!(run_in_browser);
+// As the page does: a trial takes minutes, and the driver gives up on a page that does not answer for half of one.
+wasm_bindgen_test_configure!(run_in_dedicated_worker);
 
 #[wasm_bindgen_test]
 fn gpflow_fixtures_agree() {
