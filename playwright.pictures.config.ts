@@ -1,5 +1,5 @@
 import { defineConfig } from '@playwright/test';
-import base from '../../playwright.config.ts';
+import base from './playwright.config.ts';
 
 /** `npm run pictures`: takes the pictures of the documentation from the built page. */
-export default defineConfig(base, { testDir: '.', testMatch: 'pictures.ts' });
+export default defineConfig(base, { testMatch: 'pictures.ts' });
