@@ -96,17 +96,6 @@ impl Log {
 }
 
 fn state(trial: &Trial) -> String {
-    let (pose, robot) = (trial.pose(), trial.robot());
-    let values = [
-        pose.position_m.x,
-        pose.position_m.y,
-        pose.position_m.z,
-        pose.roll_rad,
-        pose.pitch_rad,
-        pose.yaw_rad,
-        robot.speed_m_s,
-        robot.turn_rate_rad_s,
-    ];
-    let values: String = values.iter().map(|value| format!(",{value:.6}")).collect();
+    let values: String = trial.motion().iter().map(|value| format!(",{value:.6}")).collect();
     format!("{:.3}{values}", trial.time_s())
 }

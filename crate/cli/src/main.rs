@@ -4,6 +4,7 @@
 
 mod log;
 mod picture;
+mod profile;
 mod progress;
 mod report;
 mod run;
@@ -25,6 +26,8 @@ struct Args {
 enum Command {
     /// Run one trial. Exit code: 0 = goal reached, 2 = another outcome, 1 = error.
     Run(run::Args),
+    /// Compare the elevation profile with the true skyline at random poses.
+    Profile(profile::Args),
 }
 
 fn main() -> ExitCode {
@@ -32,10 +35,15 @@ fn main() -> ExitCode {
         Ok(args) => args,
         Err(message) => return usage(&message),
     };
-    let Command::Run(args) = args.command;
-    match run::run(&args) {
-        Ok(Outcome::Reached) => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::from(2),
+    let done = match args.command {
+        Command::Run(args) => run::run(&args).map(|outcome| match outcome {
+            Outcome::Reached => ExitCode::SUCCESS,
+            _ => ExitCode::from(2),
+        }),
+        Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
+    };
+    match done {
+        Ok(code) => code,
         Err(error) => {
             eprintln!("error: {error:#}");
             ExitCode::FAILURE

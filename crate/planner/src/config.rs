@@ -53,12 +53,24 @@ pub struct PerceptionConfig {
     pub kernel: RationalQuadratic,
     /// Noise variance σₙ² of one cell's occupancy, square metres. Paper: learned.
     pub noise_variance_m2: f64,
-    /// Inducing inputs are added, farthest point first, until every return is this near to one, in length-scales.
+    /// Where the inducing inputs lie. Paper: not given.
+    pub inducing_inputs: InducingInputs,
+    /// Spacing of the inducing inputs, in length-scales: at most on the lattice, at least with farthest points.
     pub inducing_spacing_length_scales: f64,
-    /// Inducing inputs at most. Paper: not given; the authors' earlier code uses 400 to 500.
+    /// Farthest points at most. Paper: not given; the authors' earlier code uses 400 to 500.
     pub max_inducing_inputs: usize,
     /// Threshold V_th on the variance, as a share of the signal variance. Paper: 0.7.
     pub variance_threshold: f64,
+}
+
+/// How inducing inputs are placed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum InducingInputs {
+    /// On the lattice of the sensor's columns and rings, wherever there are returns.
+    Lattice,
+    /// Among the returns, each the farthest from those before it, until every return is near one.
+    FarthestPoints,
 }
 
 /// Segments and subgoals.
@@ -203,10 +215,11 @@ impl Default for PerceptionConfig {
         Self {
             surface_radius_m: 7.0,
             kernel: RationalQuadratic::default(),
-            noise_variance_m2: 1.0,
-            inducing_spacing_length_scales: 0.85,
+            noise_variance_m2: 3.0,
+            inducing_inputs: InducingInputs::Lattice,
+            inducing_spacing_length_scales: 0.95,
             max_inducing_inputs: 1000,
-            variance_threshold: 0.22,
+            variance_threshold: 0.3,
         }
     }
 }
@@ -281,6 +294,8 @@ impl PlannerConfig {
             perception: PerceptionConfig {
                 kernel: RationalQuadratic { variance: 1.0, length_scales_rad: [0.035, 0.035], alpha: 10.0 },
                 noise_variance_m2: 0.01,
+                inducing_inputs: InducingInputs::FarthestPoints,
+                inducing_spacing_length_scales: 0.85,
                 variance_threshold: 0.7,
                 ..default.perception
             },

@@ -19,9 +19,9 @@ pub struct RationalQuadratic {
 }
 
 impl Default for RationalQuadratic {
-    /// Length-scales near the sensor's ring spacing and five columns' width; DESIGN.md says how they were chosen.
+    /// An elevation length-scale near the sensor's ring spacing; DESIGN.md says how the values were chosen.
     fn default() -> Self {
-        Self { variance: 1.0, length_scales_rad: [0.12, 0.04], alpha: 10.0 }
+        Self { variance: 1.0, length_scales_rad: [0.15, 0.04], alpha: 10.0 }
     }
 }
 

@@ -40,20 +40,25 @@ pub mod angle;
 pub mod config;
 pub mod controller;
 pub mod cost;
+mod edge;
 mod error;
 pub mod forecast;
 mod ground;
 mod inducing;
 pub mod kernel;
+mod lattice;
 mod linalg;
 pub mod occupancy;
 pub mod perception;
 mod planner;
 pub mod pose;
 pub mod profile;
+mod sectors;
 pub mod segments;
 pub mod sparse_gp;
 pub mod subgoals;
+#[cfg(test)]
+mod testing;
 
 pub use config::PlannerConfig;
 pub use controller::Command;

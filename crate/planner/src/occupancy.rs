@@ -17,7 +17,7 @@ pub const RINGS: usize = 16;
 pub const LOWEST_ELEVATION_RAD: f64 = -PI / 12.0;
 
 pub(crate) const COLUMN_STEP_RAD: f64 = TAU / COLUMNS as f64;
-const RING_STEP_RAD: f64 = PI / 90.0;
+pub(crate) const RING_STEP_RAD: f64 = PI / 90.0;
 
 /// Azimuth of the centre of a column, in the sensor frame, in [-π, π).
 pub fn column_azimuth_rad(column: usize) -> f64 {

@@ -9,9 +9,9 @@ use crate::error::ConfigError;
 use crate::forecast::{ReachEnd, Standing, forecast};
 use crate::ground::Ground;
 use crate::occupancy::{LOWEST_ELEVATION_RAD, OccupancySurface, column_of};
-use crate::perception::{Perception, PredictedSurface};
+use crate::perception::{Effort, Perception, PredictedSurface};
 use crate::pose::Pose;
-use crate::profile::{Column, ElevationProfile, read_profile};
+use crate::profile::{Column, ElevationProfile};
 use crate::segments::{Segment, cut_segments};
 use crate::sparse_gp::GpError;
 use crate::subgoals::{Refusal, Subgoal, bearing_rad, carries_subgoals, spread_azimuths, world_position_m};
@@ -55,8 +55,8 @@ pub struct Step<'a> {
     pub command: Command,
     /// The observed occupancy surface.
     pub observed: &'a OccupancySurface,
-    /// Its reconstruction and the variance surface.
-    pub predicted: &'a PredictedSurface,
+    /// What the Gaussian process needed for the profile.
+    pub effort: Effort,
     /// The elevation profile.
     pub profile: &'a [Column],
     /// Its segments.
@@ -163,12 +163,21 @@ impl Planner {
             status: self.status,
             command: self.command,
             observed: &self.observed,
-            predicted: self.perception.surface(),
+            effort: self.perception.effort(),
             profile: &self.profile,
             segments: &self.segments,
             subgoals: &self.subgoals,
             chosen: self.chosen,
         }
+    }
+
+    /// The reconstructed occupancy and the variance surface of the last step's scan. A step itself needs only their edge, so
+    /// they are predicted here.
+    ///
+    /// # Errors
+    /// [`GpError`] when there is no posterior.
+    pub fn predicted_surface(&mut self) -> Result<&PredictedSurface, GpError> {
+        self.perception.surface(&self.observed)
     }
 
     fn decide(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Status {
@@ -224,13 +233,7 @@ impl Planner {
 
     fn perceive(&mut self, points_m: &[Vec3]) -> Result<(), GpError> {
         self.observed.project(points_m);
-        self.perception.predict(&self.observed)?;
-        read_profile(
-            &self.observed,
-            self.perception.surface(),
-            self.config.perception.variance_threshold,
-            &mut self.profile,
-        );
+        self.perception.profile(&self.observed, &mut self.profile)?;
         cut_segments(
             &self.profile,
             &self.config.segments,

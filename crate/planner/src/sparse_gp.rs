@@ -30,6 +30,21 @@ pub enum GpError {
 const FIRST_JITTER: f64 = 1e-6;
 const LAST_JITTER: f64 = 1e-2;
 
+/// Tries to `factor` the covariance of `inducing` inputs with ever more jitter on its diagonal; gives the jitter that did.
+pub(crate) fn with_rising_jitter(
+    inducing: usize,
+    mut factor: impl FnMut(f64) -> Result<(), NotPositiveDefinite>,
+) -> Result<f64, GpError> {
+    let mut jitter = FIRST_JITTER;
+    while factor(jitter).is_err() {
+        if jitter >= LAST_JITTER {
+            return Err(GpError::IllConditioned { inducing, jitter });
+        }
+        jitter *= 10.0;
+    }
+    Ok(jitter)
+}
+
 /// Coordinates divided by the kernel's length-scales, one array per axis so that kernel rows vectorise.
 #[derive(Clone, Debug, Default)]
 struct ScaledInputs {
@@ -163,22 +178,15 @@ impl SparseGp {
     fn factor_inducing_covariance(&mut self) -> Result<(), GpError> {
         let m = self.inducing.len();
         self.l.resize(m * m, 0.0);
-        let mut jitter = FIRST_JITTER;
-        loop {
-            for (i, row) in self.l.chunks_exact_mut(m).enumerate() {
-                let point = self.inducing.point(i);
-                self.kernel.row(point, &self.inducing.azimuths, &self.inducing.elevations, row);
+        let Self { l, inducing, kernel, .. } = self;
+        self.jitter = with_rising_jitter(m, |jitter| {
+            for (i, row) in l.chunks_exact_mut(m).enumerate() {
+                kernel.row(inducing.point(i), &inducing.azimuths, &inducing.elevations, row);
                 row[i] += jitter;
             }
-            if linalg::cholesky(&mut self.l, m).is_ok() {
-                self.jitter = jitter;
-                return Ok(());
-            }
-            if jitter >= LAST_JITTER {
-                return Err(GpError::IllConditioned { inducing: m, jitter });
-            }
-            jitter *= 10.0;
-        }
+            linalg::cholesky(l, m)
+        })?;
+        Ok(())
     }
 
     /// K between the inducing inputs and the current inputs, into `wide`.

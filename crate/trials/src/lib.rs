@@ -6,11 +6,13 @@
 mod digest;
 mod metrics;
 mod places;
+mod profile_accuracy;
 mod scenario;
 mod trial;
 
-pub use metrics::{Metrics, MetricsRecorder};
+pub use metrics::Metrics;
 pub use places::StartPose;
+pub use profile_accuracy::{ColumnKind, ProfileAccuracy, profile_accuracy};
 #[cfg(not(target_arch = "wasm32"))]
 pub use scenario::LoadedScenario;
 pub use scenario::{Preset, Scenario, ScenarioError, ScenarioFault};

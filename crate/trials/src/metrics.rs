@@ -24,7 +24,7 @@ pub struct Metrics {
 
 /// Collects the metrics from evenly spaced samples of the motion.
 #[derive(Clone, Debug)]
-pub struct MetricsRecorder {
+pub(crate) struct MetricsRecorder {
     last: Sample,
     time_s: f64,
     distance_m: f64,
@@ -80,7 +80,7 @@ impl MetricsRecorder {
     }
 
     /// The metrics up to the last sample; zeros where no time has passed.
-    pub fn metrics(&self) -> Metrics {
+    pub(crate) fn metrics(&self) -> Metrics {
         let per_second = |total: f64| if self.time_s > 0.0 { total / self.time_s } else { 0.0 };
         Metrics {
             distance_m: self.distance_m,

@@ -1,7 +1,9 @@
 //! One trial: world → scan → planner → command → world.
 
 use glam::{DVec2, DVec3};
+use mapless::perception::PredictedSurface;
 use mapless::pose::Pose;
+use mapless::sparse_gp::GpError;
 use mapless::{Planner, PlannerConfig, Status, Step, StopReason};
 use mapless_world::{
     Brush, Caster, DriveCommand, DriveError, HeightField, Husky, HuskyConfig, HuskyState, SampleRect, Scan,
@@ -287,6 +289,14 @@ impl Trial {
         self.planner.last_step()
     }
 
+    /// The reconstructed occupancy and the variance surface of the last planner step's scan.
+    ///
+    /// # Errors
+    /// [`GpError`] when there is no posterior.
+    pub fn predicted_surface(&mut self) -> Result<&PredictedSurface, GpError> {
+        self.planner.predicted_surface()
+    }
+
     /// The planner's configuration.
     pub fn planner_config(&self) -> &PlannerConfig {
         self.planner.config()
@@ -326,6 +336,13 @@ impl Trial {
             pitch_rad: state.attitude.pitch_rad,
             yaw_rad: state.yaw_rad,
         }
+    }
+
+    /// x, y, z in metres; roll, pitch, yaw in radians; speed in m/s and turn rate in rad/s.
+    pub fn motion(&self) -> [f64; 8] {
+        let (pose, robot) = (self.pose(), self.robot());
+        let [x, y, z] = pose.position_m.to_array();
+        [x, y, z, pose.roll_rad, pose.pitch_rad, pose.yaw_rad, robot.speed_m_s, robot.turn_rate_rad_s]
     }
 
     /// Where it started.

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 use js_sys::{Float32Array, Uint8Array};
+use mapless::occupancy::COLUMNS;
 use mapless::perception::ROWS;
 use mapless::{Status, StopReason};
 use mapless_trials::{Preset, Scenario, StartPose, Trial};
@@ -69,7 +70,6 @@ impl Session {
         let config = self.trial.planner_config();
         let StartPose { position_m, heading_rad } = self.trial.start();
         let goal_m = self.trial.goal_m();
-        let columns = self.trial.step().predicted.relative_variance.len() / ROWS;
         vec![
             position_m.x,
             position_m.y,
@@ -80,7 +80,7 @@ impl Session {
             config.limits.pitch_rad,
             config.perception.surface_radius_m,
             config.mount.height_m,
-            columns as f64,
+            COLUMNS as f64,
             ROWS as f64,
         ]
     }
@@ -197,19 +197,10 @@ impl Session {
     /// six metrics in the order of [`mapless_trials::Metrics`].
     pub fn status(&self) -> Vec<f64> {
         let trial = &self.trial;
-        let (pose, robot, metrics) = (trial.pose(), trial.robot(), trial.metrics());
-        let command = trial.step().command;
-        vec![
-            trial.ticks() as f64,
-            trial.time_s(),
-            pose.position_m.x,
-            pose.position_m.y,
-            pose.position_m.z,
-            pose.roll_rad,
-            pose.pitch_rad,
-            pose.yaw_rad,
-            robot.speed_m_s,
-            robot.turn_rate_rad_s,
+        let (command, metrics) = (trial.step().command, trial.metrics());
+        let mut values = vec![trial.ticks() as f64, trial.time_s()];
+        values.extend(trial.motion());
+        values.extend([
             command.linear_m_s,
             command.angular_rad_s,
             trial.planner_config().perception.variance_threshold,
@@ -219,7 +210,8 @@ impl Session {
             metrics.mean_vibration_rad_s,
             metrics.mean_elevation_rate_cm_s,
             metrics.curvature_change_rad_m,
-        ]
+        ]);
+        values
     }
 
     /// How the trial ended, or `running`.
@@ -262,11 +254,17 @@ impl Session {
     }
 
     /// The variance surface as a share of the signal variance, column by column from straight behind over the right, lowest
-    /// row first; as much as `out` holds.
+    /// row first; as much as `out` holds. Predicted only now, since a step needs no more than its edge. Where there is no
+    /// posterior, nothing was observed: 1.
     pub fn variance(&mut self, out: &Float32Array) {
         self.scratch.clear();
-        let variance = &self.trial.step().predicted.relative_variance;
-        self.scratch.extend(variance.iter().take(out.length() as usize).map(|&v| v as f32));
+        let size = out.length() as usize;
+        match self.trial.predicted_surface() {
+            Ok(surface) => {
+                self.scratch.extend(surface.relative_variance.iter().take(size).map(|&v| v as f32))
+            }
+            Err(_) => self.scratch.resize(size, 1.0),
+        }
         self.send(out);
     }
 

@@ -16,7 +16,7 @@ mod config;
 mod height_field;
 mod husky;
 mod import;
-mod random;
+pub mod random;
 pub mod recipe;
 mod sculpt;
 mod skyline;

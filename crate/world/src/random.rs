@@ -7,24 +7,24 @@ use std::f64::consts::TAU;
 const WEYL: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The output function of `SplitMix64` (Steele, Lea and Flood, 2014): every bit of the result depends on every bit of `x`.
-pub(crate) fn mix(x: u64) -> u64 {
+fn mix(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ (x >> 31)
 }
 
 /// A key for the pair (a, b).
-pub(crate) fn key(a: u64, b: u64) -> u64 {
+pub fn key(a: u64, b: u64) -> u64 {
     mix(mix(a.wrapping_add(WEYL)).wrapping_add(b.wrapping_mul(WEYL)))
 }
 
 /// A number in (0, 1], never 0 so that its logarithm exists.
-pub(crate) fn uniform(key: u64) -> f64 {
+pub fn uniform(key: u64) -> f64 {
     ((key >> 11) + 1) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
 /// A standard normal number, by the method of Box and Muller.
-pub(crate) fn gaussian(key: u64) -> f64 {
+pub fn gaussian(key: u64) -> f64 {
     let radius = (-2.0 * libm::log(uniform(key))).sqrt();
     radius * libm::cos(TAU * uniform(mix(key.wrapping_add(WEYL))))
 }
