@@ -12,67 +12,119 @@ pub(crate) struct NotPositiveDefinite;
 
 const LANES: usize = 4;
 
+/// The dot products of R rows with C others, each with the bits it has alone; together they hide the latency of the sums.
 #[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a_chunks, a_rest) = a.as_chunks::<LANES>();
-    let (b_chunks, b_rest) = b.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for (x, y) in a_chunks.iter().zip(b_chunks) {
-        for lane in 0..LANES {
-            sums[lane] += x[lane] * y[lane];
+fn dots<const R: usize, const C: usize>(a: [&[f64]; R], b: [&[f64]; C]) -> [[f64; C]; R] {
+    let length = b[0].len();
+    let whole = length - length % LANES;
+    let mut sums = [[[0.0; LANES]; C]; R];
+    for k in (0..whole).step_by(LANES) {
+        let x: [[f64; LANES]; R] = core::array::from_fn(|r| load(a[r], k));
+        let y: [[f64; LANES]; C] = core::array::from_fn(|c| load(b[c], k));
+        for r in 0..R {
+            for c in 0..C {
+                for lane in 0..LANES {
+                    sums[r][c][lane] += x[r][lane] * y[c][lane];
+                }
+            }
         }
     }
-    let mut rest = 0.0;
-    for (x, y) in a_rest.iter().zip(b_rest) {
-        rest += x * y;
+    let mut totals = [[0.0; C]; R];
+    for r in 0..R {
+        for c in 0..C {
+            let mut rest = 0.0;
+            for k in whole..length {
+                rest += a[r][k] * b[c][k];
+            }
+            let s = &sums[r][c];
+            totals[r][c] = (s[0] + s[2]) + (s[1] + s[3]) + rest;
+        }
     }
-    (sums[0] + sums[2]) + (sums[1] + sums[3]) + rest
+    totals
 }
 
-/// Factors the symmetric `a` (n × n) as L Lᵀ and leaves L in its lower triangle, zeros above.
+#[inline(always)]
+fn load(values: &[f64], from: usize) -> [f64; LANES] {
+    let mut lanes = [0.0; LANES];
+    lanes.copy_from_slice(&values[from..from + LANES]);
+    lanes
+}
+
+#[inline(always)]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    dots([a], [b])[0][0]
+}
+
+/// Factors the symmetric `a` (n × n) as L Lᵀ, reading and writing its lower triangle, and leaves zeros above.
 #[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn cholesky(a: &mut [f64], n: usize) -> Result<(), NotPositiveDefinite> {
-    for i in 0..n {
-        let (above, row_on) = a.split_at_mut(i * n);
-        let row = &mut row_on[..n];
-        for j in 0..i {
-            let other = &above[j * n..j * n + j + 1];
-            row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
+    let mut i = 0;
+    // Four rows at a time, against two of the finished ones.
+    while i + 4 <= n {
+        let (above, rows_on) = a.split_at_mut(i * n);
+        let finished = |j: usize| &above[j * n..j * n + j + 1];
+        for j in (0..i).step_by(2) {
+            let (first, second) = (finished(j), finished(j + 1));
+            let row = |r: usize| &rows_on[r * n..r * n + j];
+            let sums = dots([row(0), row(1), row(2), row(3)], [&first[..j], &second[..j]]);
+            for (r, [a, b]) in sums.into_iter().enumerate() {
+                let row = &mut rows_on[r * n..r * n + j + 2];
+                row[j] = (row[j] - a) / first[j];
+                row[j + 1] = (row[j + 1] - (b + row[j] * second[j])) / second[j + 1];
+            }
         }
-        let pivot = row[i] - dot(&row[..i], &row[..i]);
-        // Also refuses NaN.
-        if !(pivot > 0.0 && pivot.is_finite()) {
-            return Err(NotPositiveDefinite);
+        for r in i..i + 4 {
+            finish_row(a, n, r, i)?;
         }
-        row[i] = pivot.sqrt();
-        row[i + 1..].fill(0.0);
+        i += 4;
+    }
+    for r in i..n {
+        finish_row(a, n, r, 0)?;
     }
     Ok(())
 }
 
-/// Columns solved together, so that the panel stays in registers and first-level cache.
-const PANEL: usize = 8;
+/// Finishes row `i`, of which the first `done` entries are finished.
+#[inline(always)]
+fn finish_row(a: &mut [f64], n: usize, i: usize, done: usize) -> Result<(), NotPositiveDefinite> {
+    let (above, row_on) = a.split_at_mut(i * n);
+    let row = &mut row_on[..n];
+    for j in done..i {
+        let other = &above[j * n..j * n + j + 1];
+        row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
+    }
+    let pivot = row[i] - dot(&row[..i], &row[..i]);
+    // Also refuses NaN.
+    if !(pivot > 0.0 && pivot.is_finite()) {
+        return Err(NotPositiveDefinite);
+    }
+    row[i] = pivot.sqrt();
+    row[i + 1..].fill(0.0);
+    Ok(())
+}
 
 /// Solves L X = B in place for lower triangular `l` (n × n) and `b` (n × columns).
 #[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn solve_lower(l: &[f64], n: usize, b: &mut [f64], columns: usize) {
-    let full = columns - columns % PANEL;
-    for start in (0..full).step_by(PANEL) {
-        solve_panel(l, n, b, columns, start);
-    }
-    for column in full..columns {
-        for i in 0..n {
-            let mut value = b[i * columns + column];
-            for j in 0..i {
-                value -= l[i * n + j] * b[j * columns + column];
-            }
-            b[i * columns + column] = value / l[i * n + i];
-        }
+    let mut start = 0;
+    while start < columns {
+        start += match columns - start {
+            8.. => solve_panel::<8>(l, n, b, columns, start),
+            4.. => solve_panel::<4>(l, n, b, columns, start),
+            _ => solve_panel::<1>(l, n, b, columns, start),
+        };
     }
 }
 
+/// Solves for PANEL columns, which stay in registers and first-level cache; gives their number.
 #[inline(always)]
-fn solve_panel(l: &[f64], n: usize, b: &mut [f64], columns: usize, start: usize) {
+fn solve_panel<const PANEL: usize>(
+    l: &[f64],
+    n: usize,
+    b: &mut [f64],
+    columns: usize,
+    start: usize,
+) -> usize {
     let panel_row = |row: usize| row * columns + start..row * columns + start + PANEL;
     let load = |b: &[f64], row: usize| -> [f64; PANEL] {
         let mut values = [0.0; PANEL];
@@ -114,6 +166,7 @@ fn solve_panel(l: &[f64], n: usize, b: &mut [f64], columns: usize, start: usize)
         }
         b[panel_row(i)].copy_from_slice(&last);
     }
+    PANEL
 }
 
 /// Solves L x = b in place for one right-hand side.
@@ -128,62 +181,26 @@ pub(crate) fn solve_lower_vector(l: &[f64], n: usize, b: &mut [f64]) {
 #[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn outer_product(a: &[f64], rows: usize, columns: usize, out: &mut [f64]) {
     let row = |i: usize| &a[i * columns..(i + 1) * columns];
-    let mut i = 0;
-    while i < rows {
-        let tall = (rows - i).min(2);
-        let mut j = 0;
-        while j <= i {
-            if tall == 2 && j < i {
-                let block = dot_2x2(row(i), row(i + 1), row(j), row(j + 1));
-                for (r, pair) in block.iter().enumerate() {
-                    for (c, &value) in pair.iter().enumerate() {
-                        out[(i + r) * rows + j + c] = value;
-                        out[(j + c) * rows + i + r] = value;
-                    }
-                }
-            } else {
-                for r in i..i + tall {
-                    for c in j..(j + 2).min(r + 1) {
-                        let value = dot(row(r), row(c));
-                        out[r * rows + c] = value;
-                        out[c * rows + r] = value;
-                    }
-                }
-            }
-            j += 2;
-        }
-        i += 2;
-    }
-}
-
-/// The four dot products of two pairs of rows; each has the bits of [`dot`].
-#[inline(always)]
-fn dot_2x2(a0: &[f64], a1: &[f64], b0: &[f64], b1: &[f64]) -> [[f64; 2]; 2] {
-    let mut sums = [[[0.0; LANES]; 2]; 2];
-    let (a0_chunks, a0_rest) = a0.as_chunks::<LANES>();
-    let (a1_chunks, a1_rest) = a1.as_chunks::<LANES>();
-    let (b0_chunks, b0_rest) = b0.as_chunks::<LANES>();
-    let (b1_chunks, b1_rest) = b1.as_chunks::<LANES>();
-    for (((x0, x1), y0), y1) in a0_chunks.iter().zip(a1_chunks).zip(b0_chunks).zip(b1_chunks) {
-        for lane in 0..LANES {
-            sums[0][0][lane] += x0[lane] * y0[lane];
-            sums[0][1][lane] += x0[lane] * y1[lane];
-            sums[1][0][lane] += x1[lane] * y0[lane];
-            sums[1][1][lane] += x1[lane] * y1[lane];
-        }
-    }
-    let mut rest = [[0.0; 2]; 2];
-    for (((x0, x1), y0), y1) in a0_rest.iter().zip(a1_rest).zip(b0_rest).zip(b1_rest) {
-        rest[0][0] += x0 * y0;
-        rest[0][1] += x0 * y1;
-        rest[1][0] += x1 * y0;
-        rest[1][1] += x1 * y1;
-    }
-    let total = |r: usize, c: usize| {
-        let s = &sums[r][c];
-        (s[0] + s[2]) + (s[1] + s[3]) + rest[r][c]
+    let mut set = |i: usize, j: usize, value: f64| {
+        out[i * rows + j] = value;
+        out[j * rows + i] = value;
     };
-    [[total(0, 0), total(0, 1)], [total(1, 0), total(1, 1)]]
+    let mut i = 0;
+    while i + 4 <= rows {
+        for j in (0..i + 4).step_by(2) {
+            let block = dots([row(i), row(i + 1), row(i + 2), row(i + 3)], [row(j), row(j + 1)]);
+            for (r, [first, second]) in block.into_iter().enumerate() {
+                set(i + r, j, first);
+                set(i + r, j + 1, second);
+            }
+        }
+        i += 4;
+    }
+    for i in i..rows {
+        for j in 0..=i {
+            set(i, j, dot(row(i), row(j)));
+        }
+    }
 }
 
 /// Writes A v (rows) of `a` (rows × columns) to `out`.
