@@ -24,6 +24,19 @@ test('reaches a goal, says so, and stays there', async ({ mapless: page }) => {
   expect(metrics.distance_m).toBeGreaterThan(1.5);
 });
 
+test('goes on to the next scenario when nobody touches the page', async ({ mapless: page }) => {
+  const { pose, scenario } = await state(page);
+  const goal = { x: pose.x + 2 * Math.cos(pose.yaw), y: pose.y + 2 * Math.sin(pose.yaw) };
+  await page.evaluate((place) => window.mapless?.setGoal(place), goal);
+  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+  await until(page, (now) => now.outcome === 'reached');
+  await expect(page.locator('#countdown')).toHaveText(/^in \d+ s$/);
+  await until(page, (now) => now.playing && now.tick > 0, 60_000);
+  const next = await state(page);
+  expect(next.scenario).not.toBe(scenario);
+  await expect(page.locator('#result')).toBeHidden();
+});
+
 test('steps, restarts and repeats itself bit by bit', async ({ mapless: page }) => {
   await page.getByRole('button', { name: 'Pause' }).click();
   await page.evaluate(() => window.mapless?.restart());

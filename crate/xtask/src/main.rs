@@ -1,5 +1,5 @@
-//! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build` and
-//! `cargo xtask scenarios`.
+//! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build`, and
+//! `cargo xtask scenarios` and `cargo xtask profile`, which measure.
 //!
 //! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a browser),
 //! so that a fresh clone on a machine with Rust and Node needs nothing by hand.
@@ -7,9 +7,12 @@
 mod browser;
 mod count;
 mod page;
+mod plot;
+mod profile;
 mod scenarios;
 mod setup;
 mod test;
+mod work;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -47,6 +50,12 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
         seeds: u64,
     },
+    /// Compare the elevation profile with the true one for several settings, and write docs/PROFILE.md.
+    Profile {
+        /// Random poses on each terrain.
+        #[arg(long, value_name = "N", default_value_t = 200)]
+        poses: usize,
+    },
 }
 
 fn main() -> ExitCode {
@@ -68,5 +77,6 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Build => page::build(&sh),
         Command::Test { part } => test::run(&sh, part),
         Command::Scenarios { seeds } => scenarios::run(&sh, seeds),
+        Command::Profile { poses } => profile::run(&sh, poses),
     }
 }

@@ -5,17 +5,14 @@ use std::env::consts::EXE_EXTENSION;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
-use std::thread;
 
 use anyhow::{Context as _, ensure};
 use xshell::{Shell, cmd};
 
 use crate::setup;
+use crate::work::run_all;
 
 const PRESETS: [&str; 2] = ["default", "paper"];
-/// Trials that run at a time.
-const WORKERS: usize = 2;
 const REPORT: &str = "docs/SCENARIOS.md";
 
 /// The six metrics: name in the JSON, heading, decimals.
@@ -61,7 +58,13 @@ pub(crate) fn run(sh: &Shell, seeds: u64) -> anyhow::Result<()> {
             jobs.extend((1..=seeds).map(|seed| Job { preset, scenario: scenario.clone(), seed }));
         }
     }
-    let trials = run_all(&program, &folder, jobs)?;
+    let trials = run_all(
+        jobs,
+        |job| run_one(&program, &folder, job),
+        |Job { preset, scenario, seed }, trial: &Trial| {
+            format!("{scenario}, preset {preset}, seed {seed}: {}", trial.outcome)
+        },
+    )?;
     sh.write_file(REPORT, report(&names, &trials, seeds)?)?;
     println!("{REPORT} written");
     Ok(())
@@ -75,35 +78,6 @@ fn scenario_names(sh: &Shell, folder: &Path) -> anyhow::Result<Vec<String>> {
     names.sort();
     ensure!(!names.is_empty(), "{} has no scenarios", folder.display());
     Ok(names)
-}
-
-/// Runs the jobs, a few at a time, up to the first that cannot run.
-fn run_all(program: &Path, folder: &Path, jobs: Vec<Job>) -> anyhow::Result<BTreeMap<Job, Trial>> {
-    let count = jobs.len();
-    let queue = Mutex::new(jobs.into_iter().enumerate());
-    let next = || queue.lock().ok().and_then(|mut queue| queue.next());
-    let work = || -> anyhow::Result<Vec<(Job, Trial)>> {
-        let mut done = Vec::new();
-        while let Some((index, job)) = next() {
-            let trial = run_one(program, folder, &job).with_context(|| {
-                // Nobody needs the rest then.
-                while next().is_some() {}
-                format!("{}, preset {}, seed {}", job.scenario, job.preset, job.seed)
-            })?;
-            let Job { preset, scenario, seed } = &job;
-            println!("{}/{count} {scenario}, preset {preset}, seed {seed}: {}", index + 1, trial.outcome);
-            done.push((job, trial));
-        }
-        Ok(done)
-    };
-    thread::scope(|scope| {
-        let workers: Vec<_> = (0..WORKERS).map(|_| scope.spawn(work)).collect();
-        let mut trials = BTreeMap::new();
-        for worker in workers {
-            trials.extend(worker.join().map_err(|_| anyhow::anyhow!("a worker panicked"))??);
-        }
-        Ok(trials)
-    })
 }
 
 fn run_one(program: &Path, folder: &Path, job: &Job) -> anyhow::Result<Trial> {

@@ -9,8 +9,8 @@ import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
 const FRAMES_IN_FLIGHT = 3;
 /** How long the loop may simulate before it listens again, in milliseconds. */
 const SLICE_MS = 12;
-/** No frame is posted sooner after the one before than this: screens show no more. */
-const FRAME_INTERVAL_MS = 14;
+/** No frame is posted sooner after the one before than this: each needs the whole variance surface, which ticks do not. */
+const FRAME_INTERVAL_MS = 50;
 
 let core: CoreModule | undefined;
 let session: Session | undefined;

@@ -1,0 +1,140 @@
+//! A small line plot as SVG, readable in print and on a dark page.
+
+use std::fmt::Write as _;
+
+const WIDTH: f64 = 720.0;
+const HEIGHT: f64 = 400.0;
+const LEFT: f64 = 64.0;
+const RIGHT: f64 = 168.0;
+const TOP: f64 = 16.0;
+const BOTTOM: f64 = 52.0;
+/// Okabe and Ito's colours for everybody.
+const COLOURS: [&str; 6] = ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+
+/// One line.
+pub(crate) struct Line {
+    pub(crate) name: &'static str,
+    pub(crate) points: Vec<(f64, f64)>,
+}
+
+/// Lines over one axis.
+pub(crate) struct Plot {
+    pub(crate) x_label: &'static str,
+    pub(crate) y_label: &'static str,
+    pub(crate) lines: Vec<Line>,
+    /// A value of x to mark.
+    pub(crate) mark_x: Option<f64>,
+}
+
+impl Plot {
+    pub(crate) fn svg(&self) -> String {
+        let all = || self.lines.iter().flat_map(|line| line.points.iter().copied());
+        let (x_low, x_high) = range(all().map(|(x, _)| x));
+        let (y_low, y_high) = range(all().map(|(_, y)| y).chain([0.0]));
+        let y_step = step(y_high - y_low);
+        let (y_low, y_high) = ((y_low / y_step).floor() * y_step, (y_high / y_step).ceil() * y_step);
+        let x_at = |x: f64| LEFT + (x - x_low) / (x_high - x_low) * (WIDTH - LEFT - RIGHT);
+        let y_at = |y: f64| HEIGHT - BOTTOM - (y - y_low) / (y_high - y_low) * (HEIGHT - TOP - BOTTOM);
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"system-ui, sans-serif\" font-size=\"13\">\n\
+             <style>text {{ fill: #333 }} .axis {{ stroke: #999 }} @media (prefers-color-scheme: dark) {{ text {{ fill: #ddd }} .axis {{ stroke: #777 }} }}</style>\n"
+        );
+        let mut draw = |text: String| {
+            let _ = writeln!(svg, "{text}");
+        };
+        for (value, y) in ticks(y_low, y_high, y_step).map(|v| (v, y_at(v))) {
+            let width = if value.abs() < 1e-9 { 1.5 } else { 0.5 };
+            draw(format!(
+                "<path class=\"axis\" d=\"M{LEFT} {y:.1}H{}\" stroke-width=\"{width}\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
+                WIDTH - RIGHT,
+                LEFT - 8.0,
+                y + 4.0,
+                number(value)
+            ));
+        }
+        let x_step = step(x_high - x_low);
+        for value in ticks((x_low / x_step).ceil() * x_step, x_high, x_step) {
+            draw(format!(
+                "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
+                x_at(value),
+                HEIGHT - BOTTOM + 20.0,
+                number(value)
+            ));
+        }
+        if let Some(x) = self.mark_x.map(x_at) {
+            draw(format!(
+                "<path class=\"axis\" d=\"M{x:.1} {TOP}V{}\" stroke-dasharray=\"4 4\"/>",
+                HEIGHT - BOTTOM
+            ));
+        }
+        for (line, colour) in self.lines.iter().zip(COLOURS.iter().cycle()) {
+            let points: Vec<String> =
+                line.points.iter().map(|&(x, y)| format!("{:.1},{:.1}", x_at(x), y_at(y))).collect();
+            draw(format!(
+                "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2.5\" stroke-linejoin=\"round\"/>",
+                points.join(" ")
+            ));
+            if let Some(&(x, y)) = line.points.last() {
+                draw(format!(
+                    "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
+                    x_at(x) + 8.0,
+                    y_at(y) + 4.0,
+                    line.name
+                ));
+            }
+        }
+        draw(format!(
+            "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
+            (LEFT + WIDTH - RIGHT) / 2.0,
+            HEIGHT - 10.0,
+            self.x_label
+        ));
+        draw(format!(
+            "<text transform=\"translate(16 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n</svg>",
+            (TOP + HEIGHT - BOTTOM) / 2.0,
+            self.y_label
+        ));
+        svg
+    }
+}
+
+fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+}
+
+/// A round distance between ticks, for about six of them.
+fn step(span: f64) -> f64 {
+    let rough = (span / 6.0).max(f64::MIN_POSITIVE);
+    let power = libm::pow(10.0, libm::log10(rough).floor());
+    [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|s| *s >= rough).unwrap_or(rough)
+}
+
+fn ticks(from: f64, to: f64, step: f64) -> impl Iterator<Item = f64> {
+    let count = ((to - from) / step + 1e-9) as usize;
+    (0..=count).map(move |k| from + k as f64 * step)
+}
+
+fn number(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        assert!((step(0.16) - 0.05).abs() < 1e-12 && (step(5.9) - 1.0).abs() < 1e-12);
+        let ticks: Vec<String> = ticks(-0.2, 0.6, 0.2).map(number).collect();
+        assert_eq!(ticks, ["-0.2", "0", "0.2", "0.4", "0.6"]);
+    }
+
+    #[test]
+    fn a_plot_has_its_lines_and_labels() {
+        let line = Line { name: "error", points: vec![(0.2, 1.0), (0.3, 0.5)] };
+        let svg = Plot { x_label: "x", y_label: "y", lines: vec![line], mark_x: Some(0.25) }.svg();
+        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+        assert!(svg.contains(">error</text>") && svg.contains("polyline") && !svg.contains("NaN"));
+    }
+}
