@@ -306,3 +306,23 @@ fn a_trial_on_a_real_elevation_model_ends_in_a_named_outcome() {
     assert_eq!(result["reason"].is_null(), outcome != "no_subgoal", "{result}");
     println!("kootenai corner to corner: {result}");
 }
+
+#[test]
+fn profile_compares_with_the_truth() {
+    let folder = Folder::new();
+    let args = ["profile", "meadow-drive.toml", "--poses", "3", "--json"];
+    let output = mapless(folder.0.path(), &args);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let accuracy: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(accuracy["poses"], 3);
+    assert!(accuracy["mean_abs_error_rad"].as_f64().unwrap() < 0.01, "{accuracy}");
+    let columns: u64 = (0..9).map(|cell| accuracy["confusion"][cell / 3][cell % 3].as_u64().unwrap()).sum();
+    assert_eq!(columns, 3 * 360);
+    let table = mapless(folder.0.path(), &args[..4]);
+    assert!(String::from_utf8_lossy(&table.stdout).contains("mean absolute error"), "{table:?}");
+    refused(
+        &mapless(folder.0.path(), &["profile", "nowhere.toml"]),
+        "error: nowhere.toml",
+        &["cannot be read"],
+    );
+}
