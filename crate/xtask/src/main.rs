@@ -46,9 +46,12 @@ enum Command {
     },
     /// Run every scenario with both presets and several seeds, and write docs/SCENARIOS.md.
     Scenarios {
-        /// Seeds 1 to N.
+        /// Seeds 1 to N for the preset `default`.
         #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
         seeds: u64,
+        /// Seeds 1 to N for the preset `paper`, whose steps take several times as long.
+        #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..))]
+        paper_seeds: u64,
     },
     /// Compare the elevation profile with the true one for several settings, and write docs/PROFILE.md.
     Profile {
@@ -76,7 +79,7 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Demo { port } => page::demo(&sh, port),
         Command::Build => page::build(&sh),
         Command::Test { part } => test::run(&sh, part),
-        Command::Scenarios { seeds } => scenarios::run(&sh, seeds),
+        Command::Scenarios { seeds, paper_seeds } => scenarios::run(&sh, [seeds, paper_seeds]),
         Command::Profile { poses } => profile::run(&sh, poses),
     }
 }

@@ -46,14 +46,14 @@ struct Job {
     seed: u64,
 }
 
-/// Runs every scenario with every preset and the seeds 1 to `seeds`, and writes the report.
-pub(crate) fn run(sh: &Shell, seeds: u64) -> anyhow::Result<()> {
+/// Runs every scenario with the seeds from 1 to the preset's number of them (in the order of [`PRESETS`]), and writes the report.
+pub(crate) fn run(sh: &Shell, seeds: [u64; 2]) -> anyhow::Result<()> {
     cmd!(sh, "cargo build --release --package mapless-cli").run()?;
     let program = setup::target_dir(sh).join("release/mapless").with_extension(EXE_EXTENSION);
     let folder = sh.current_dir().join("terrains/scenarios");
     let names = scenario_names(sh, &folder)?;
     let mut jobs = Vec::new();
-    for preset in PRESETS {
+    for (preset, seeds) in PRESETS.into_iter().zip(seeds) {
         for scenario in &names {
             jobs.extend((1..=seeds).map(|seed| Job { preset, scenario: scenario.clone(), seed }));
         }
@@ -96,11 +96,12 @@ fn run_one(program: &Path, folder: &Path, job: &Job) -> anyhow::Result<Trial> {
     serde_json::from_slice(&output.stdout).context("output of mapless run --json")
 }
 
-fn report(names: &[String], trials: &BTreeMap<Job, Trial>, seeds: u64) -> anyhow::Result<String> {
+fn report(names: &[String], trials: &BTreeMap<Job, Trial>, seeds: [u64; 2]) -> anyhow::Result<String> {
+    let [default, paper] = seeds;
     let mut text = format!(
         "# What the scenarios show\n\n\
-         Written by `cargo xtask scenarios --seeds {seeds}`: each scenario of `terrains/scenarios/` with the seeds 1 to \
-         {seeds}, two trials at a time.\n\n\
+         Written by `cargo xtask scenarios --seeds {default} --paper-seeds {paper}`: each scenario of `terrains/scenarios/` with the seeds \
+         from 1 on, two trials at a time.\n\n\
          Metrics are those of the paper, mean ± standard deviation over the trials that reached the goal. A trial ends \
          as `tilt_limit` when |roll| passes 0.524 rad or |pitch| 0.785 rad. The planner's time is the mean over all \
          trials of the median step.\n"
@@ -210,7 +211,7 @@ mod tests {
                 trials.insert(Job { preset, scenario: scenario.clone(), seed: 1 }, trial(outcome, 1.0, 1.0));
             }
         }
-        let report = report(&names, &trials, 1).unwrap();
+        let report = report(&names, &trials, [1, 1]).unwrap();
         assert!(report.contains("## Preset `default`: 1 of 2 reached"), "{report}");
         assert!(report.contains("| b | 0 of 1 | 1 paper |  |  |  |  |  |  | 1.0 |"), "{report}");
     }
