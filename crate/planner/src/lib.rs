@@ -37,16 +37,22 @@
 //! ```
 
 pub mod angle;
+pub mod bound;
 pub mod config;
 pub mod controller;
 pub mod cost;
+mod elementary;
 mod error;
+pub mod exact_gp;
 pub mod forecast;
 mod ground;
+pub mod hyperparameters;
 mod inducing;
 pub mod kernel;
+mod kernel_panels;
 mod linalg;
 pub mod occupancy;
+mod panels;
 pub mod perception;
 mod planner;
 pub mod pose;

@@ -27,8 +27,8 @@ pub enum GpError {
 }
 
 /// Jitter tried first and last; gpflow adds the first one.
-const FIRST_JITTER: f64 = 1e-6;
-const LAST_JITTER: f64 = 1e-2;
+pub(crate) const FIRST_JITTER: f64 = 1e-6;
+pub(crate) const LAST_JITTER: f64 = 1e-2;
 
 /// Coordinates divided by the kernel's length-scales, one array per axis so that kernel rows vectorise.
 #[derive(Clone, Debug, Default)]
