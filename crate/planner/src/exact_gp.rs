@@ -67,15 +67,15 @@ impl ExactGp {
     pub fn gradient(&self) -> LogGradient {
         let n = self.inputs.len();
         let Hyperparameters { kernel, noise_variance } = self.hyperparameters;
-        let mut half_inverse = vec![0.0; n * n];
+        let mut inverse_root = vec![0.0; n * n];
         for i in 0..n {
-            half_inverse[i * n + i] = 1.0;
+            inverse_root[i * n + i] = 1.0;
         }
         // The columns of L⁻¹, whose dot products are the inverse.
-        linalg::solve_lower(&self.l, n, &mut half_inverse, n);
-        crate::panels::transpose(&mut half_inverse, n);
+        linalg::solve_lower(&self.l, n, &mut inverse_root, n);
+        crate::panels::transpose(&mut inverse_root, n);
         let mut inverse = vec![0.0; n * n];
-        linalg::outer_product(&half_inverse, n, n, &mut inverse);
+        linalg::outer_product(&inverse_root, n, n, &mut inverse);
 
         let [azimuth, elevation] = kernel.length_scales_rad;
         let mut gradient = LogGradient::default();
