@@ -37,6 +37,7 @@
 //! ```
 
 pub mod angle;
+mod ascent;
 pub mod bound;
 pub mod config;
 pub mod controller;
@@ -50,6 +51,7 @@ pub mod hyperparameters;
 mod inducing;
 pub mod kernel;
 mod kernel_panels;
+pub mod learning;
 mod linalg;
 pub mod occupancy;
 mod panels;
