@@ -3,6 +3,8 @@
 //! A strip of a few hundred rows stays in the first-level cache while a triangular solve or a product runs over it, four
 //! rows at a time, so that eight sums are in flight. As in [`crate::linalg`] every sum has a fixed order and nothing is fused.
 
+use core::ops::Range;
+
 use multiversion::multiversion;
 
 /// Columns of a panel.
@@ -84,8 +86,8 @@ pub(crate) fn multiply(matrix: &[f64], panel: &[Row], out: &mut [Row]) {
     }
 }
 
-/// Columns gathered before they are added to a product of a matrix with its transpose: four rows of them fit the
-/// first-level cache and a few hundred rows the second.
+/// Columns gathered before they are added to a product of a matrix with its transpose: a transposed panel of them and
+/// four rows fit the first-level cache, a few hundred rows the second.
 pub(crate) const BLOCK_COLUMNS: usize = 256;
 
 /// Adds B Bᵀ to the lower triangle of `out` (n × n), where B is `block`: n rows of [`BLOCK_COLUMNS`].
@@ -95,42 +97,40 @@ pub(crate) const BLOCK_COLUMNS: usize = 256;
 pub(crate) fn add_outer_product(block: &[f64], n: usize, out: &mut [f64]) {
     let (rows, _) = block.as_chunks::<BLOCK_COLUMNS>();
     let full = n - n % TALL;
-    for i in (0..full).step_by(TALL) {
-        let left: [&[f64; BLOCK_COLUMNS]; TALL] = core::array::from_fn(|r| &rows[i + r]);
-        for j in (0..i + TALL).step_by(2) {
-            let tile = dot_products(left, [&rows[j], &rows[j + 1]]);
-            for (r, pair) in tile.iter().enumerate() {
-                out[(i + r) * n + j] += pair[0];
-                out[(i + r) * n + j + 1] += pair[1];
+    let mut panel = [[0.0; WIDTH]; BLOCK_COLUMNS];
+    for first in (0..n).step_by(WIDTH) {
+        let columns = WIDTH.min(n - first);
+        for (lane, row) in rows[first..first + columns].iter().enumerate() {
+            for (transposed, value) in panel.iter_mut().zip(row) {
+                transposed[lane] = *value;
             }
         }
-    }
-    for i in full..n {
-        for j in 0..=i {
-            out[i * n + j] += dot_products([&rows[i]], [&rows[j]])[0][0];
+        // The rows of a tile begin at a multiple of four, as `first` does.
+        for i in (first..full).step_by(TALL) {
+            let tile = products::<TALL>(rows, i, &panel);
+            add_tile(&tile, i, first..first + columns, n, out);
+        }
+        for i in full.max(first)..n {
+            add_tile(&products::<1>(rows, i, &panel), i, first..first + columns, n, out);
         }
     }
 }
 
-/// Lanes of a dot product.
-const LANES: usize = 4;
+#[inline(always)]
+fn products<const R: usize>(rows: &[[f64; BLOCK_COLUMNS]], first: usize, panel: &[Row]) -> [Row; R] {
+    let factors: [&[f64]; R] = core::array::from_fn(|r| rows[first + r].as_slice());
+    let mut sums = [[0.0; WIDTH]; R];
+    accumulate(&factors, panel, &mut sums);
+    sums
+}
 
 #[inline(always)]
-fn dot_products<const R: usize, const C: usize>(
-    left: [&[f64; BLOCK_COLUMNS]; R],
-    right: [&[f64; BLOCK_COLUMNS]; C],
-) -> [[f64; C]; R] {
-    let mut sums = [[[0.0; LANES]; C]; R];
-    for chunk in (0..BLOCK_COLUMNS).step_by(LANES) {
-        for r in 0..R {
-            for c in 0..C {
-                for lane in 0..LANES {
-                    sums[r][c][lane] += left[r][chunk + lane] * right[c][chunk + lane];
-                }
-            }
+fn add_tile(tile: &[Row], first_row: usize, columns: Range<usize>, n: usize, out: &mut [f64]) {
+    for (row, out) in tile.iter().zip(out[first_row * n..].chunks_exact_mut(n)) {
+        for (value, sum) in out[columns.clone()].iter_mut().zip(row) {
+            *value += sum;
         }
     }
-    sums.map(|row| row.map(|s| (s[0] + s[2]) + (s[1] + s[3])))
 }
 
 /// Copies the lower triangle of `matrix` (n × n) to the upper one.
