@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use glam::DVec2;
+use mapless::PlannerConfig;
 use mapless::bound::CollapsedBound;
 use mapless::hyperparameters::{Hyperparameters, RegressionError};
 use mapless::kernel::RationalQuadratic;
@@ -178,6 +179,22 @@ fn a_start_that_cannot_be_used_is_named() {
         learner.learn(&[], &[], &inducing, &START),
         Err(LearningError::Regression(RegressionError::NoInputs))
     );
+}
+
+#[test]
+fn both_presets_start_within_their_bounds() {
+    let (inputs, targets, inducing) = scan(10, 3);
+    for (planner, learning) in [
+        (PlannerConfig::default(), LearningConfig::default()),
+        (PlannerConfig::paper(), LearningConfig::paper()),
+    ] {
+        assert_eq!(learning.validate("learning"), Ok(()));
+        let perception = planner.perception;
+        let start =
+            Hyperparameters { kernel: perception.kernel, noise_variance: perception.noise_variance_m2 };
+        let learned = Learner::new(learning).learn(&inputs, &targets, &inducing, &start).unwrap();
+        assert!(learned.bound_after > learned.bound_before && is_within(&learned, &learning.bounds));
+    }
 }
 
 #[test]
