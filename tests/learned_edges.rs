@@ -8,7 +8,7 @@ use mapless::PlannerConfig;
 use mapless::hyperparameters::Hyperparameters;
 use mapless::learning::{HyperparameterBounds, Learner, LearningConfig, Stop};
 use mapless::sparse_gp::SparseGp;
-use mapless_tests::gpflow;
+use mapless_tests::{gpflow, learned_bits};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -75,4 +75,10 @@ fn bounds_keep_the_edge_where_the_returns_are() {
     );
     assert!((fixed - bounded).abs() < 0.75, "fixed {fixed}°, bounded {bounded}°");
     assert!(unbounded > bounded + 2.0, "bounded {bounded}°, unbounded {unbounded}°");
+}
+
+/// After a change that is meant to change the bits, the failure says what to record.
+#[test]
+fn learning_gives_the_recorded_bits() {
+    assert_eq!(learned_bits::digest().unwrap(), learned_bits::RECORDED);
 }

@@ -3,7 +3,7 @@
 #![cfg(target_arch = "wasm32")]
 #![allow(clippy::panic, clippy::unwrap_used)]
 
-use mapless_tests::{gpflow, scenarios_text::SCENARIOS};
+use mapless_tests::{gpflow, learned_bits, scenarios_text::SCENARIOS};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
 // As the page does: a trial takes minutes, and the driver gives up on a page that does not answer for half of one.
@@ -13,6 +13,11 @@ wasm_bindgen_test_configure!(run_in_dedicated_worker);
 fn gpflow_fixtures_agree() {
     assert_eq!(gpflow::compare(gpflow::SCENE).unwrap(), 5);
     assert_eq!(gpflow::compare(gpflow::KERNELS).unwrap(), 6);
+}
+
+#[wasm_bindgen_test]
+fn learning_gives_the_native_bits() {
+    assert_eq!(learned_bits::digest().unwrap(), learned_bits::RECORDED);
 }
 
 fn check(name: &str) {
