@@ -4,6 +4,9 @@
 //! and cost nothing when they bind; an evaluation may fail, and none may go beyond the budget. Libraries that build for wasm
 //! offer no box, read a clock, or count iterations in place of evaluations.
 
+mod adam;
+mod lbfgs;
+
 /// Why an ascent ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -64,8 +67,6 @@ impl<F: FnMut(&[f64], &mut [f64]) -> Option<f64>> Objective for F {}
 /// Relative gain of one step, and slope relative to the value, that count as negligible; the gain is SciPy's L-BFGS-B's.
 const NEGLIGIBLE_GAIN: f64 = 2.2e-9;
 const NEGLIGIBLE_SLOPE: f64 = 1e-8;
-/// No coordinate moves further in one step: e in a hyperparameter, one length-scale in an inducing input.
-const LONGEST_STEP: f64 = 1.0;
 
 /// A place on the way, with the function's value and gradient there.
 struct Place {
@@ -107,217 +108,8 @@ pub(crate) fn climb(
 ) -> Summit {
     let start = Place { x: start, gradient, value };
     match optimiser {
-        Optimiser::Lbfgs => lbfgs(start, bounds, budget, objective),
-        Optimiser::Adam => adam(start, bounds, budget, objective),
-    }
-}
-
-/// Steps remembered.
-const MEMORY: usize = 10;
-/// Share of the linear gain that a step must reach (Armijo).
-const SUFFICIENT_GAIN: f64 = 1e-4;
-/// Shortest step of a search, as a share of the first.
-const SHORTEST_SHARE: f64 = 1e-9;
-
-fn lbfgs(mut here: Place, bounds: &Bounds, budget: u32, mut objective: impl Objective) -> Summit {
-    let n = here.x.len();
-    let mut next = Place { x: vec![0.0; n], gradient: vec![0.0; n], value: 0.0 };
-    let (mut slope, mut direction) = (vec![0.0; n], vec![0.0; n]);
-    let mut memory: Vec<Curvature> = Vec::new();
-    let mut evaluations = 1;
-    loop {
-        let steepest = here.free_slope(bounds, &mut slope);
-        if steepest <= NEGLIGIBLE_SLOPE * here.scale() {
-            return here.summit(evaluations, Stop::Converged);
-        }
-        quasi_newton_direction(&memory, &slope, &mut direction);
-        // Scaled gradient where the curvature is not known yet or misleads.
-        let uphill = dot(&direction, &slope);
-        if memory.is_empty() || !(uphill > 0.0 && uphill.is_finite()) {
-            memory.clear();
-            for (d, g) in direction.iter_mut().zip(&slope) {
-                *d = 0.1 * g / steepest;
-            }
-        }
-        let reach = direction.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-        let mut share = (LONGEST_STEP / reach).min(1.0);
-        let shortest = share * SHORTEST_SHARE;
-        let mut any_value = false;
-        let gain = loop {
-            if evaluations >= budget {
-                return here.summit(evaluations, Stop::Budget);
-            }
-            for ((x, from), d) in next.x.iter_mut().zip(&here.x).zip(&direction) {
-                *x = from + share * d;
-            }
-            bounds.project(&mut next.x);
-            let linear: f64 =
-                next.x.iter().zip(&here.x).zip(&here.gradient).map(|((b, a), g)| (b - a) * g).sum();
-            evaluations += 1;
-            match objective(&next.x, &mut next.gradient) {
-                Some(value) => {
-                    any_value = true;
-                    let gain = value - here.value;
-                    if gain > 0.0 && gain >= SUFFICIENT_GAIN * linear {
-                        next.value = value;
-                        break Some(gain);
-                    }
-                    // The parabola through value, slope and this value, kept within a tenth and a half.
-                    let best = 0.5 * linear / (linear - gain);
-                    share *= if best.is_finite() { best.clamp(0.1, 0.5) } else { 0.5 };
-                }
-                None => share *= 0.25,
-            }
-            if share < shortest {
-                break None;
-            }
-        };
-        let Some(gain) = gain else {
-            if memory.is_empty() {
-                let stop = if any_value { Stop::NoAscent } else { Stop::IllConditioned };
-                return here.summit(evaluations, stop);
-            }
-            memory.clear();
-            continue;
-        };
-        if memory.len() == MEMORY {
-            memory.rotate_left(1);
-            memory.pop();
-        }
-        memory.push(Curvature {
-            step: difference(&next.x, &here.x),
-            bend: difference(&here.gradient, &next.gradient),
-        });
-        core::mem::swap(&mut here, &mut next);
-        if gain <= NEGLIGIBLE_GAIN * here.scale() {
-            return here.summit(evaluations, Stop::Converged);
-        }
-    }
-}
-
-/// A step and how much the slope fell along it.
-struct Curvature {
-    step: Vec<f64>,
-    bend: Vec<f64>,
-}
-
-/// The two-loop recursion over the free coordinates, those where `slope` is not zero.
-fn quasi_newton_direction(memory: &[Curvature], slope: &[f64], direction: &mut [f64]) {
-    direction.copy_from_slice(slope);
-    let free_dot = |a: &[f64], b: &[f64]| -> f64 {
-        a.iter().zip(b).zip(slope).filter(|(_, g)| **g != 0.0).map(|((a, b), _)| a * b).sum()
-    };
-    let mut used: Vec<(&Curvature, f64, f64)> = Vec::with_capacity(memory.len());
-    let mut scale = None;
-    for pair in memory.iter().rev() {
-        let curvature = free_dot(&pair.step, &pair.bend);
-        let bend = free_dot(&pair.bend, &pair.bend);
-        if curvature <= 1e-10 * bend {
-            continue;
-        }
-        scale.get_or_insert(curvature / bend);
-        let along = free_dot(&pair.step, direction) / curvature;
-        for (d, b) in direction.iter_mut().zip(&pair.bend) {
-            *d -= along * b;
-        }
-        used.push((pair, curvature, along));
-    }
-    let Some(scale) = scale else {
-        // NaN tells the caller that nothing is known.
-        direction.fill(f64::NAN);
-        return;
-    };
-    for d in direction.iter_mut() {
-        *d *= scale;
-    }
-    for (pair, curvature, along) in used.into_iter().rev() {
-        let back = free_dot(&pair.bend, direction) / curvature;
-        for (d, s) in direction.iter_mut().zip(&pair.step) {
-            *d += (along - back) * s;
-        }
-    }
-    for (d, g) in direction.iter_mut().zip(slope) {
-        if *g == 0.0 {
-            *d = 0.0;
-        }
-    }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
-}
-
-/// First and last rate of Adam, and the evaluations without a new best place after which it is halved.
-const FIRST_RATE: f64 = 0.1;
-const LAST_RATE: f64 = 1e-4;
-const PATIENCE: u32 = 8;
-
-fn adam(start: Place, bounds: &Bounds, budget: u32, mut objective: impl Objective) -> Summit {
-    let n = start.x.len();
-    let started = start.value;
-    let mut best = Place { x: start.x.clone(), gradient: start.gradient.clone(), value: start.value };
-    let mut here = start;
-    let mut slope = vec![0.0; n];
-    let (mut mean, mut square) = (vec![0.0; n], vec![0.0; n]);
-    let (mut mean_decay, mut square_decay) = (1.0, 1.0);
-    let (mut rate, mut stalled, mut evaluations) = (FIRST_RATE, 0, 1);
-    let mut any_value = false;
-    loop {
-        if here.free_slope(bounds, &mut slope) <= NEGLIGIBLE_SLOPE * here.scale() && here.value >= best.value
-        {
-            return here.summit(evaluations, Stop::Converged);
-        }
-        if evaluations >= budget {
-            return best.summit(evaluations, Stop::Budget);
-        }
-        mean_decay *= 0.9;
-        square_decay *= 0.999;
-        for i in 0..n {
-            mean[i] = 0.9 * mean[i] + 0.1 * slope[i];
-            square[i] = 0.999 * square[i] + 0.001 * slope[i] * slope[i];
-            let deviation = (square[i] / (1.0 - square_decay)).sqrt() + 1e-8;
-            here.x[i] += rate * mean[i] / (1.0 - mean_decay) / deviation;
-        }
-        bounds.project(&mut here.x);
-        evaluations += 1;
-        let value = objective(&here.x, &mut here.gradient);
-        any_value |= value.is_some();
-        match value {
-            Some(value) if value > best.value => {
-                here.value = value;
-                best.x.copy_from_slice(&here.x);
-                best.gradient.copy_from_slice(&here.gradient);
-                best.value = value;
-                stalled = 0;
-                continue;
-            }
-            Some(value) => here.value = value,
-            None => stalled = PATIENCE,
-        }
-        stalled += 1;
-        if stalled > PATIENCE {
-            // Back to the best place, with shorter steps and no momentum.
-            rate *= 0.5;
-            stalled = 0;
-            here.x.copy_from_slice(&best.x);
-            here.gradient.copy_from_slice(&best.gradient);
-            here.value = best.value;
-            mean.fill(0.0);
-            square.fill(0.0);
-            (mean_decay, square_decay) = (1.0, 1.0);
-            if rate < LAST_RATE {
-                let stop = match (best.value > started, any_value) {
-                    (true, _) => Stop::Converged,
-                    (false, true) => Stop::NoAscent,
-                    (false, false) => Stop::IllConditioned,
-                };
-                return best.summit(evaluations, stop);
-            }
-        }
+        Optimiser::Lbfgs => lbfgs::climb(start, bounds, budget, objective),
+        Optimiser::Adam => adam::climb(start, bounds, budget, objective),
     }
 }
 
