@@ -1,8 +1,8 @@
 //! Learning the hyperparameters, and if wanted the inducing inputs, by maximising the collapsed bound ([`crate::bound`]), as
 //! the paper does for each scan.
 //!
-//! Left alone, the maximum lies at a variance in the thousands and length-scales that blur the skyline: the occupancy of a scan
-//! has a mean of some metres where the process assumes zero. So every hyperparameter has bounds, and most of them bind. Within the
+//! Left alone, variance and length-scales grow until they blur the skyline: the occupancy of a scan has a mean of some metres
+//! where the process assumes zero. So every hyperparameter has bounds, and most of them bind. Within the
 //! default ones the edge of the surface stays about a degree above the highest return of a column, as with the fixed
 //! hyperparameters; without bounds it leaves the returns by several degrees (`tests/learned_edges.rs`).
 //!
