@@ -1,11 +1,14 @@
 //! gpflow's numbers (version 2.9.2, float64) beside ours: the fixtures' form and the comparison.
 
 use glam::DVec2;
+use mapless::bound::CollapsedBound;
+use mapless::exact_gp::ExactGp;
+use mapless::hyperparameters::{Hyperparameters as Ours, LogGradient};
 use mapless::kernel::RationalQuadratic;
 use mapless::sparse_gp::SparseGp;
 use serde::Deserialize;
 
-/// One scene with gpflow's posterior for several hyperparameters.
+/// One scene with gpflow's posterior and bound for several hyperparameters, and its exact process on a part of the inputs.
 #[derive(Debug, Deserialize)]
 struct Scene {
     scene: String,
@@ -18,6 +21,8 @@ struct Scene {
     #[serde(rename = "XS")]
     queries: Vec<[f64; 2]>,
     cases: Vec<Case>,
+    #[serde(rename = "gpr")]
+    exact: ExactCase,
 }
 
 #[derive(Debug, Deserialize)]
@@ -29,6 +34,38 @@ struct Case {
     mean: Vec<f64>,
     #[serde(rename = "var_f")]
     variance: Vec<f64>,
+    elbo: f64,
+    grad_log: Gradient,
+    #[serde(rename = "grad_Z")]
+    inducing_gradient: Vec<[f64; 2]>,
+}
+
+/// The exact process on the inputs `idx`.
+#[derive(Debug, Deserialize)]
+struct ExactCase {
+    idx: Vec<usize>,
+    hyper: Hyperparameters,
+    log_marginal_likelihood: f64,
+    grad_log: Gradient,
+    mean: Vec<f64>,
+    #[serde(rename = "var_f")]
+    variance: Vec<f64>,
+}
+
+/// With respect to log-hyperparameters.
+#[derive(Debug, Deserialize)]
+struct Gradient {
+    variance: f64,
+    lengthscales: OneOrMore,
+    alpha: f64,
+    noise: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+enum OneOrMore {
+    One(f64),
+    More(Vec<f64>),
 }
 
 #[derive(Debug, Deserialize)]
@@ -44,6 +81,17 @@ struct Hyperparameters {
 enum LengthScales {
     Isotropic(f64),
     PerAxis([f64; 2]),
+}
+
+impl Hyperparameters {
+    fn ours(&self) -> Ours {
+        let kernel = RationalQuadratic {
+            variance: self.variance,
+            length_scales_rad: self.lengthscales.per_axis(),
+            alpha: self.alpha,
+        };
+        Ours { kernel, noise_variance: self.noise }
+    }
 }
 
 impl LengthScales {
@@ -99,12 +147,10 @@ fn compare_scene(scene: &Scene) -> Result<usize, String> {
     let (inputs, inducing, queries) =
         (points(&scene.inputs), points(&scene.inducing), points(&scene.queries));
     for case in &scene.cases {
-        let kernel = RationalQuadratic {
-            variance: case.hyper.variance,
-            length_scales_rad: case.hyper.lengthscales.per_axis(),
-            alpha: case.hyper.alpha,
-        };
-        let mut gp = SparseGp::new(kernel, case.hyper.noise);
+        let place = format!("{} / {}", scene.scene, case.label);
+        let hyperparameters = case.hyper.ours();
+        let kernel = hyperparameters.kernel;
+        let mut gp = SparseGp::new(kernel, hyperparameters.noise_variance);
         gp.fit(&inputs, &scene.targets, &inducing).map_err(|e| e.to_string())?;
         let (mut mean, mut variance) = (vec![0.0; queries.len()], vec![0.0; queries.len()]);
         gp.predict(&queries, &mut mean, &mut variance);
@@ -112,11 +158,74 @@ fn compare_scene(scene: &Scene) -> Result<usize, String> {
         // 1e-8, and no better than the conditioning of the inducing covariance allows any float64 program.
         let relative = 1e-8_f64.max(1e-15 * case.condition);
         let scale = 1.0 + case.mean.iter().fold(0.0_f64, |most, m| most.max(m.abs()));
-        let place = format!("{} / {}", scene.scene, case.label);
         within(&place, "mean", &mean, &case.mean, relative * scale)?;
         within(&place, "variance", &variance, &case.variance, relative * kernel.variance.max(1.0))?;
+
+        let mut bound = CollapsedBound::new();
+        let elbo = bound
+            .evaluate(&inputs, &scene.targets, &inducing, &hyperparameters)
+            .map_err(|e| format!("{place}: {e}"))?;
+        compare_bound(&place, case, elbo, &bound)?;
     }
-    Ok(scene.cases.len())
+    compare_exact(scene, &inputs, &queries)?;
+    Ok(scene.cases.len() + 1)
+}
+
+/// The bound and its gradients; a condition above 1e9 leaves gpflow four digits of the bound and two of the gradient, as 80-bit
+/// arithmetic shows.
+fn compare_bound(place: &str, case: &Case, elbo: f64, bound: &CollapsedBound) -> Result<(), String> {
+    let lost = case.condition > 1e9;
+    let relative = if lost { 1e-4 } else { 1e-8 };
+    within(place, "bound", &[elbo], &[case.elbo], relative * case.elbo.abs())?;
+    let (mut ours, mut theirs) = (gradient_of(&case.grad_log, bound.gradient()), case.grad_log.list());
+    if lost {
+        // And none of the derivative with respect to the variance.
+        ours[0] = 0.0;
+        theirs[0] = 0.0;
+    }
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+    let relative = if lost { 1e-2 } else { 1e-6 };
+    within(place, "log gradient", &ours, &theirs, relative * largest(&theirs))?;
+    let ours: Vec<f64> = bound.inducing_gradient().iter().flat_map(|g| g.to_array()).collect();
+    let theirs: Vec<f64> = case.inducing_gradient.iter().flatten().copied().collect();
+    within(place, "gradient of Z", &ours, &theirs, 10.0 * relative * largest(&theirs))
+}
+
+fn compare_exact(scene: &Scene, inputs: &[DVec2], queries: &[DVec2]) -> Result<(), String> {
+    let exact = &scene.exact;
+    let inputs: Vec<DVec2> = exact.idx.iter().map(|&index| inputs[index]).collect();
+    let targets: Vec<f64> = exact.idx.iter().map(|&index| scene.targets[index]).collect();
+    let place = format!("{} / exact", scene.scene);
+    let gp = ExactGp::fit(&inputs, &targets, exact.hyper.ours()).map_err(|e| format!("{place}: {e}"))?;
+    let likelihood = exact.log_marginal_likelihood;
+    within(&place, "likelihood", &[gp.log_marginal_likelihood()], &[likelihood], 1e-9 * likelihood.abs())?;
+    let (ours, theirs) = (gradient_of(&exact.grad_log, &gp.gradient()), exact.grad_log.list());
+    let largest = theirs.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+    within(&place, "log gradient", &ours, &theirs, 1e-8 * largest)?;
+    let (mean, variance): (Vec<f64>, Vec<f64>) = queries.iter().map(|&query| gp.predict(query)).unzip();
+    within(&place, "mean", &mean, &exact.mean, 1e-9)?;
+    within(&place, "variance", &variance, &exact.variance, 1e-9)
+}
+
+impl Gradient {
+    fn list(&self) -> Vec<f64> {
+        let lengths = match &self.lengthscales {
+            OneOrMore::One(length) => core::slice::from_ref(length),
+            OneOrMore::More(lengths) => lengths,
+        };
+        [&[self.variance], lengths, &[self.alpha, self.noise]].concat()
+    }
+}
+
+/// Our gradient in the form of theirs: one length-scale for both axes has the sum of both derivatives.
+fn gradient_of(theirs: &Gradient, ours: &LogGradient) -> Vec<f64> {
+    let [azimuth, elevation] = ours.length_scales;
+    match &theirs.lengthscales {
+        OneOrMore::More(lengths) if lengths.len() == 2 => {
+            vec![ours.variance, azimuth, elevation, ours.alpha, ours.noise_variance]
+        }
+        _ => vec![ours.variance, azimuth + elevation, ours.alpha, ours.noise_variance],
+    }
 }
 
 fn compare_kernels(kernels: &Kernels) -> Result<usize, String> {

@@ -37,18 +37,26 @@
 //! ```
 
 pub mod angle;
+mod ascent;
+pub mod bound;
 pub mod config;
 pub mod controller;
 pub mod cost;
 mod edge;
+mod elementary;
 mod error;
+pub mod exact_gp;
 pub mod forecast;
 mod ground;
+pub mod hyperparameters;
 mod inducing;
 pub mod kernel;
+mod kernel_panels;
 mod lattice;
+pub mod learning;
 mod linalg;
 pub mod occupancy;
+mod panels;
 pub mod perception;
 mod planner;
 pub mod pose;

@@ -210,6 +210,18 @@ pub(crate) fn multiply_vector(a: &[f64], columns: usize, v: &[f64], out: &mut [f
     }
 }
 
+/// Solves Lᵀ x = b in place for one right-hand side.
+pub(crate) fn solve_lower_transposed_vector(l: &[f64], n: usize, b: &mut [f64]) {
+    for i in (0..n).rev() {
+        let row = &l[i * n..i * n + i + 1];
+        b[i] /= row[i];
+        let solved = b[i];
+        for (value, factor) in b[..i].iter_mut().zip(row) {
+            *value -= factor * solved;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -250,6 +262,11 @@ mod tests {
             let mut first: Vec<f64> = na_b.column(0).iter().copied().collect();
             solve_lower_vector(&spd, n, &mut first);
             prop_assert!(first.iter().zip(na_x.column(0).iter()).all(|(p, q)| (p - q).abs() < 1e-9));
+
+            let mut back: Vec<f64> = na_b.column(0).iter().copied().collect();
+            solve_lower_transposed_vector(&spd, n, &mut back);
+            let na_back = na_l.transpose().solve_upper_triangular(&na_b.column(0)).unwrap();
+            prop_assert!(back.iter().zip(na_back.iter()).all(|(p, q)| (p - q).abs() < 1e-9));
         }
     }
 

@@ -27,8 +27,8 @@ pub enum GpError {
 }
 
 /// Jitter tried first and last; gpflow adds the first one.
-const FIRST_JITTER: f64 = 1e-6;
-const LAST_JITTER: f64 = 1e-2;
+pub(crate) const FIRST_JITTER: f64 = 1e-6;
+pub(crate) const LAST_JITTER: f64 = 1e-2;
 
 /// Tries to `factor` the covariance of `inducing` inputs with ever more jitter on its diagonal; gives the jitter that did.
 pub(crate) fn with_rising_jitter(

@@ -1,9 +1,9 @@
-//! In the browser, kernel, mean and variance agree with gpflow, and every scenario gives the trajectory recorded natively,
+//! In the browser, kernel, mean, variance, bound and gradients agree with gpflow, and every scenario gives the trajectory recorded natively,
 //! to the bit.
 #![cfg(target_arch = "wasm32")]
 #![allow(clippy::panic, clippy::unwrap_used)]
 
-use mapless_tests::{gpflow, scenarios_text::SCENARIOS};
+use mapless_tests::{gpflow, learned_bits, scenarios_text::SCENARIOS};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
 // As the page does: a trial takes minutes, and the driver gives up on a page that does not answer for half of one.
@@ -11,8 +11,13 @@ wasm_bindgen_test_configure!(run_in_dedicated_worker);
 
 #[wasm_bindgen_test]
 fn gpflow_fixtures_agree() {
-    assert_eq!(gpflow::compare(gpflow::SCENE).unwrap(), 4);
+    assert_eq!(gpflow::compare(gpflow::SCENE).unwrap(), 5);
     assert_eq!(gpflow::compare(gpflow::KERNELS).unwrap(), 6);
+}
+
+#[wasm_bindgen_test]
+fn learning_gives_the_native_bits() {
+    assert_eq!(learned_bits::digest().unwrap(), learned_bits::RECORDED);
 }
 
 fn check(name: &str) {
