@@ -124,7 +124,7 @@ fn values(alpha: f64, amplitude: &Row, ln_s: &Row) -> Row {
     values
 }
 
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn covariances(alpha: f64, amplitude: Row, points: &[DVec2], inputs: &[Row; 2], out: &mut [Row]) {
     for (point, out) in points.iter().zip(out) {
         let (_, _, s) = base(alpha, *point, inputs);
@@ -132,7 +132,7 @@ fn covariances(alpha: f64, amplitude: Row, points: &[DVec2], inputs: &[Row; 2], 
     }
 }
 
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn add_derivatives(
     kernel: &RationalQuadratic,
     points: &[DVec2],

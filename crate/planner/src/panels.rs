@@ -1,7 +1,8 @@
 //! Dense kernels on panels: a matrix stored as strips of eight columns, each strip row by row.
 //!
 //! A strip of a few hundred rows stays in the first-level cache while a triangular solve or a product runs over it, four
-//! rows at a time, so that eight sums are in flight. As in [`crate::linalg`] every sum has a fixed order and nothing is fused.
+//! rows at a time, so that eight sums are in flight. As in [`crate::linalg`] every sum has a fixed order and nothing is
+//! fused, so the widest registers of the machine change no bit.
 
 use core::ops::Range;
 
@@ -15,7 +16,7 @@ pub(crate) type Row = [f64; WIDTH];
 const TALL: usize = 4;
 
 /// Solves L X = P in place for lower triangular `l` (n × n, row by row) and one panel of n rows.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 pub(crate) fn solve_lower(l: &[f64], panel: &mut [Row]) {
     let n = panel.len();
     let full = n - n % TALL;
@@ -68,7 +69,7 @@ fn accumulate<const R: usize>(factors: &[&[f64]; R], panel: &[Row], sums: &mut [
 }
 
 /// Writes M P of `matrix` (rows of `panel` each, row by row) to `out`, one panel row for each row of the matrix.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 pub(crate) fn multiply(matrix: &[f64], panel: &[Row], out: &mut [Row]) {
     let n = panel.len();
     let (tall, single) = out.as_chunks_mut::<TALL>();
@@ -93,7 +94,7 @@ pub(crate) const BLOCK_COLUMNS: usize = 256;
 /// Adds B Bᵀ to the lower triangle of `out` (n × n), where B is `block`: n rows of [`BLOCK_COLUMNS`].
 ///
 /// Some values above the diagonal are written too; [`mirror_lower`] puts them right.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 pub(crate) fn add_outer_product(block: &[f64], n: usize, out: &mut [f64]) {
     let (rows, _) = block.as_chunks::<BLOCK_COLUMNS>();
     let full = n - n % TALL;
