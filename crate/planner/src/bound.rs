@@ -20,9 +20,9 @@ use glam::DVec2;
 
 use crate::hyperparameters::{Hyperparameters, LogGradient, RegressionError, check_data, check_points};
 use crate::kernel::RationalQuadratic;
-use crate::kernel_panels::{KernelSums, ScaledPanels, scale, total};
+use crate::kernel_panels::{KernelSums, ScaledPanels, scale};
 use crate::linalg::{self, NotPositiveDefinite};
-use crate::panels::{self, BLOCK_COLUMNS, Row, WIDTH};
+use crate::panels::{self, BLOCK_COLUMNS, Row, WIDTH, total};
 use crate::sparse_gp::{FIRST_JITTER, GpError, LAST_JITTER};
 
 /// The bound with its gradient and workspace; a second evaluation of the same size allocates nothing.

@@ -92,12 +92,6 @@ impl KernelSums {
     }
 }
 
-/// The sum of eight lanes.
-pub(crate) fn total(lanes: &Row) -> f64 {
-    let half = |i: usize| (lanes[i] + lanes[i + 2]) + (lanes[i + 1] + lanes[i + 3]);
-    half(0) + half(4)
-}
-
 /// Scaled differences Δ/ℓ and s.
 #[inline(always)]
 fn base(alpha: f64, point: DVec2, inputs: &[Row; 2]) -> (Row, Row, Row) {

@@ -19,6 +19,7 @@ use multiversion::multiversion;
 use crate::config::PerceptionConfig;
 use crate::linalg::{self, NotPositiveDefinite};
 use crate::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface, RING_STEP_RAD, RINGS};
+use crate::panels::{self, Row, WIDTH};
 use crate::perception::{REACH_LENGTH_SCALES, ROW_STEP_RAD, ROWS, ROWS_PER_RING, SECTOR_COLUMNS, SECTORS};
 use crate::sparse_gp::{GpError, with_rising_jitter};
 
@@ -90,8 +91,9 @@ pub(crate) struct LatticeGp {
     s: Vec<f64>,
     /// S⁻¹ K_uf y / σₙ².
     c: Vec<f64>,
-    wide: Vec<f64>,
-    wide_s: Vec<f64>,
+    /// L⁻¹ k of one panel of queries, and S⁻¹ k of all of them.
+    prior: Vec<Row>,
+    posterior: Vec<Row>,
     jitter: f64,
 }
 
@@ -125,8 +127,8 @@ impl LatticeGp {
             l: Vec::new(),
             s: Vec::new(),
             c: Vec::new(),
-            wide: Vec::new(),
-            wide_s: Vec::new(),
+            prior: Vec::new(),
+            posterior: Vec::new(),
             jitter: 0.0,
         }
     }
@@ -294,49 +296,53 @@ impl LatticeGp {
 
     /// Variance, as a share of the signal variance, at directions of the sector entered last.
     pub(crate) fn relative_variances(&mut self, sector: usize, queries: &[Query], variances: &mut Vec<f64>) {
-        let count = queries.len();
-        self.fill_covariances(sector, queries);
-        self.wide_s.clear();
-        self.wide_s.extend_from_slice(&self.wide);
-        let m = self.window.len();
-        linalg::solve_lower(&self.l, m, &mut self.wide, count);
-        linalg::solve_lower(&self.s, m, &mut self.wide_s, count);
         variances.clear();
-        variances.resize(count, self.signal_variance);
-        for (prior, posterior) in self.wide.chunks_exact(count).zip(self.wide_s.chunks_exact(count)) {
-            for ((variance, t), s) in variances.iter_mut().zip(prior).zip(posterior) {
-                *variance += s * s - t * t;
+        self.posterior.clear();
+        for queries in queries.chunks(WIDTH) {
+            self.fill_covariances(sector, queries);
+            let begin = self.posterior.len();
+            self.posterior.extend_from_slice(&self.prior);
+            let posterior = &mut self.posterior[begin..];
+            panels::solve_lower(&self.l, &mut self.prior);
+            panels::solve_lower(&self.s, posterior);
+            let mut sums = [self.signal_variance; WIDTH];
+            for (t, s) in self.prior.iter().zip(posterior.iter()) {
+                for lane in 0..WIDTH {
+                    sums[lane] += s[lane] * s[lane] - t[lane] * t[lane];
+                }
             }
-        }
-        for variance in variances {
-            *variance /= self.signal_variance;
+            variances.extend(sums[..queries.len()].iter().map(|sum| sum / self.signal_variance));
         }
     }
 
-    /// Mean occupancy at the directions whose variance was asked for last.
-    pub(crate) fn means(&mut self, means: &mut Vec<f64>) {
+    /// Mean occupancy at the directions whose variance was asked for last; there were as many as `means` holds.
+    pub(crate) fn means(&mut self, means: &mut [f64]) {
         let m = self.window.len();
         self.c.clear();
         self.c.extend(self.projections[self.window.clone()].iter().map(|p| p / self.noise_variance));
         linalg::solve_lower_vector(&self.s, m, &mut self.c);
-        let count = self.wide_s.len() / m;
-        means.clear();
-        means.resize(count, 0.0);
-        for (row, c) in self.wide_s.chunks_exact(count).zip(&self.c) {
-            for (mean, s) in means.iter_mut().zip(row) {
-                *mean += s * c;
+        for (panel, means) in self.posterior.chunks_exact(m).zip(means.chunks_mut(WIDTH)) {
+            let mut sums = [0.0; WIDTH];
+            for (s, c) in panel.iter().zip(&self.c) {
+                for lane in 0..WIDTH {
+                    sums[lane] += s[lane] * c;
+                }
             }
+            means.copy_from_slice(&sums[..means.len()]);
         }
     }
 
+    /// Covariances of the window's inducing inputs with a panel of queries; zero beyond the last.
     fn fill_covariances(&mut self, sector: usize, queries: &[Query]) {
-        self.wide.clear();
+        self.prior.clear();
         let begin = sector * SECTOR_COLUMNS + self.margin_columns;
         for input in self.window.clone() {
             let (column, row) = (self.positions[input] * self.stride_columns, self.rows[input]);
-            self.wide.extend(queries.iter().map(|query| {
-                self.covariances.at(column.abs_diff(begin + query.column))[row.abs_diff(query.row)]
-            }));
+            let mut lanes = [0.0; WIDTH];
+            for (lane, query) in lanes.iter_mut().zip(queries) {
+                *lane = self.covariances.at(column.abs_diff(begin + query.column))[row.abs_diff(query.row)];
+            }
+            self.prior.push(lanes);
         }
     }
 }
@@ -364,7 +370,7 @@ fn least_rotation(masks: &[RingMask]) -> usize {
 }
 
 /// Adds K Kᵀ of one column of cells to Φ; `covariances` holds an even number of rows over `inputs`.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn add_products(
     covariances: &[f64],
     inputs: Range<usize>,
@@ -451,6 +457,7 @@ mod tests {
             dense.predict(&directions, &mut mean, &mut variance);
             assert!(gp.enter(sector).unwrap());
             gp.relative_variances(sector, &queries, &mut variances);
+            means.resize(queries.len(), 0.0);
             gp.means(&mut means);
             for (index, query) in queries.iter().enumerate() {
                 let ours = variances[index] * config.kernel.variance;

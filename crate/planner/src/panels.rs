@@ -12,6 +12,12 @@ use multiversion::multiversion;
 pub(crate) const WIDTH: usize = crate::elementary::LANES;
 /// One row of a panel.
 pub(crate) type Row = [f64; WIDTH];
+/// The sum of a row.
+pub(crate) fn total(row: &Row) -> f64 {
+    let half = |i: usize| (row[i] + row[i + 2]) + (row[i + 1] + row[i + 3]);
+    half(0) + half(4)
+}
+
 /// Rows handled together.
 const TALL: usize = 4;
 
