@@ -20,7 +20,7 @@ struct Data {
 }
 
 /// The digest of what L-BFGS and Adam learn in twenty evaluations, with every inducing input free.
-pub const RECORDED: u64 = 9_726_057_973_840_602_031;
+pub const RECORDED: u64 = 15_962_657_902_025_265_521;
 
 /// Learns with both and gives the digest.
 ///
@@ -30,7 +30,7 @@ pub fn digest() -> Result<u64, String> {
     let data: Data = serde_json::from_str(gpflow::SCENE).map_err(|e| e.to_string())?;
     let points = |list: Vec<[f64; 2]>| -> Vec<DVec2> { list.into_iter().map(DVec2::from_array).collect() };
     let (inputs, inducing) = (points(data.inputs), points(data.inducing));
-    let start = Hyperparameters { kernel: RationalQuadratic::default(), noise_variance: 1.0 };
+    let start = Hyperparameters { kernel: RationalQuadratic::default(), noise_variance: 3.0 };
     let mut digest = 0;
     for optimiser in [Optimiser::Lbfgs, Optimiser::Adam] {
         let config = LearningConfig { optimiser, learn_inducing_inputs: true, ..LearningConfig::default() };

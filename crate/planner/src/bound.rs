@@ -20,41 +20,28 @@ use glam::DVec2;
 
 use crate::hyperparameters::{Hyperparameters, LogGradient, RegressionError, check_data, check_points};
 use crate::kernel::RationalQuadratic;
-use crate::kernel_panels::{KernelSums, ScaledPanels, scale};
+use crate::kernel_panels::KernelSums;
 use crate::linalg::{self, NotPositiveDefinite};
-use crate::panels::{self, BLOCK_COLUMNS, Row, WIDTH, total};
-use crate::sparse_gp::{FIRST_JITTER, GpError, LAST_JITTER};
+use crate::panels::{self, WIDTH, total};
+use crate::projection::Projection;
+use crate::sparse_gp::GpError;
 
 /// The bound with its gradient and workspace; a second evaluation of the same size allocates nothing.
 #[derive(Clone, Debug, Default)]
 pub struct CollapsedBound {
-    jitter: f64,
+    projection: Projection,
     gradient: LogGradient,
     inducing_gradient: Vec<DVec2>,
-    /// Inducing inputs over length-scales, and the same as panels.
-    points: Vec<DVec2>,
-    point_panels: ScaledPanels,
-    input_panels: ScaledPanels,
-    /// Targets, zero beyond the last.
-    target_panels: Vec<Row>,
-    /// K_uu without jitter, later ∂F/∂K_uu; m × m, as are all below until `a`.
-    k_uu: Vec<f64>,
-    l: Vec<f64>,
+    /// L_B, m × m, as are the next two.
     l_b: Vec<f64>,
     /// I - B⁻¹, later L⁻ᵀ (I - B⁻¹) / σₙ.
     reduction: Vec<f64>,
     /// A factor reversed and transposed.
     reversed: Vec<f64>,
-    /// A in panels, m rows each.
-    a: Vec<Row>,
-    /// Columns of A row by row, for A Aᵀ.
-    block: Vec<f64>,
-    panel: Vec<Row>,
-    /// A y / σₙ, then c, u and w.
+    /// c, u and w.
     c: Vec<f64>,
     u: Vec<f64>,
     w: Vec<f64>,
-    partial: Vec<f64>,
     sums: KernelSums,
 }
 
@@ -76,7 +63,7 @@ impl CollapsedBound {
 
     /// Jitter on the inducing covariance that the last evaluation needed; 1e-6 unless it was ill-conditioned.
     pub fn jitter(&self) -> f64 {
-        self.jitter
+        self.projection.jitter
     }
 
     /// The bound F on log p(y), in nats, for `targets` (n) at `inputs` (n) through the inducing inputs `inducing` (m); leaves
@@ -102,9 +89,15 @@ impl CollapsedBound {
         }
         let Hyperparameters { kernel, noise_variance } = *hyperparameters;
         let (n, m) = (inputs.len() as f64, inducing.len());
-        self.set_data(inputs, targets, inducing, &kernel);
-        self.factor_inducing_covariance(&kernel)?;
-        self.fill_a(&kernel, noise_variance);
+        self.projection.project(inputs, targets, inducing, hyperparameters)?;
+        for square in [&mut self.l_b, &mut self.reduction, &mut self.reversed] {
+            square.resize(m * m, 0.0);
+        }
+        for vector in [&mut self.c, &mut self.u, &mut self.w] {
+            vector.resize(m, 0.0);
+        }
+        copy(&self.projection.aat, &mut self.l_b);
+        copy(&self.projection.c, &mut self.c);
         let overflow = || RegressionError::IllConditioned { inputs: inputs.len(), noise_variance };
 
         // B, whose trace and factor are needed apart.
@@ -144,119 +137,23 @@ impl CollapsedBound {
         if finite { Ok(value) } else { Err(overflow()) }
     }
 
-    fn set_data(
-        &mut self,
-        inputs: &[DVec2],
-        targets: &[f64],
-        inducing: &[DVec2],
-        kernel: &RationalQuadratic,
-    ) {
-        let m = inducing.len();
-        self.points.clear();
-        self.points.extend(inducing.iter().map(|&point| scale(point, kernel)));
-        self.point_panels.set(inducing, kernel);
-        self.input_panels.set(inputs, kernel);
-        self.target_panels.clear();
-        self.target_panels.extend(targets.chunks(WIDTH).map(|chunk| {
-            let mut row = [0.0; WIDTH];
-            row[..chunk.len()].copy_from_slice(chunk);
-            row
-        }));
-        for square in [&mut self.k_uu, &mut self.l, &mut self.l_b, &mut self.reduction, &mut self.reversed] {
-            square.resize(m * m, 0.0);
-        }
-        for vector in [&mut self.c, &mut self.u, &mut self.w, &mut self.partial] {
-            vector.resize(m, 0.0);
-        }
-        self.a.resize(m * self.input_panels.len(), [0.0; WIDTH]);
-        self.panel.resize(m, [0.0; WIDTH]);
-        self.block.resize(m * BLOCK_COLUMNS, 0.0);
-    }
-
-    /// L of K_uu, with the jitter raised step by step until it exists.
-    fn factor_inducing_covariance(&mut self, kernel: &RationalQuadratic) -> Result<(), GpError> {
-        let m = self.points.len();
-        for panel in 0..self.point_panels.len() {
-            self.point_panels.covariances(kernel, &self.points, panel, &mut self.panel);
-            let columns = panel * WIDTH..m.min((panel + 1) * WIDTH);
-            for (row, values) in self.k_uu.chunks_exact_mut(m).zip(&self.panel) {
-                row[columns.clone()].copy_from_slice(&values[..columns.len()]);
-            }
-        }
-        self.jitter = FIRST_JITTER;
-        loop {
-            copy(&self.k_uu, &mut self.l);
-            for i in 0..m {
-                self.l[i * m + i] += self.jitter;
-            }
-            if linalg::cholesky(&mut self.l, m).is_ok() {
-                return Ok(());
-            }
-            if self.jitter >= LAST_JITTER {
-                return Err(GpError::IllConditioned { inducing: m, jitter: self.jitter });
-            }
-            self.jitter *= 10.0;
-        }
-    }
-
-    /// A into `a`, A Aᵀ into `l_b` and A y / σₙ into `c`.
-    fn fill_a(&mut self, kernel: &RationalQuadratic, noise_variance: f64) {
-        let m = self.points.len();
-        let inverse_deviation = 1.0 / noise_variance.sqrt();
-        self.l_b.fill(0.0);
-        self.c.fill(0.0);
-        let block_panels = BLOCK_COLUMNS / WIDTH;
-        for (index, rows) in self.a.chunks_exact_mut(m).enumerate() {
-            self.input_panels.covariances(kernel, &self.points, index, rows);
-            panels::solve_lower(&self.l, rows);
-            let in_block = index % block_panels;
-            for (row, line) in rows.iter_mut().zip(self.block.chunks_exact_mut(BLOCK_COLUMNS)) {
-                for value in row.iter_mut() {
-                    *value *= inverse_deviation;
-                }
-                line[in_block * WIDTH..(in_block + 1) * WIDTH].copy_from_slice(row);
-            }
-            let last = index + 1 == self.input_panels.len();
-            if in_block + 1 < block_panels && !last {
-                continue;
-            }
-            for line in self.block.chunks_exact_mut(BLOCK_COLUMNS) {
-                line[(in_block + 1) * WIDTH..].fill(0.0);
-            }
-            panels::add_outer_product(&self.block, m, &mut self.l_b);
-            let targets = self.target_panels[index - in_block..=index].as_flattened();
-            for (line, c) in self.block.chunks_exact(BLOCK_COLUMNS).zip(&mut self.c) {
-                let mut partial = [0.0];
-                linalg::multiply_vector(&line[..targets.len()], targets.len(), targets, &mut partial);
-                *c += inverse_deviation * partial[0];
-            }
-        }
-        panels::mirror_lower(&mut self.l_b, m);
-    }
-
     /// ∂F/∂K_uu into `k_uu`, L⁻ᵀ (I - B⁻¹) / σₙ into `reduction`, u and w; gives tr(I - B⁻¹).
     fn adjoin_inducing_covariance(&mut self, noise_variance: f64) -> f64 {
-        let m = self.points.len();
+        let m = self.projection.points.len();
         copy(&self.c, &mut self.u);
         linalg::solve_lower_transposed_vector(&self.l_b, m, &mut self.u);
         copy(&self.u, &mut self.w);
-        linalg::solve_lower_transposed_vector(&self.l, m, &mut self.w);
+        linalg::solve_lower_transposed_vector(&self.projection.l, m, &mut self.w);
 
         // `reduction` holds B; `k_uu` becomes 2 I - B⁻¹ - B - u uᵀ.
-        let (reduction, adjoint) = (&mut self.reduction, &mut self.k_uu);
+        let (reduction, adjoint) = (&mut self.reduction, &mut self.projection.k_uu);
         for (i, row) in adjoint.chunks_exact_mut(m).enumerate() {
             for (j, value) in row.iter_mut().enumerate() {
                 *value = -reduction[i * m + j] - self.u[i] * self.u[j];
             }
             row[i] += 1.0;
         }
-        reduction.fill(0.0);
-        for i in 0..m {
-            reduction[i * m + i] = 1.0;
-        }
-        linalg::solve_lower(&self.l_b, m, reduction, m);
-        panels::reverse_transpose(&self.l_b, m, &mut self.reversed);
-        panels::solve_transposed(&self.reversed, m, reduction, &mut self.panel);
+        panels::invert(&self.l_b, m, reduction, &mut self.reversed, &mut self.projection.panel);
         for value in reduction.iter_mut() {
             *value = -*value;
         }
@@ -269,15 +166,15 @@ impl CollapsedBound {
             *value += part;
         }
 
-        panels::reverse_transpose(&self.l, m, &mut self.reversed);
-        panels::solve_transposed(&self.reversed, m, reduction, &mut self.panel);
+        panels::reverse_transpose(&self.projection.l, m, &mut self.reversed);
+        panels::solve_transposed(&self.reversed, m, reduction, &mut self.projection.panel);
         let inverse_deviation = 1.0 / noise_variance.sqrt();
         for value in reduction.iter_mut() {
             *value *= inverse_deviation;
         }
-        panels::solve_transposed(&self.reversed, m, adjoint, &mut self.panel);
+        panels::solve_transposed(&self.reversed, m, adjoint, &mut self.projection.panel);
         panels::transpose(adjoint, m);
-        panels::solve_transposed(&self.reversed, m, adjoint, &mut self.panel);
+        panels::solve_transposed(&self.reversed, m, adjoint, &mut self.projection.panel);
         for value in adjoint.iter_mut() {
             *value *= 0.5;
         }
@@ -286,15 +183,17 @@ impl CollapsedBound {
 
     /// Both adjoints through the kernel, into `sums`; gives rᵀr.
     fn carry_to_kernel(&mut self, kernel: &RationalQuadratic, noise_variance: f64) -> f64 {
-        let m = self.points.len();
+        let Projection { points, point_panels, input_panels, target_panels, k_uu, a, panel, .. } =
+            &mut self.projection;
+        let m = points.len();
         self.sums.clear(m);
-        for panel in 0..self.point_panels.len() {
-            let columns = panel * WIDTH..m.min((panel + 1) * WIDTH);
-            for (row, values) in self.k_uu.chunks_exact(m).zip(&mut self.panel) {
+        for index in 0..point_panels.len() {
+            let columns = index * WIDTH..m.min((index + 1) * WIDTH);
+            for (row, values) in k_uu.chunks_exact(m).zip(panel.iter_mut()) {
                 *values = [0.0; WIDTH];
                 values[..columns.len()].copy_from_slice(&row[columns.clone()]);
             }
-            self.point_panels.add_derivatives(kernel, &self.points, panel, &self.panel, &mut self.sums);
+            point_panels.add_derivatives(kernel, points, index, panel, &mut self.sums);
         }
         // Every inducing input is a row of K_uu and a column of it.
         for value in self.sums.points.iter_mut().flatten().flatten() {
@@ -303,7 +202,7 @@ impl CollapsedBound {
 
         let deviation = noise_variance.sqrt();
         let mut squares = [0.0; WIDTH];
-        for (index, (rows, targets)) in self.a.chunks_exact(m).zip(&self.target_panels).enumerate() {
+        for (index, (rows, targets)) in a.chunks_exact(m).zip(target_panels.iter()).enumerate() {
             let mut mean = [0.0; WIDTH];
             for (row, u) in rows.iter().zip(&self.u) {
                 for lane in 0..WIDTH {
@@ -316,13 +215,13 @@ impl CollapsedBound {
                 squares[lane] += residual[lane] * residual[lane];
                 residual[lane] /= noise_variance;
             }
-            panels::multiply(&self.reduction, rows, &mut self.panel);
-            for (row, w) in self.panel.iter_mut().zip(&self.w) {
+            panels::multiply(&self.reduction, rows, panel);
+            for (row, w) in panel.iter_mut().zip(&self.w) {
                 for lane in 0..WIDTH {
                     row[lane] += w * residual[lane];
                 }
             }
-            self.input_panels.add_derivatives(kernel, &self.points, index, &self.panel, &mut self.sums);
+            input_panels.add_derivatives(kernel, points, index, panel, &mut self.sums);
         }
         total(&squares)
     }

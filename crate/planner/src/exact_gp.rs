@@ -11,6 +11,7 @@ use glam::DVec2;
 
 use crate::hyperparameters::{Hyperparameters, LogGradient, RegressionError, check_data};
 use crate::linalg::{self, NotPositiveDefinite};
+use crate::panels;
 
 /// A fitted exact posterior.
 #[derive(Clone, Debug)]
@@ -67,15 +68,8 @@ impl ExactGp {
     pub fn gradient(&self) -> LogGradient {
         let n = self.inputs.len();
         let Hyperparameters { kernel, noise_variance } = self.hyperparameters;
-        let mut inverse_root = vec![0.0; n * n];
-        for i in 0..n {
-            inverse_root[i * n + i] = 1.0;
-        }
-        // The columns of L⁻¹, whose dot products are the inverse.
-        linalg::solve_lower(&self.l, n, &mut inverse_root, n);
-        crate::panels::transpose(&mut inverse_root, n);
-        let mut inverse = vec![0.0; n * n];
-        linalg::outer_product(&inverse_root, n, n, &mut inverse);
+        let (mut inverse, mut scratch) = (vec![0.0; n * n], vec![0.0; n * n]);
+        panels::invert(&self.l, n, &mut inverse, &mut scratch, &mut Vec::new());
 
         let [azimuth, elevation] = kernel.length_scales_rad;
         let mut gradient = LogGradient::default();

@@ -51,7 +51,10 @@ impl ScaledPanels {
     ) {
         let mut amplitude = [0.0; WIDTH];
         amplitude[..self.columns(panel)].fill(kernel.variance);
-        covariances(kernel.alpha, amplitude, points, &self.panels[panel], out);
+        match kernel.whole_alpha() {
+            Some(exponent) => whole_covariances(exponent, amplitude, points, &self.panels[panel], out),
+            None => covariances(kernel.alpha, amplitude, points, &self.panels[panel], out),
+        }
     }
 
     /// Adds the part of the gradient that flows through one panel of covariances, whose derivatives are `weights`.
@@ -126,6 +129,32 @@ fn covariances(alpha: f64, amplitude: Row, points: &[DVec2], inputs: &[Row; 2], 
     }
 }
 
+/// Covariances for a whole γ: one division and repeated squaring.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn whole_covariances(exponent: u32, amplitude: Row, points: &[DVec2], inputs: &[Row; 2], out: &mut [Row]) {
+    for (point, out) in points.iter().zip(out) {
+        let (_, _, s) = base(f64::from(exponent), *point, inputs);
+        let mut factor = [0.0; WIDTH];
+        for lane in 0..WIDTH {
+            factor[lane] = 1.0 / s[lane];
+        }
+        let mut power = amplitude;
+        let mut bits = exponent;
+        while bits > 0 {
+            if bits & 1 == 1 {
+                for lane in 0..WIDTH {
+                    power[lane] *= factor[lane];
+                }
+            }
+            for value in &mut factor {
+                *value *= *value;
+            }
+            bits >>= 1;
+        }
+        *out = power;
+    }
+}
+
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn add_derivatives(
     kernel: &RationalQuadratic,
@@ -156,4 +185,31 @@ fn add_derivatives(
         }
     }
     (sums.variance, sums.alpha, sums.length_scales) = (variance, alpha, [azimuth, elevation]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn panels_have_the_kernels_covariances(
+            places in prop::collection::vec((-2.0..2.0_f64, -0.5..0.5_f64), 1..20), alpha in 0.3..20.0_f64, whole in any::<bool>(),
+        ) {
+            let alpha = if whole { alpha.ceil() } else { alpha };
+            let kernel = RationalQuadratic { variance: 0.7, length_scales_rad: [0.1, 0.05], alpha };
+            let inputs: Vec<DVec2> = places.iter().map(|&(x, y)| DVec2::new(x, y)).collect();
+            let mut panels = ScaledPanels::default();
+            panels.set(&inputs, &kernel);
+            let mut out = [[0.0; WIDTH]];
+            for panel in 0..panels.len() {
+                panels.covariances(&kernel, &[scale(inputs[0], &kernel)], panel, &mut out);
+                for (lane, value) in out[0].iter().enumerate() {
+                    let exact = inputs.get(panel * WIDTH + lane).map_or(0.0, |b| kernel.covariance(inputs[0], *b));
+                    prop_assert!((exact - value).abs() <= 1e-12 * exact, "{} {}", exact, value);
+                }
+            }
+        }
+    }
 }

@@ -14,8 +14,6 @@
 
 use core::ops::Range;
 
-use multiversion::multiversion;
-
 use crate::config::PerceptionConfig;
 use crate::linalg::{self, NotPositiveDefinite};
 use crate::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface, RING_STEP_RAD, RINGS};
@@ -241,7 +239,9 @@ impl LatticeGp {
         if !(self.column_covariances.len() / count).is_multiple_of(2) {
             self.column_covariances.resize(self.column_covariances.len() + count, 0.0);
         }
-        add_products(&self.column_covariances, inputs, &self.first, &self.offsets, &mut self.products);
+        let (first, offsets) = (&self.first, &self.offsets);
+        let place = |input: usize| offsets[input].wrapping_sub(first[input]);
+        linalg::add_products(&self.column_covariances, inputs, place, &mut self.products);
     }
 
     /// Factors the window around a sector. Gives whether there is anything in it.
@@ -367,30 +367,6 @@ fn least_rotation(masks: &[RingMask]) -> usize {
         same = 0;
     }
     best
-}
-
-/// Adds K Kᵀ of one column of cells to Φ; `covariances` holds an even number of rows over `inputs`.
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
-fn add_products(
-    covariances: &[f64],
-    inputs: Range<usize>,
-    first: &[usize],
-    offsets: &[usize],
-    products: &mut [f64],
-) {
-    let count = inputs.len();
-    for i in 0..count {
-        let input = inputs.start + i;
-        let offset = offsets[input] + inputs.start - first[input];
-        let row = &mut products[offset..=offset + i];
-        for pair in covariances.chunks_exact(2 * count) {
-            let (a, b) = pair.split_at(count);
-            let (of_a, of_b) = (a[i], b[i]);
-            for ((sum, x), y) in row.iter_mut().zip(a).zip(b) {
-                *sum += of_a * x + of_b * y;
-            }
-        }
-    }
 }
 
 #[cfg(test)]

@@ -82,11 +82,11 @@ impl Default for LearningConfig {
 impl Default for HyperparameterBounds {
     fn default() -> Self {
         Self {
-            variance_m2: [0.5, 2.0],
-            azimuth_length_scale_rad: [0.05, 0.12],
-            elevation_length_scale_rad: [0.025, 0.04],
-            alpha: [1.0, 10.0],
-            noise_variance_m2: [0.5, 2.0],
+            variance_m2: [0.8, 1.25],
+            azimuth_length_scale_rad: [0.12, 0.2],
+            elevation_length_scale_rad: [0.035, 0.045],
+            alpha: [5.0, 20.0],
+            noise_variance_m2: [2.5, 4.0],
         }
     }
 }

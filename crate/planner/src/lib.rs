@@ -61,6 +61,7 @@ pub mod perception;
 mod planner;
 pub mod pose;
 pub mod profile;
+mod projection;
 mod sectors;
 pub mod segments;
 pub mod sparse_gp;

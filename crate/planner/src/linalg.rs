@@ -4,6 +4,8 @@
 //! the bits are the same on every target and at every vector width. They are ours because the libraries choose
 //! their kernels at run time. Tests compare them with nalgebra.
 
+use core::ops::Range;
+
 use multiversion::multiversion;
 
 /// A pivot was not positive: the matrix is not numerically positive definite.
@@ -103,72 +105,6 @@ fn finish_row(a: &mut [f64], n: usize, i: usize, done: usize) -> Result<(), NotP
     Ok(())
 }
 
-/// Solves L X = B in place for lower triangular `l` (n × n) and `b` (n × columns).
-#[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn solve_lower(l: &[f64], n: usize, b: &mut [f64], columns: usize) {
-    let mut start = 0;
-    while start < columns {
-        start += match columns - start {
-            8.. => solve_panel::<8>(l, n, b, columns, start),
-            4.. => solve_panel::<4>(l, n, b, columns, start),
-            _ => solve_panel::<1>(l, n, b, columns, start),
-        };
-    }
-}
-
-/// Solves for PANEL columns, which stay in registers and first-level cache; gives their number.
-#[inline(always)]
-fn solve_panel<const PANEL: usize>(
-    l: &[f64],
-    n: usize,
-    b: &mut [f64],
-    columns: usize,
-    start: usize,
-) -> usize {
-    let panel_row = |row: usize| row * columns + start..row * columns + start + PANEL;
-    let load = |b: &[f64], row: usize| -> [f64; PANEL] {
-        let mut values = [0.0; PANEL];
-        values.copy_from_slice(&b[panel_row(row)]);
-        values
-    };
-    let mut i = 0;
-    // Two rows at a time: each row above is loaded once for both.
-    while i + 1 < n {
-        let (first, second) = (&l[i * n..i * n + i + 1], &l[(i + 1) * n..(i + 1) * n + i + 2]);
-        let (mut upper, mut lower) = (load(b, i), load(b, i + 1));
-        for j in 0..i {
-            let above = &b[panel_row(j)];
-            let (first_factor, second_factor) = (first[j], second[j]);
-            for lane in 0..PANEL {
-                upper[lane] -= first_factor * above[lane];
-                lower[lane] -= second_factor * above[lane];
-            }
-        }
-        for lane in 0..PANEL {
-            upper[lane] /= first[i];
-            lower[lane] = (lower[lane] - second[i] * upper[lane]) / second[i + 1];
-        }
-        b[panel_row(i)].copy_from_slice(&upper);
-        b[panel_row(i + 1)].copy_from_slice(&lower);
-        i += 2;
-    }
-    if i < n {
-        let mut last = load(b, i);
-        for j in 0..i {
-            let above = &b[panel_row(j)];
-            let factor = l[i * n + j];
-            for lane in 0..PANEL {
-                last[lane] -= factor * above[lane];
-            }
-        }
-        for value in &mut last {
-            *value /= l[i * n + i];
-        }
-        b[panel_row(i)].copy_from_slice(&last);
-    }
-    PANEL
-}
-
 /// Solves L x = b in place for one right-hand side.
 pub(crate) fn solve_lower_vector(l: &[f64], n: usize, b: &mut [f64]) {
     for i in 0..n {
@@ -177,28 +113,28 @@ pub(crate) fn solve_lower_vector(l: &[f64], n: usize, b: &mut [f64]) {
     }
 }
 
-/// Writes A Aᵀ (rows × rows) of `a` (rows × columns) to `out`.
-#[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn outer_product(a: &[f64], rows: usize, columns: usize, out: &mut [f64]) {
-    let row = |i: usize| &a[i * columns..(i + 1) * columns];
-    let mut set = |i: usize, j: usize, value: f64| {
-        out[i * rows + j] = value;
-        out[j * rows + i] = value;
-    };
-    let mut i = 0;
-    while i + 4 <= rows {
-        for j in (0..i + 4).step_by(2) {
-            let block = dots([row(i), row(i + 1), row(i + 2), row(i + 3)], [row(j), row(j + 1)]);
-            for (r, [first, second]) in block.into_iter().enumerate() {
-                set(i + r, j, first);
-                set(i + r, j + 1, second);
-            }
-        }
-        i += 4;
+/// Adds K Kᵀ to the lower triangle of a matrix, between the rows and columns `inputs`. `covariances` is Kᵀ, an even number of rows
+/// over `inputs`; the entry (i, j) of the matrix is at `place(i) + j`, modulo the size of an index.
+#[inline(always)]
+pub(crate) fn add_products(
+    covariances: &[f64],
+    inputs: Range<usize>,
+    place: impl Fn(usize) -> usize,
+    matrix: &mut [f64],
+) {
+    for (i, input) in inputs.clone().enumerate() {
+        let begin = place(input).wrapping_add(inputs.start);
+        add_row(covariances, inputs.len(), i, &mut matrix[begin..=begin + i]);
     }
-    for i in i..rows {
-        for j in 0..=i {
-            set(i, j, dot(row(i), row(j)));
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn add_row(covariances: &[f64], count: usize, i: usize, row: &mut [f64]) {
+    for pair in covariances.chunks_exact(2 * count) {
+        let (a, b) = pair.split_at(count);
+        let (of_a, of_b) = (a[i], b[i]);
+        for ((sum, x), y) in row.iter_mut().zip(a).zip(b) {
+            *sum += of_a * x + of_b * y;
         }
     }
 }
@@ -225,47 +161,49 @@ pub(crate) fn solve_lower_transposed_vector(l: &[f64], n: usize, b: &mut [f64]) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::DMatrix;
+    use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
     fn matrix(rows: usize, columns: usize) -> impl Strategy<Value = Vec<f64>> {
         prop::collection::vec(-2.0..2.0_f64, rows * columns)
     }
 
-    fn sizes() -> impl Strategy<Value = (usize, usize, Vec<f64>, Vec<f64>)> {
-        (1..14_usize, 1..30_usize)
-            .prop_flat_map(|(n, columns)| (Just(n), Just(columns), matrix(n, n + 3), matrix(n, columns)))
+    fn sizes() -> impl Strategy<Value = (usize, Vec<f64>, Vec<f64>)> {
+        (1..14_usize).prop_flat_map(|n| (Just(n), matrix(n, n + 3), matrix(n, 1)))
     }
 
     proptest! {
         #[test]
-        fn the_kernels_agree_with_nalgebra((n, columns, a, b) in sizes()) {
+        fn the_kernels_agree_with_nalgebra((n, a, b) in sizes()) {
             let na_a = DMatrix::from_row_slice(n, n + 3, &a);
             let na_spd = &na_a * na_a.transpose() + DMatrix::identity(n, n);
             let mut spd = vec![0.0; n * n];
-            outer_product(&a, n, n + 3, &mut spd);
+            // Two rows of Kᵀ at a time; an odd last one is paired with zeros.
+            let transposed: Vec<f64> = (0..n + 4).flat_map(|k| {
+                let a = &a;
+                (0..n).map(move |i| if k < n + 3 { a[i * (n + 3) + k] } else { 0.0 })
+            }).collect();
+            let even = &transposed[..(n + 3).next_multiple_of(2) * n];
+            add_products(even, 0..n, |i| i * n, &mut spd);
             for i in 0..n {
                 spd[i * n + i] += 1.0;
             }
-            prop_assert!((DMatrix::from_row_slice(n, n, &spd) - &na_spd).amax() < 1e-12);
+            let lower = DMatrix::from_row_slice(n, n, &spd).lower_triangle();
+            prop_assert!((lower - na_spd.lower_triangle()).amax() < 1e-12);
 
             cholesky(&mut spd, n).unwrap();
             let na_l = na_spd.cholesky().unwrap().l();
             prop_assert!((DMatrix::from_row_slice(n, n, &spd) - &na_l).amax() < 1e-10);
 
-            let na_b = DMatrix::from_row_slice(n, columns, &b);
+            let na_b = DVector::from_row_slice(&b);
             let na_x = na_l.solve_lower_triangular(&na_b).unwrap();
             let mut x = b.clone();
-            solve_lower(&spd, n, &mut x, columns);
-            prop_assert!((DMatrix::from_row_slice(n, columns, &x) - &na_x).amax() < 1e-9);
+            solve_lower_vector(&spd, n, &mut x);
+            prop_assert!(x.iter().zip(na_x.iter()).all(|(p, q)| (p - q).abs() < 1e-9));
 
-            let mut first: Vec<f64> = na_b.column(0).iter().copied().collect();
-            solve_lower_vector(&spd, n, &mut first);
-            prop_assert!(first.iter().zip(na_x.column(0).iter()).all(|(p, q)| (p - q).abs() < 1e-9));
-
-            let mut back: Vec<f64> = na_b.column(0).iter().copied().collect();
+            let mut back = b.clone();
             solve_lower_transposed_vector(&spd, n, &mut back);
-            let na_back = na_l.transpose().solve_upper_triangular(&na_b.column(0)).unwrap();
+            let na_back = na_l.transpose().solve_upper_triangular(&na_b).unwrap();
             prop_assert!(back.iter().zip(na_back.iter()).all(|(p, q)| (p - q).abs() < 1e-9));
         }
     }

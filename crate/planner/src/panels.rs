@@ -174,6 +174,25 @@ pub(crate) fn solve_transposed(reversed: &[f64], n: usize, matrix: &mut [f64], p
     }
 }
 
+/// Writes (L Lᵀ)⁻¹ (n × n) to `inverse`; `reversed` (n × n) and `panel` are scratch.
+pub(crate) fn invert(l: &[f64], n: usize, inverse: &mut [f64], reversed: &mut [f64], panel: &mut Vec<Row>) {
+    reverse_transpose(l, n, reversed);
+    for first in (0..n).step_by(WIDTH) {
+        let columns = WIDTH.min(n - first);
+        panel.clear();
+        panel.resize(n, [0.0; WIDTH]);
+        for lane in 0..columns {
+            panel[first + lane][lane] = 1.0;
+        }
+        solve_lower(l, panel);
+        panel.reverse();
+        solve_lower(reversed, panel);
+        for (row, values) in panel.iter().rev().zip(inverse.chunks_exact_mut(n)) {
+            values[first..first + columns].copy_from_slice(&row[..columns]);
+        }
+    }
+}
+
 /// Transposes `matrix` (n × n) in place.
 pub(crate) fn transpose(matrix: &mut [f64], n: usize) {
     for i in 0..n {
@@ -231,6 +250,11 @@ mod tests {
             solve_transposed(&reversed, n, &mut transposed_solve, &mut Vec::new());
             let na_solve = na_l.transpose().solve_upper_triangular(&na_m).unwrap();
             prop_assert!((DMatrix::from_row_slice(n, n, &transposed_solve) - na_solve).amax() < 1e-10);
+
+            let (mut inverse, mut scratch) = (vec![0.0; n * n], vec![0.0; n * n]);
+            invert(&l, n, &mut inverse, &mut scratch, &mut Vec::new());
+            let na_inverse = (&na_l * na_l.transpose()).try_inverse().unwrap();
+            prop_assert!((DMatrix::from_row_slice(n, n, &inverse) - na_inverse).amax() < 1e-10);
 
             let mut swapped = m.clone();
             transpose(&mut swapped, n);

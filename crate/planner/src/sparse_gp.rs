@@ -7,8 +7,11 @@
 
 use glam::DVec2;
 
+use crate::hyperparameters::Hyperparameters;
 use crate::kernel::RationalQuadratic;
 use crate::linalg::{self, NotPositiveDefinite};
+use crate::panels::{self, Row, WIDTH};
+use crate::projection::Projection;
 
 /// Why a fit gave no posterior.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -27,8 +30,8 @@ pub enum GpError {
 }
 
 /// Jitter tried first and last; gpflow adds the first one.
-pub(crate) const FIRST_JITTER: f64 = 1e-6;
-pub(crate) const LAST_JITTER: f64 = 1e-2;
+const FIRST_JITTER: f64 = 1e-6;
+const LAST_JITTER: f64 = 1e-2;
 
 /// Tries to `factor` the covariance of `inducing` inputs with ever more jitter on its diagonal; gives the jitter that did.
 pub(crate) fn with_rising_jitter(
@@ -45,72 +48,37 @@ pub(crate) fn with_rising_jitter(
     Ok(jitter)
 }
 
-/// Coordinates divided by the kernel's length-scales, one array per axis so that kernel rows vectorise.
-#[derive(Clone, Debug, Default)]
-struct ScaledInputs {
-    azimuths: Vec<f64>,
-    elevations: Vec<f64>,
-}
-
-impl ScaledInputs {
-    fn set(&mut self, inputs: &[DVec2], kernel: &RationalQuadratic) {
-        let [azimuth, elevation] = kernel.length_scales_rad;
-        self.azimuths.clear();
-        self.elevations.clear();
-        self.azimuths.extend(inputs.iter().map(|p| p.x / azimuth));
-        self.elevations.extend(inputs.iter().map(|p| p.y / elevation));
-    }
-
-    fn len(&self) -> usize {
-        self.azimuths.len()
-    }
-
-    fn point(&self, index: usize) -> DVec2 {
-        DVec2::new(self.azimuths[index], self.elevations[index])
-    }
-}
-
 /// A fitted posterior with its workspace; refitting reuses the memory.
 #[derive(Clone, Debug)]
 pub struct SparseGp {
-    kernel: RationalQuadratic,
-    noise_variance: f64,
-    jitter: f64,
-    inducing: ScaledInputs,
-    inputs: ScaledInputs,
-    /// L, m × m.
-    l: Vec<f64>,
+    hyperparameters: Hyperparameters,
+    projection: Projection,
     /// L_B, m × m.
     l_b: Vec<f64>,
-    /// A while fitting (m × n), L⁻¹ K_u* while predicting (m × test inputs).
-    wide: Vec<f64>,
     c: Vec<f64>,
+    panel: Vec<Row>,
 }
 
 impl SparseGp {
     /// An unfitted process; `noise_variance` is σₙ² in the square of the targets' unit.
     pub fn new(kernel: RationalQuadratic, noise_variance: f64) -> Self {
         Self {
-            kernel,
-            noise_variance,
-            jitter: FIRST_JITTER,
-            inducing: ScaledInputs::default(),
-            inputs: ScaledInputs::default(),
-            l: Vec::new(),
+            hyperparameters: Hyperparameters { kernel, noise_variance },
+            projection: Projection::default(),
             l_b: Vec::new(),
-            wide: Vec::new(),
             c: Vec::new(),
+            panel: Vec::new(),
         }
     }
 
     /// The kernel.
     pub fn kernel(&self) -> &RationalQuadratic {
-        &self.kernel
+        &self.hyperparameters.kernel
     }
 
     /// Jitter on the inducing covariance that the last fit needed; 1e-6 unless it was ill-conditioned.
     pub fn jitter(&self) -> f64 {
-        self.jitter
+        self.projection.jitter
     }
 
     /// Fits the posterior to `targets` (n) at `inputs` (n) through the inducing inputs `inducing` (m).
@@ -123,81 +91,43 @@ impl SparseGp {
         if inducing.is_empty() {
             return Err(GpError::NoInducingInputs);
         }
-        self.inducing.set(inducing, &self.kernel);
-        self.inputs.set(inputs, &self.kernel);
-        let (m, n) = (self.inducing.len(), self.inputs.len());
-
-        self.factor_inducing_covariance()?;
-        self.fill_covariances();
-        linalg::solve_lower(&self.l, m, &mut self.wide, n);
-        let inverse_noise_deviation = 1.0 / self.noise_variance.sqrt();
-        for value in &mut self.wide {
-            *value *= inverse_noise_deviation;
-        }
-
-        self.l_b.resize(m * m, 0.0);
-        linalg::outer_product(&self.wide, m, n, &mut self.l_b);
+        let m = inducing.len();
+        self.projection.project(inputs, targets, inducing, &self.hyperparameters)?;
+        self.l_b.clone_from(&self.projection.aat);
         for i in 0..m {
             self.l_b[i * m + i] += 1.0;
         }
         linalg::cholesky(&mut self.l_b, m)
-            .map_err(|NotPositiveDefinite| GpError::IllConditioned { inducing: m, jitter: self.jitter })?;
-
-        self.c.resize(m, 0.0);
-        linalg::multiply_vector(&self.wide, n, targets, &mut self.c);
-        for value in &mut self.c {
-            *value *= inverse_noise_deviation;
-        }
+            .map_err(|NotPositiveDefinite| GpError::IllConditioned { inducing: m, jitter: self.jitter() })?;
+        self.c.clone_from(&self.projection.c);
         linalg::solve_lower_vector(&self.l_b, m, &mut self.c);
         Ok(())
     }
 
     /// Predictive mean and variance of the latent function at `inputs`, added to no noise.
     pub fn predict(&mut self, inputs: &[DVec2], mean: &mut [f64], variance: &mut [f64]) {
-        self.inputs.set(inputs, &self.kernel);
-        let (m, count) = (self.inducing.len(), self.inputs.len());
-        self.fill_covariances();
-        linalg::solve_lower(&self.l, m, &mut self.wide, count);
-        variance.fill(self.kernel.variance);
-        for row in self.wide.chunks_exact(count) {
-            for (v, t) in variance.iter_mut().zip(row) {
-                *v -= t * t;
+        let kernel = &self.hyperparameters.kernel;
+        let Projection { points, input_panels, l, .. } = &mut self.projection;
+        input_panels.set(inputs, kernel);
+        self.panel.resize(points.len(), [0.0; WIDTH]);
+        for (index, (mean, variance)) in mean.chunks_mut(WIDTH).zip(variance.chunks_mut(WIDTH)).enumerate() {
+            input_panels.covariances(kernel, points, index, &mut self.panel);
+            let (mut means, mut variances) = ([0.0; WIDTH], [kernel.variance; WIDTH]);
+            panels::solve_lower(l, &mut self.panel);
+            for t in &self.panel {
+                for lane in 0..WIDTH {
+                    variances[lane] -= t[lane] * t[lane];
+                }
             }
-        }
-        linalg::solve_lower(&self.l_b, m, &mut self.wide, count);
-        mean.fill(0.0);
-        for (row, c) in self.wide.chunks_exact(count).zip(&self.c) {
-            for ((v, e), s) in variance.iter_mut().zip(mean.iter_mut()).zip(row) {
-                *v += s * s;
-                *e += s * c;
+            panels::solve_lower(&self.l_b, &mut self.panel);
+            for (s, c) in self.panel.iter().zip(&self.c) {
+                for lane in 0..WIDTH {
+                    variances[lane] += s[lane] * s[lane];
+                    means[lane] += s[lane] * c;
+                }
             }
-        }
-    }
-
-    /// L of K_uu, with the jitter raised step by step until it exists.
-    fn factor_inducing_covariance(&mut self) -> Result<(), GpError> {
-        let m = self.inducing.len();
-        self.l.resize(m * m, 0.0);
-        let Self { l, inducing, kernel, .. } = self;
-        self.jitter = with_rising_jitter(m, |jitter| {
-            for (i, row) in l.chunks_exact_mut(m).enumerate() {
-                kernel.row(inducing.point(i), &inducing.azimuths, &inducing.elevations, row);
-                row[i] += jitter;
-            }
-            linalg::cholesky(l, m)
-        })?;
-        Ok(())
-    }
-
-    /// K between the inducing inputs and the current inputs, into `wide`.
-    fn fill_covariances(&mut self) {
-        let n = self.inputs.len();
-        self.wide.resize(self.inducing.len() * n, 0.0);
-        if n == 0 {
-            return;
-        }
-        for (i, row) in self.wide.chunks_exact_mut(n).enumerate() {
-            self.kernel.row(self.inducing.point(i), &self.inputs.azimuths, &self.inputs.elevations, row);
+            mean.copy_from_slice(&means[..mean.len()]);
+            variance.copy_from_slice(&variances[..variance.len()]);
         }
     }
 }

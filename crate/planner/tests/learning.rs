@@ -15,7 +15,7 @@ use proptest::prelude::*;
 
 const START: Hyperparameters = Hyperparameters {
     kernel: RationalQuadratic { variance: 1.0, length_scales_rad: [0.12, 0.04], alpha: 10.0 },
-    noise_variance: 1.0,
+    noise_variance: 3.0,
 };
 
 const WIDE: HyperparameterBounds = HyperparameterBounds {
@@ -98,7 +98,7 @@ fn moving_the_inducing_inputs_raises_the_bound_further() {
     let (still, moving) = (learn(still), learn(moving));
     assert_eq!(still.inducing, inducing);
     assert!(moving.inducing.iter().zip(&inducing).any(|(a, b)| a.distance(*b) > 0.01));
-    assert!(moving.bound_after > still.bound_after + 1.0, "{} {}", moving.bound_after, still.bound_after);
+    assert!(moving.bound_after > still.bound_after + 0.5, "{} {}", moving.bound_after, still.bound_after);
     let (low, high) = (inputs[0], inputs[inputs.len() - 1]);
     let margin = DVec2::splat(1e-12);
     assert!(moving.inducing.iter().all(|z| z.cmpge(low - margin).all() && z.cmple(high + margin).all()));
@@ -125,13 +125,14 @@ fn an_isotropic_length_scale_stays_one() {
 #[test]
 fn equal_bounds_hold_a_hyperparameter_to_the_bit() {
     let (inputs, targets, inducing) = scan(20, 3);
-    let bounds = HyperparameterBounds { alpha: [10.0; 2], noise_variance_m2: [1.0; 2], ..WIDE };
+    let bounds =
+        HyperparameterBounds { alpha: [10.0; 2], noise_variance_m2: [START.noise_variance; 2], ..WIDE };
     let learned = Learner::new(config(Optimiser::Lbfgs, 50, bounds))
         .learn(&inputs, &targets, &inducing, &START)
         .unwrap()
         .hyperparameters;
     assert_eq!(learned.kernel.alpha.to_bits(), 10.0_f64.to_bits());
-    assert_eq!(learned.noise_variance.to_bits(), 1.0_f64.to_bits());
+    assert_eq!(learned.noise_variance.to_bits(), START.noise_variance.to_bits());
     assert!((learned.kernel.variance - 1.0).abs() > 0.1);
 }
 
@@ -223,7 +224,7 @@ proptest! {
 
     #[test]
     fn the_bound_never_falls_and_bounds_and_budget_hold(
-        columns in 1..12_u32, stride in 1..12_usize, budget in 2..25_u32, noise in 0.5..2.0_f64,
+        columns in 1..12_u32, stride in 1..12_usize, budget in 2..25_u32, noise in 2.5..4.0_f64,
         learn_inducing_inputs: bool, first: bool,
     ) {
         let (inputs, targets, inducing) = scan(columns, stride);
