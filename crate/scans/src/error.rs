@@ -54,11 +54,7 @@ pub enum ScanFault {
 }
 
 impl ScanFault {
-    pub(crate) fn value(
-        place: impl Into<String>,
-        value: impl ToString,
-        expected: impl Into<String>,
-    ) -> Self {
+    pub(crate) fn value(place: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Self {
         Self::Value { place: place.into(), value: value.to_string(), expected: expected.into() }
     }
 }

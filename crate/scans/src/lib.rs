@@ -52,7 +52,9 @@ pub fn read_scan(path: &Path, revolution: usize) -> Result<Vec<Vec3>, ScanError>
 
 /// Lets a file that holds one scan answer for revolution 0 alone.
 fn only(revolution: usize) -> impl FnOnce(Vec<Vec3>) -> Result<Vec<Vec3>, ScanFault> {
-    move |points| if revolution == 0 { Ok(points) } else { Err(ScanFault::Revolution { revolution, whole: 1 }) }
+    move |points| {
+        if revolution == 0 { Ok(points) } else { Err(ScanFault::Revolution { revolution, whole: 1 }) }
+    }
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, ScanFault> {
@@ -77,9 +79,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).unwrap();
-        read_scan(&path, revolution).map_err(|error| {
-            error.to_string().replace(&format!("{}/", folder.path().display()), "")
-        })
+        read_scan(&path, revolution)
+            .map_err(|error| error.to_string().replace(&format!("{}/", folder.path().display()), ""))
     }
 
     #[test]

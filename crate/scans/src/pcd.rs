@@ -68,7 +68,11 @@ fn check_size(meta: &PcdMeta, data: &[u8]) -> Result<(), ScanFault> {
         ScanFault::value("POINTS", count, "a number of points whose size in bytes fits into 64 bits")
     })?;
     let too_short = |expected: String| {
-        ScanFault::value("POINTS", count, format!("{expected} of data for as many points, not {}", data.len()))
+        ScanFault::value(
+            "POINTS",
+            count,
+            format!("{expected} of data for as many points, not {}", data.len()),
+        )
     };
     match meta.data {
         // The shortest token is a digit and a blank.
@@ -133,7 +137,12 @@ mod tests {
 
     /// Points with an intensity before them.
     fn written(points: &[Vec3], data_kind: DataKind) -> Vec<u8> {
-        let schema = [("intensity", ValueKind::U8), ("x", ValueKind::F32), ("y", ValueKind::F64), ("z", ValueKind::F32)];
+        let schema = [
+            ("intensity", ValueKind::U8),
+            ("x", ValueKind::F32),
+            ("y", ValueKind::F64),
+            ("z", ValueKind::F32),
+        ];
         let mut bytes = Cursor::new(Vec::new());
         let init = WriterInit {
             width: points.len() as u64,
@@ -146,7 +155,12 @@ mod tests {
         let mut writer: Writer<DynRecord, _> = init.build_from_writer(&mut bytes).unwrap();
         for point in points {
             let [x, y, z] = point.to_array();
-            let fields = vec![Field::U8(vec![7]), Field::F32(vec![x]), Field::F64(vec![y.into()]), Field::F32(vec![z])];
+            let fields = vec![
+                Field::U8(vec![7]),
+                Field::F32(vec![x]),
+                Field::F64(vec![y.into()]),
+                Field::F32(vec![z]),
+            ];
             writer.push(&DynRecord(fields)).unwrap();
         }
         writer.finish().unwrap();
@@ -160,16 +174,35 @@ mod tests {
 
     #[test]
     fn faults_are_named() {
-        assert!(fault(&ASCII.replace("FIELDS x y z", "FIELDS x y h")).starts_with("FIELDS = x y h: expected a field z"));
-        assert!(fault(&ASCII.replace("TYPE F F F", "TYPE F I F")).starts_with("field y = I32 × 1: expected one number"));
-        assert!(fault(&ASCII.replace("POINTS 3", "POINTS 4")).starts_with("not a valid PCD file: point 4 of 4: "));
-        assert!(fault(&ASCII.replace("5 0.25", "5 high")).starts_with("not a valid PCD file: point 3 of 3: invalid float"));
-        assert!(fault(&ASCII.replace("POINTS 3", "POINTS 99999999999")).starts_with("POINTS = 99999999999: expected at least"));
+        assert!(
+            fault(&ASCII.replace("FIELDS x y z", "FIELDS x y h"))
+                .starts_with("FIELDS = x y h: expected a field z")
+        );
+        assert!(
+            fault(&ASCII.replace("TYPE F F F", "TYPE F I F"))
+                .starts_with("field y = I32 × 1: expected one number")
+        );
+        assert!(
+            fault(&ASCII.replace("POINTS 3", "POINTS 4")).starts_with("not a valid PCD file: point 4 of 4: ")
+        );
+        assert!(
+            fault(&ASCII.replace("5 0.25", "5 high"))
+                .starts_with("not a valid PCD file: point 3 of 3: invalid float")
+        );
+        assert!(
+            fault(&ASCII.replace("POINTS 3", "POINTS 99999999999"))
+                .starts_with("POINTS = 99999999999: expected at least")
+        );
         assert!(fault(&ASCII.replace("POINTS 3", "POINTS 18446744073709551615")).starts_with("POINTS = "));
         let padded = ASCII.replace("FIELDS x y z", "FIELDS x y z _").replace("SIZE 4 4 4", "SIZE 4 4 4 1");
-        let padded = padded.replace("TYPE F F F", "TYPE F F F U").replace("COUNT 1 1 1", "COUNT 1 1 1 9223372036854775807");
+        let padded = padded
+            .replace("TYPE F F F", "TYPE F F F U")
+            .replace("COUNT 1 1 1", "COUNT 1 1 1 9223372036854775807");
         assert!(fault(&padded).starts_with("POINTS = 3: expected"), "{}", fault(&padded));
-        assert!(fault(&padded.replace("POINTS 3", "POINTS 1").replace("ascii", "binary")).starts_with("POINTS = 1: expected"));
+        assert!(
+            fault(&padded.replace("POINTS 3", "POINTS 1").replace("ascii", "binary"))
+                .starts_with("POINTS = 1: expected")
+        );
         assert!(fault("ncols 3").starts_with("not a valid PCD file: "));
         let far = ASCII.replace("SIZE 4 4 4", "SIZE 4 4 8").replace("0.25", "1e200");
         assert!(fault(&far).starts_with("point 3 of 3, z = 1"), "{}", fault(&far));

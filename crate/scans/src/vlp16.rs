@@ -146,7 +146,11 @@ pub(crate) mod tests {
     use proptest::prelude::*;
 
     /// A packet whose first block looks to `azimuth`, each next one 0.4° further, with `distance` in every return.
-    pub(crate) fn packet(azimuth: u16, mode: u8, distance: impl Fn(usize, usize) -> u16) -> [u8; PACKET_BYTES] {
+    pub(crate) fn packet(
+        azimuth: u16,
+        mode: u8,
+        distance: impl Fn(usize, usize) -> u16,
+    ) -> [u8; PACKET_BYTES] {
         let mut packet = [0; PACKET_BYTES];
         let returns = if mode == DUAL { 2 } else { 1 };
         for block in 0..BLOCKS {
@@ -165,10 +169,12 @@ pub(crate) mod tests {
 
     #[test]
     fn the_frame_is_forward_left_up_and_the_azimuth_clockwise() {
-        for (azimuth, forward, left) in [(0, 1.0, 0.0), (9000, 0.0, -1.0), (18_000, -1.0, 0.0), (27_000, 0.0, 1.0)] {
-            let packet = packet(azimuth, STRONGEST, |block, beam| if (block, beam) == (0, 0) { 1000 } else { 0 });
-            let points: Vec<Vec3> =
-                firings(&packet, 1).unwrap().iter().flat_map(Firing::points_m).collect();
+        for (azimuth, forward, left) in
+            [(0, 1.0, 0.0), (9000, 0.0, -1.0), (18_000, -1.0, 0.0), (27_000, 0.0, 1.0)]
+        {
+            let packet =
+                packet(azimuth, STRONGEST, |block, beam| if (block, beam) == (0, 0) { 1000 } else { 0 });
+            let points: Vec<Vec3> = firings(&packet, 1).unwrap().iter().flat_map(Firing::points_m).collect();
             let (sin, cos) = libm::sincos((-15_f64).to_radians());
             let expected = Vec3::new(
                 (2.0 * cos * forward) as f32,
@@ -191,26 +197,15 @@ pub(crate) mod tests {
         }
         // The last laser of a sequence fires 34.56 µs after the first, in 110.592 µs for 0.4°.
         let last = firings[2].points_m().last().unwrap();
-        let turned = f64::from(-last.y).atan2_deg(f64::from(last.x));
+        let turned = libm::atan2(f64::from(-last.y), f64::from(last.x)).to_degrees();
         assert!((turned - (0.2 + 0.125)).abs() < 1e-4, "{turned}");
-    }
-
-    trait Atan2Deg {
-        fn atan2_deg(self, x: f64) -> f64;
-    }
-
-    impl Atan2Deg for f64 {
-        fn atan2_deg(self, x: f64) -> f64 {
-            libm::atan2(self, x).to_degrees()
-        }
     }
 
     #[test]
     fn two_returns_are_told_apart_and_a_single_one_counts_once() {
         // Blocks in pairs: the last return at 3 m, and from laser 8 on the strongest at 2 m.
-        let packet = packet(0, DUAL, |block, beam| {
-            if block % 2 == 1 && beam % LASERS >= 8 { 1000 } else { 1500 }
-        });
+        let packet =
+            packet(0, DUAL, |block, beam| if block % 2 == 1 && beam % LASERS >= 8 { 1000 } else { 1500 });
         let firings = firings(&packet, 1).unwrap();
         assert_eq!(firings.len(), 24);
         let azimuths: Vec<f64> = firings.iter().map(|firing| firing.azimuth).collect();
