@@ -1,8 +1,11 @@
-//! `mapless`: drives trials from scenario files.
+//! `mapless`: drives trials from scenario files, and perceives recorded scans.
 //!
-//! Exit code 0 when the goal was reached, 2 for any other outcome, 1 for an error.
+//! Exit code of a trial: 0 when the goal was reached, 2 for any other outcome, 1 for an error. Exit code of a scan: 0 when
+//! it was read, 1 for an error.
 
 mod log;
+mod perceive;
+mod perception_report;
 mod picture;
 mod progress;
 mod report;
@@ -10,8 +13,9 @@ mod run;
 
 use std::process::ExitCode;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
-use mapless_trials::Outcome;
+use mapless_trials::{Outcome, Preset};
 
 /// Mapless navigation on uneven terrain: a simulated Husky with a VLP-16 drives to a goal.
 #[derive(Parser)]
@@ -25,6 +29,8 @@ struct Args {
 enum Command {
     /// Run one trial. Exit code: 0 = goal reached, 2 = another outcome, 1 = error.
     Run(run::Args),
+    /// Show what the planner perceives in one recorded scan. Exit code: 0 = perceived or stopped with a reason, 1 = error.
+    Perceive(perceive::Args),
 }
 
 fn main() -> ExitCode {
@@ -32,19 +38,26 @@ fn main() -> ExitCode {
         Ok(args) => args,
         Err(message) => return usage(&message),
     };
-    let Command::Run(args) = args.command;
-    match run::run(&args) {
-        Ok(Outcome::Reached) => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::from(2),
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    let result = match args.command {
+        Command::Run(args) => run::run(&args).map(|outcome| match outcome {
+            Outcome::Reached => ExitCode::SUCCESS,
+            _ => ExitCode::from(2),
+        }),
+        Command::Perceive(args) => perceive::run(&args).map(|()| ExitCode::SUCCESS),
+    };
+    result.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        ExitCode::FAILURE
+    })
 }
 
 /// Shows clap's help or what is wrong with the arguments: an error has exit code 1 here, since 2 is an outcome.
 fn usage(message: &clap::Error) -> ExitCode {
     let shown = message.print();
     if message.use_stderr() || shown.is_err() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+/// Reads the name of a preset, for `--preset`.
+fn preset_parser() -> impl TypedValueParser<Value = Preset> {
+    PossibleValuesParser::new(["default", "paper"]).try_map(|name| name.parse::<Preset>())
 }

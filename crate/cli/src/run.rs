@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use anyhow::Context as _;
-use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use mapless_trials::{LoadedScenario, Outcome, Preset, Trial};
 
 use crate::log::Log;
@@ -17,7 +16,7 @@ pub(crate) struct Args {
     /// Scenario file (TOML): terrain, start, goal, seed and what differs from the defaults.
     scenario: PathBuf,
     /// Planner configuration that the scenario's [planner] section starts from.
-    #[arg(long, default_value = "default", value_parser = PossibleValuesParser::new(["default", "paper"]).try_map(|name| name.parse::<Preset>()))]
+    #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
     preset: Preset,
     /// Seed of the sensor's noise, instead of the scenario's own.
     #[arg(long)]
