@@ -58,11 +58,15 @@ impl Panel {
         rows: usize,
         colour: impl Fn(usize, usize) -> [u8; 3],
     ) -> anyhow::Result<()> {
-        let directions = (0..rows).rev().flat_map(|row| (0..COLUMNS).rev().map(move |column| (column, row)));
-        let rgb: Vec<u8> = directions.flat_map(|(column, row)| colour(column, row)).collect();
-        // Rows of the image as high as the panel's, so that no viewer blurs them.
-        let high: Vec<u8> = rgb.chunks_exact(3 * COLUMNS).flat_map(|row| row.repeat(UP as usize)).collect();
-        let png = page::png(COLUMNS as u32, (rows * UP as usize) as u32, &high)?;
+        // Pixel by pixel, so that no viewer blurs the cells.
+        let (width, height) = (SIZE.x as usize, SIZE.y as usize);
+        let rgb: Vec<u8> = (0..width * height)
+            .flat_map(|pixel| {
+                let (across, down) = (pixel % width, pixel / width);
+                colour(COLUMNS - 1 - across * COLUMNS / width, rows - 1 - down * rows / height)
+            })
+            .collect();
+        let png = page::png(width as u32, height as u32, &rgb)?;
         Ok(embed(svg, DVec2::new(LEFT, self.top), SIZE, &png)?)
     }
 

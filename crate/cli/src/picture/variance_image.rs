@@ -128,23 +128,31 @@ impl VarianceImage<'_> {
     }
 }
 
-/// Shades the columns without ground: hatched where unknown, red where a wall stands.
+/// Marks the columns without ground.
 fn area(svg: &mut String, segment: &Segment) -> fmt::Result {
-    let fill = match segment.verdict {
-        Verdict::Unknown => r#"fill="url(#unknown)" fill-opacity="0.7""#,
-        Verdict::Wall => r##"fill="#d4002a" fill-opacity="0.35""##,
-        Verdict::Valid | Verdict::TooNarrow | Verdict::TooSteep => return Ok(()),
-    };
     for (left, right) in PANEL.across(segment.begin_rad, segment.extent_rad) {
-        writeln!(
-            svg,
-            r#"<rect x="{left:.1}" y="{:.1}" width="{:.1}" height="{:.1}" {fill}/>"#,
-            PANEL.top,
-            right - left,
-            SIZE.y
-        )?;
+        shade(svg, DVec2::new(left, PANEL.top), DVec2::new(right - left, SIZE.y), segment.verdict)?;
     }
     Ok(())
+}
+
+/// Hatched where unknown, reddened below a red band where a wall stands.
+fn shade(svg: &mut String, place: DVec2, size: DVec2, verdict: Verdict) -> fmt::Result {
+    let mut rectangle = |height: f64, fill: &str, opacity: f64| {
+        writeln!(
+            svg,
+            r#"<rect x="{:.1}" y="{:.1}" width="{:.1}" height="{height:.1}" fill="{fill}" fill-opacity="{opacity}"/>"#,
+            place.x, place.y, size.x
+        )
+    };
+    match verdict {
+        Verdict::Unknown => rectangle(size.y, "url(#unknown)", 0.7),
+        Verdict::Wall => {
+            rectangle(size.y, verdict_colour(verdict), 0.25)?;
+            rectangle(5.0, verdict_colour(verdict), 1.0)
+        }
+        Verdict::Valid | Verdict::TooNarrow | Verdict::TooSteep => Ok(()),
+    }
 }
 
 /// The elevation of a segment with ground, in the colour of its verdict.
@@ -237,15 +245,10 @@ fn legend(svg: &mut String) -> fmt::Result {
     };
     writeln!(svg, r#"<path stroke="{PROFILE}" stroke-width="2" d="M{:.1} {y:.1}h20"/>"#, x - 8.0)?;
     x = words(svg, x, y, "profile, where the variance crosses its threshold")?;
-    for (fill, opacity, name) in
-        [("url(#unknown)", 1.0, "unknown: nothing came back"), ("#d4002a", 0.35, "wall: occupied up to 15°")]
+    for (verdict, name) in
+        [(Verdict::Unknown, "unknown: no return from so near"), (Verdict::Wall, "wall: occupied up to 15°")]
     {
-        writeln!(
-            svg,
-            r#"<rect x="{:.1}" y="{:.1}" width="20" height="12" fill="{fill}" fill-opacity="{opacity}" stroke="{INK}" stroke-width="0.5"/>"#,
-            x - 8.0,
-            y - 6.0
-        )?;
+        shade(svg, DVec2::new(x - 8.0, y - 8.0), DVec2::new(20.0, 16.0), verdict)?;
         x = words(svg, x, y, name)?;
     }
     (x, y) = (LEFT + 12.0, LEGEND + 28.0);
