@@ -45,7 +45,9 @@ impl OccupancyPicture<'_> {
         panels[2].paint(&mut svg, ROWS, |column, row| grey(self.predicted.variance_column(column)[row]))?;
 
         let titles = [
-            format!("Observed occupancy, {radius_m} m − range; white where nothing came back from so near"),
+            format!(
+                "Observed occupancy, {radius_m} m − range; white where there is no return within {radius_m} m"
+            ),
             "Its reconstruction, the mean of the Gaussian process".to_owned(),
             "Its variance: dark where ground was observed, white where space is free".to_owned(),
         ];

@@ -51,7 +51,7 @@ impl VarianceImage<'_> {
         PANEL.azimuth_label(&mut svg)?;
         self.subgoals(&mut svg)?;
         self.bars(&mut svg)?;
-        legend(&mut svg)?;
+        legend(&mut svg, self.step.observed.radius_m())?;
         writeln!(svg, "</svg>")?;
         Ok(svg)
     }
@@ -236,7 +236,7 @@ fn ring(svg: &mut String, at: DVec2) -> fmt::Result {
 }
 
 /// Two lines under the panel: what was seen, and what follows from it.
-fn legend(svg: &mut String) -> fmt::Result {
+fn legend(svg: &mut String, radius_m: f64) -> fmt::Result {
     let (mut x, mut y) = (LEFT + 12.0, LEGEND);
     // Writes the words beside the mark at x and gives the place of the next mark.
     let words = |svg: &mut String, x: f64, y: f64, words: &str| -> Result<f64, fmt::Error> {
@@ -245,11 +245,12 @@ fn legend(svg: &mut String) -> fmt::Result {
     };
     writeln!(svg, r#"<path stroke="{PROFILE}" stroke-width="2" d="M{:.1} {y:.1}h20"/>"#, x - 8.0)?;
     x = words(svg, x, y, "profile, where the variance crosses its threshold")?;
-    for (verdict, name) in
-        [(Verdict::Unknown, "unknown: no return from so near"), (Verdict::Wall, "wall: occupied up to 15°")]
-    {
+    for (verdict, name) in [
+        (Verdict::Unknown, format!("unknown: no return within {radius_m} m")),
+        (Verdict::Wall, "wall: occupied up to 15°".to_owned()),
+    ] {
         shade(svg, DVec2::new(x - 8.0, y - 8.0), DVec2::new(20.0, 16.0), verdict)?;
-        x = words(svg, x, y, name)?;
+        x = words(svg, x, y, &name)?;
     }
     (x, y) = (LEFT + 12.0, LEGEND + 28.0);
     for (verdict, name) in
