@@ -5,7 +5,6 @@
 
 mod log;
 mod perceive;
-mod perception_report;
 mod picture;
 mod progress;
 mod report;

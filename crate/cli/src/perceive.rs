@@ -3,6 +3,9 @@
 //! A scan says nothing of where it was taken: the robot stands level at the origin, heads along +x, has driven nowhere
 //! yet, and its goal is 50 m ahead. The sensor stands as high above the ground as the configuration says.
 
+mod report;
+mod rows;
+
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -15,8 +18,8 @@ use mapless::{Planner, Step};
 use mapless_scans::read_scan;
 use mapless_trials::Preset;
 
-use crate::perception_report::PerceptionReport;
 use crate::picture::{OccupancyPicture, VarianceImage};
+use report::PerceptionReport;
 
 const POSE: Pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
 const GOAL_M: DVec2 = DVec2::new(50.0, 0.0);

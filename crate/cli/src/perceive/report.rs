@@ -3,15 +3,15 @@
 use std::f64::consts::PI;
 
 use comfy_table::{CellAlignment, Table, presets};
-use mapless::occupancy::{COLUMNS, column_azimuth_rad};
+use mapless::occupancy::COLUMNS;
 use mapless::perception::PredictedSurface;
 use mapless::profile::Column;
-use mapless::segments::{Segment, Verdict};
-use mapless::subgoals::{Refusal, Subgoal};
 use mapless::{Status, Step};
 
-/// The result of one step, as `--json` prints it. Angles and places are the sensor's and the world's; both are the
-/// robot's here, but for the sensor's height.
+use super::rows::{ColumnRow, CommandRow, CostRow, SegmentRow, SubgoalRow};
+
+/// The result of one step, as `--json` prints it. Azimuths and elevations are the sensor's; positions are the world's,
+/// whose origin is the ground under the robot and whose x is its heading.
 #[derive(serde::Serialize)]
 pub(crate) struct PerceptionReport {
     #[serde(skip)]
@@ -37,54 +37,6 @@ pub(crate) struct PerceptionReport {
     chosen: Option<usize>,
 }
 
-#[derive(serde::Serialize)]
-struct CommandRow {
-    linear_m_s: f64,
-    angular_rad_s: f64,
-}
-
-#[derive(serde::Serialize)]
-struct ColumnRow {
-    azimuth_rad: f64,
-    elevation_rad: Option<f64>,
-    kind: &'static str,
-}
-
-#[derive(serde::Serialize)]
-struct SegmentRow {
-    begin_rad: f64,
-    end_rad: f64,
-    extent_rad: f64,
-    width_m: f64,
-    elevation_rad: Option<f64>,
-    height_m: Option<f64>,
-    verdict: &'static str,
-}
-
-#[derive(serde::Serialize)]
-struct SubgoalRow {
-    /// Index of its segment; none for the goal itself.
-    segment: Option<usize>,
-    azimuth_rad: f64,
-    elevation_rad: f64,
-    bearing_rad: f64,
-    position_m: [f64; 3],
-    /// `tilt`, `unseen` or none for a candidate.
-    refusal: Option<&'static str>,
-    /// Weighted terms; none when refused.
-    cost: Option<CostRow>,
-}
-
-#[derive(serde::Serialize)]
-struct CostRow {
-    direction: f64,
-    distance: f64,
-    steepness: f64,
-    commitment: f64,
-    revisit: f64,
-    total: f64,
-}
-
 impl PerceptionReport {
     pub(crate) fn new(
         subject: String,
@@ -104,10 +56,7 @@ impl PerceptionReport {
             returns,
             status,
             reason,
-            command: CommandRow {
-                linear_m_s: step.command.linear_m_s,
-                angular_rad_s: step.command.angular_rad_s,
-            },
+            command: CommandRow::of(step.command),
             surface_radius_m: step.observed.radius_m(),
             occupied_cells: step.observed.cells().len(),
             inducing_inputs: predicted.inducing_inputs,
@@ -248,59 +197,4 @@ fn direction(bearing_rad: f64) -> String {
         _ => "right",
     };
     format!("{:.0}° to the {side}", bearing_rad.abs().to_degrees())
-}
-
-impl ColumnRow {
-    fn of(index: usize, column: Column) -> Self {
-        let (elevation_rad, kind) = match column {
-            Column::Ground { elevation_rad } => (Some(elevation_rad), "ground"),
-            Column::Unknown => (None, "unknown"),
-            Column::Wall => (None, "wall"),
-        };
-        Self { azimuth_rad: column_azimuth_rad(index), elevation_rad, kind }
-    }
-}
-
-impl SegmentRow {
-    fn of(segment: &Segment) -> Self {
-        Self {
-            begin_rad: segment.begin_rad,
-            end_rad: segment.end_rad(),
-            extent_rad: segment.extent_rad,
-            width_m: segment.width_m,
-            elevation_rad: segment.elevation_rad,
-            height_m: segment.height_m,
-            verdict: match segment.verdict {
-                Verdict::Valid => "valid",
-                Verdict::TooNarrow => "too_narrow",
-                Verdict::TooSteep => "too_steep",
-                Verdict::Unknown => "unknown",
-                Verdict::Wall => "wall",
-            },
-        }
-    }
-}
-
-impl SubgoalRow {
-    fn of(subgoal: &Subgoal) -> Self {
-        Self {
-            segment: subgoal.segment,
-            azimuth_rad: subgoal.azimuth_rad,
-            elevation_rad: subgoal.elevation_rad,
-            bearing_rad: subgoal.bearing_rad,
-            position_m: subgoal.position_m.to_array(),
-            refusal: subgoal.refusal.map(|refusal| match refusal {
-                Refusal::Tilt => "tilt",
-                Refusal::Unseen => "unseen",
-            }),
-            cost: subgoal.cost.map(|cost| CostRow {
-                direction: cost.direction,
-                distance: cost.distance,
-                steepness: cost.steepness,
-                commitment: cost.commitment,
-                revisit: cost.revisit,
-                total: cost.total(),
-            }),
-        }
-    }
 }
