@@ -1,8 +1,10 @@
-//! `mapless`: drives trials from scenario files.
+//! `mapless`: drives trials from scenario files, and perceives recorded scans.
 //!
-//! Exit code 0 when the goal was reached, 2 for any other outcome, 1 for an error.
+//! Exit code of a trial: 0 when the goal was reached, 2 for any other outcome, 1 for an error. Exit code of a scan: 0 when
+//! it was read, 1 for an error.
 
 mod log;
+mod perceive;
 mod picture;
 mod profile;
 mod progress;
@@ -11,8 +13,9 @@ mod run;
 
 use std::process::ExitCode;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
-use mapless_trials::Outcome;
+use mapless_trials::{Outcome, Preset};
 
 /// Mapless navigation on uneven terrain: a simulated Husky with a VLP-16 drives to a goal.
 #[derive(Parser)]
@@ -28,6 +31,8 @@ enum Command {
     Run(run::Args),
     /// Compare the elevation profile with the true skyline at random poses.
     Profile(profile::Args),
+    /// Show what the planner perceives in one recorded scan. Exit code: 0 = perceived or stopped with a reason, 1 = error.
+    Perceive(perceive::Args),
 }
 
 fn main() -> ExitCode {
@@ -35,24 +40,27 @@ fn main() -> ExitCode {
         Ok(args) => args,
         Err(message) => return usage(&message),
     };
-    let done = match args.command {
+    let result = match args.command {
         Command::Run(args) => run::run(&args).map(|outcome| match outcome {
             Outcome::Reached => ExitCode::SUCCESS,
             _ => ExitCode::from(2),
         }),
         Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Perceive(args) => perceive::run(&args).map(|()| ExitCode::SUCCESS),
     };
-    match done {
-        Ok(code) => code,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    result.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        ExitCode::FAILURE
+    })
 }
 
 /// Shows clap's help or what is wrong with the arguments: an error has exit code 1 here, since 2 is an outcome.
 fn usage(message: &clap::Error) -> ExitCode {
     let shown = message.print();
     if message.use_stderr() || shown.is_err() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+/// Reads the name of a preset, for `--preset`.
+fn preset_parser() -> impl TypedValueParser<Value = Preset> {
+    PossibleValuesParser::new(["default", "paper"]).try_map(|name| name.parse::<Preset>())
 }

@@ -1,18 +1,25 @@
-//! The picture of a trial: its path over the elevation, as SVG.
+//! Pictures, as SVG: of a trial, its path over the elevation; of a scan, what perception makes of it.
 
 mod contours;
+mod directions;
 mod marks;
+mod occupancy;
+mod page;
 mod relief;
 mod scale;
+mod variance_image;
 
 use std::fmt::{self, Write as _};
 
-use base64::Engine as _;
 use glam::DVec2;
 use mapless_trials::{Outcome, StartPose};
 use mapless_world::HeightField;
 
+use page::{ColourBar, INK, embed};
 use scale::{nice_step, ticks};
+
+pub(crate) use occupancy::OccupancyPicture;
+pub(crate) use variance_image::VarianceImage;
 
 /// Largest size of the map on the page; the margins come on top. All in pixels of the SVG.
 const MAP_WIDTH: f64 = 820.0;
@@ -24,8 +31,6 @@ const BOTTOM: f64 = 96.0;
 /// The legend needs this much even under a narrow map.
 const LEAST_WIDTH: f64 = 640.0;
 
-/// Colour of lines and words.
-const INK: &str = "#1c1c1c";
 /// Colour of the path and the flag.
 const PATH: &str = "#b3002d";
 
@@ -68,24 +73,8 @@ impl Picture<'_> {
         let width = (LEFT + layout.size.x + RIGHT).max(LEAST_WIDTH);
         let height = TOP + layout.size.y + BOTTOM;
         let mut svg = String::new();
-        writeln!(
-            svg,
-            r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0} {height:.0}" width="{width:.0}" height="{height:.0}" font-family="Helvetica, Arial, 'DejaVu Sans', sans-serif" font-size="13" fill="{INK}">"#
-        )?;
-        writeln!(svg, r##"<rect width="100%" height="100%" fill="#fff"/>"##)?;
-        writeln!(
-            svg,
-            r##"<text x="{LEFT}" y="26" font-size="18" font-weight="bold">{}</text><text x="{LEFT}" y="47" fill="#555">{}</text>"##,
-            escape(&self.title),
-            escape(&self.subtitle)
-        )?;
-        writeln!(
-            svg,
-            r#"<image x="{LEFT}" y="{TOP}" width="{:.2}" height="{:.2}" preserveAspectRatio="none" href="data:image/png;base64,{}"/>"#,
-            layout.size.x,
-            layout.size.y,
-            base64::engine::general_purpose::STANDARD.encode(relief)
-        )?;
+        page::begin(&mut svg, DVec2::new(width, height), LEFT, &self.title, &self.subtitle)?;
+        embed(&mut svg, DVec2::new(LEFT, TOP), layout.size, &relief)?;
         let interval_m = self.contours(&mut svg, &layout)?;
         self.axes(&mut svg, &layout)?;
         self.colour_bar(&mut svg, &layout)?;
@@ -162,42 +151,17 @@ impl Picture<'_> {
     }
 
     fn colour_bar(&self, svg: &mut String, layout: &Layout) -> fmt::Result {
-        const WIDTH: f64 = 16.0;
         let (low, high) = self.field.height_range_m();
         let (low, high) = (f64::from(low), f64::from(high));
-        let left = LEFT + layout.size.x + 20.0;
-        let bottom = TOP + layout.size.y;
-        write!(svg, r#"<linearGradient id="elevation" x1="0" y1="1" x2="0" y2="0">"#)?;
-        for percent in (0..=100).step_by(5) {
-            let [r, g, b] = relief::tint(f64::from(percent) / 100.0);
-            write!(svg, r#"<stop offset="{percent}%" stop-color="rgb({r:.0} {g:.0} {b:.0})"/>"#)?;
-        }
-        writeln!(svg, "</linearGradient>")?;
-        writeln!(
-            svg,
-            r#"<rect x="{left:.1}" y="{TOP}" width="{WIDTH}" height="{:.1}" fill="url(#elevation)" stroke="{INK}"/>"#,
-            layout.size.y
-        )?;
-        let middle = (TOP + bottom) / 2.0;
-        writeln!(
-            svg,
-            r#"<text transform="translate({:.1} {middle:.1}) rotate(-90)" text-anchor="middle">elevation (m)</text>"#,
-            left + WIDTH + 50.0
-        )?;
-        if high - low < 0.01 {
-            return Ok(());
-        }
-        for level_m in ticks(low, high, nice_step((high - low) / 6.0)) {
-            let y = bottom - (level_m - low) / (high - low) * layout.size.y;
-            writeln!(
-                svg,
-                r#"<path stroke="{INK}" d="M{:.1} {y:.1}h5"/><text x="{:.1}" y="{:.1}">{level_m}</text>"#,
-                left + WIDTH,
-                left + WIDTH + 9.0,
-                y + 4.5
-            )?;
-        }
-        Ok(())
+        let bar = ColourBar {
+            id: "elevation",
+            label: "elevation (m)",
+            place: DVec2::new(LEFT + layout.size.x + 20.0, TOP),
+            height: layout.size.y,
+            range: (low, high),
+            ticks: 6.0,
+        };
+        bar.draw(svg, |share| relief::tint(share).map(|channel| channel.round() as u8))
     }
 
     fn route(&self, svg: &mut String, layout: &Layout) -> fmt::Result {
@@ -266,8 +230,4 @@ impl Picture<'_> {
             y + 7.5
         )
     }
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

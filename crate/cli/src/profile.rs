@@ -8,14 +8,12 @@ use comfy_table::{CellAlignment, Table, presets};
 use mapless_trials::{LoadedScenario, Preset, ProfileAccuracy, profile_accuracy};
 use mapless_world::Caster;
 
-use crate::run::preset_parser;
-
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Scenario file (TOML); its terrain, sensor and planner are used, its start and goal are not.
     scenario: PathBuf,
     /// Planner configuration that the scenario's [planner] section starts from.
-    #[arg(long, default_value = "default", value_parser = preset_parser())]
+    #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
     preset: Preset,
     /// Random poses at which the robot can stand.
     #[arg(long, default_value_t = 200, value_name = "N")]

@@ -19,10 +19,7 @@ pub(crate) struct Subject {
 
 impl fmt::Display for Subject {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let preset = match self.preset {
-            Preset::Default => "default",
-            Preset::Paper => "paper",
-        };
+        let preset = self.preset.name();
         write!(f, "{} on {}, preset {preset}, seed {}", self.scenario, self.terrain, self.seed)
     }
 }

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use anyhow::Context as _;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use mapless_trials::{LoadedScenario, Outcome, Preset, Trial};
 
 use crate::log::Log;
@@ -17,7 +16,7 @@ pub(crate) struct Args {
     /// Scenario file (TOML): terrain, start, goal, seed and what differs from the defaults.
     scenario: PathBuf,
     /// Planner configuration that the scenario's [planner] section starts from.
-    #[arg(long, default_value = "default", value_parser = preset_parser())]
+    #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
     preset: Preset,
     /// Seed of the sensor's noise, instead of the scenario's own.
     #[arg(long)]
@@ -28,11 +27,6 @@ pub(crate) struct Args {
     /// Print one JSON object instead of a table.
     #[arg(long)]
     json: bool,
-}
-
-/// The two presets by name.
-pub(crate) fn preset_parser() -> impl TypedValueParser<Value = Preset> {
-    PossibleValuesParser::new(["default", "paper"]).try_map(|name| name.parse::<Preset>())
 }
 
 /// Runs the trial and shows how it ended.

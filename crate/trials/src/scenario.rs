@@ -27,6 +27,24 @@ pub enum Preset {
     Paper,
 }
 
+impl Preset {
+    /// The name as on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Default => "default",
+            Self::Paper => "paper",
+        }
+    }
+
+    /// The configuration without what a scenario sets.
+    pub fn planner_config(self) -> PlannerConfig {
+        match self {
+            Self::Default => PlannerConfig::default(),
+            Self::Paper => PlannerConfig::paper(),
+        }
+    }
+}
+
 impl std::str::FromStr for Preset {
     type Err = String;
 
@@ -138,10 +156,7 @@ impl Scenario {
     /// # Errors
     /// The value that does not fit the preset.
     pub fn planner_config(&self, preset: Preset) -> Result<PlannerConfig, ScenarioFault> {
-        let mut config = match preset {
-            Preset::Default => PlannerConfig::default(),
-            Preset::Paper => PlannerConfig::paper(),
-        };
+        let mut config = preset.planner_config();
         config.mount.forward_m = self.sensor.forward_m;
         config.mount.height_m = self.sensor.height_m;
         config.robot_width_m = self.robot.width_m;

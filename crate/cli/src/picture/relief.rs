@@ -3,6 +3,8 @@
 use glam::{DVec2, DVec3};
 use mapless_world::HeightField;
 
+use super::page;
+
 /// Slopes are drawn this much steeper, since gentle ones matter to a robot.
 const EXAGGERATION: f64 = 1.3;
 /// Share of white in the colours, so that path and marks stand out on paper too.
@@ -35,12 +37,7 @@ pub(crate) fn png(field: &HeightField, size: DVec2) -> anyhow::Result<Vec<u8>> {
         }
     }
 
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.write_header()?.write_image_data(&rgb)?;
-    Ok(bytes)
+    page::png(width, height, &rgb)
 }
 
 /// Colour of the share `height` of the elevation range: a perceptually even map that also reads in grey and with

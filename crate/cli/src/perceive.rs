@@ -1,0 +1,86 @@
+//! `mapless perceive`: one recorded scan through one step of the planner.
+//!
+//! A scan says nothing of where it was taken: the robot stands level at the origin, heads along +x, has driven nowhere
+//! yet, and its goal is 50 m ahead. The sensor stands as high above the ground as the configuration says.
+
+mod report;
+mod rows;
+
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use glam::{DVec2, DVec3};
+use mapless::perception::PredictedSurface;
+use mapless::pose::Pose;
+use mapless::{Planner, Step};
+use mapless_scans::read_scan;
+use mapless_trials::Preset;
+
+use crate::picture::{OccupancyPicture, VarianceImage};
+use report::PerceptionReport;
+
+const POSE: Pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
+const GOAL_M: DVec2 = DVec2::new(50.0, 0.0);
+
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Scan: .pcd, text with x y z a line (.csv, .txt, .xyz; sensor frame in metres: x forward, y left, z up), or a
+    /// capture of a VLP-16 (.pcap). The robot stands level at the origin with its goal 50 m ahead.
+    file: PathBuf,
+    /// Which whole revolution of a capture, from 0.
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    revolution: usize,
+    /// Planner configuration.
+    #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
+    preset: Preset,
+    /// Write variance_image.svg and occupancy_surface.svg to this folder, which is made when missing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object instead of tables.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Perceives the scan and shows what was seen and decided.
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let points_m = read_scan(&args.file, args.revolution)?;
+    let mut planner = Planner::new(args.preset.planner_config())?;
+    let variance_threshold = planner.config().perception.variance_threshold;
+    let report =
+        PerceptionReport::new(subject(args), points_m.len(), &planner.step(&points_m, &POSE, GOAL_M));
+    if let Some(folder) = &args.out {
+        let predicted = planner.predicted_surface()?.clone();
+        draw(folder, &report, &planner.last_step(), &predicted, variance_threshold)?;
+    }
+    let text = if args.json { serde_json::to_string(&report)? } else { report.tables() };
+    writeln!(std::io::stdout(), "{text}").context("standard output")
+}
+
+/// What was perceived; stands above the tables and in the pictures.
+fn subject(args: &Args) -> String {
+    let file = args.file.file_name().unwrap_or_default().to_string_lossy();
+    let is_capture = args.file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pcap"));
+    let revolution = if is_capture { format!(", revolution {}", args.revolution) } else { String::new() };
+    format!("{file}{revolution}, preset {}", args.preset.name())
+}
+
+fn draw(
+    folder: &Path,
+    report: &PerceptionReport,
+    step: &Step<'_>,
+    predicted: &PredictedSurface,
+    variance_threshold: f64,
+) -> anyhow::Result<()> {
+    fs::create_dir_all(folder).with_context(|| format!("--out: {}", folder.display()))?;
+    let write = |name: &str, svg: String| {
+        let path = folder.join(name);
+        fs::write(&path, svg).with_context(|| format!("--out: {}", path.display()))
+    };
+    let (title, subtitle) = (report.subject(), report.headline());
+    let image = VarianceImage { title, subtitle: &subtitle, step, predicted, variance_threshold };
+    write("variance_image.svg", image.svg()?)?;
+    let surfaces = OccupancyPicture { title, subtitle: &subtitle, observed: step.observed, predicted };
+    write("occupancy_surface.svg", surfaces.svg()?)
+}

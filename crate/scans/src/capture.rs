@@ -1,0 +1,206 @@
+//! Captures of a VLP-16: pcap, Ethernet or IP, UDP, data packets, revolutions.
+//!
+//! A data packet is a UDP payload of 1206 bytes that begins with the flag of a block, on any port. Everything else, such
+//! as the sensor's position packets, is passed over.
+
+use etherparse::{SlicedPacket, TransportSlice};
+use glam::Vec3;
+use pcap_file::pcap::PcapParser;
+use pcap_file::{DataLink, PcapError};
+
+use crate::error::ScanFault;
+use crate::vlp16::{BLOCK_FLAG, PACKET_BYTES, TURN, firings};
+
+/// The points of one whole revolution.
+pub(crate) fn read(bytes: &[u8], revolution: usize) -> Result<Vec<Vec3>, ScanFault> {
+    let (mut rest, parser) = PcapParser::new(bytes).map_err(|error| match error {
+        PcapError::IncompleteBuffer => damaged("it ends inside its header"),
+        error => damaged(error),
+    })?;
+    let link = parser.header().datalink;
+    let mut points = Vec::new();
+    let mut turns = Turns::default();
+    let (mut number, mut data_packets) = (0, 0);
+    while !rest.is_empty() {
+        number += 1;
+        let (after, packet) = parser.next_raw_packet(rest).map_err(|error| match error {
+            PcapError::IncompleteBuffer => damaged(format!("it ends inside packet {number}")),
+            error => damaged(format!("packet {number}: {error}")),
+        })?;
+        rest = after;
+        let Some(packet) = data_packet(link, &packet.data)? else { continue };
+        data_packets += 1;
+        for firing in firings(packet, number)? {
+            if turns.passed(firing.azimuth) == Some(revolution) {
+                points.extend(firing.points_m());
+            }
+        }
+    }
+    if data_packets == 0 {
+        return Err(damaged(format!(
+            "none of its {number} packets is a VLP-16 data packet, {PACKET_BYTES} bytes over UDP"
+        )));
+    }
+    let whole = turns.begun.saturating_sub(1);
+    if revolution < whole { Ok(points) } else { Err(ScanFault::Revolution { revolution, whole }) }
+}
+
+fn damaged(reason: impl ToString) -> ScanFault {
+    ScanFault::Damaged { format: "pcap", reason: reason.to_string() }
+}
+
+/// The payload of a frame when it is a data packet.
+fn data_packet(link: DataLink, frame: &[u8]) -> Result<Option<&[u8; PACKET_BYTES]>, ScanFault> {
+    let sliced = match link {
+        DataLink::ETHERNET => SlicedPacket::from_ethernet(frame).ok(),
+        DataLink::LINUX_SLL => SlicedPacket::from_linux_sll(frame).ok(),
+        DataLink::RAW | DataLink::IPV4 => SlicedPacket::from_ip(frame).ok(),
+        other => {
+            let expected = "1 (Ethernet), 101 (raw IP), 113 (Linux cooked) or 228 (raw IPv4)";
+            return Err(ScanFault::value("link type", u32::from(other), expected));
+        }
+    };
+    let Some(TransportSlice::Udp(udp)) = sliced.and_then(|sliced| sliced.transport) else { return Ok(None) };
+    let packet = <&[u8; PACKET_BYTES]>::try_from(udp.payload()).ok();
+    Ok(packet.filter(|packet| packet[..2] == BLOCK_FLAG))
+}
+
+/// Counts the passings behind the sensor.
+#[derive(Default)]
+struct Turns {
+    begun: usize,
+    /// How far the last firing was past straight behind, hundredths of a degree.
+    past: Option<f64>,
+}
+
+impl Turns {
+    /// Takes the azimuth of the next firing and gives the revolution it belongs to; none before the first passing.
+    fn passed(&mut self, azimuth: f64) -> Option<usize> {
+        let past = (azimuth + 0.5 * TURN).rem_euclid(TURN);
+        // The azimuth jitters; only a passing takes it back by most of a turn.
+        if self.past.is_some_and(|before| before - past > 0.5 * TURN) {
+            self.begun += 1;
+        }
+        self.past = Some(past);
+        self.begun.checked_sub(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vlp16::tests::packet;
+    use etherparse::PacketBuilder;
+    use proptest::prelude::*;
+
+    const HEADER: [u8; 24] =
+        [0xd4, 0xc3, 0xb2, 0xa1, 2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 0, 0, 1, 0, 0, 0];
+
+    fn add(capture: &mut Vec<u8>, payload: &[u8]) {
+        let mut frame = Vec::new();
+        PacketBuilder::ethernet2([1; 6], [2; 6])
+            .ipv4([192, 168, 1, 201], [255; 4], 64)
+            .udp(2368, 2368)
+            .write(&mut frame, payload)
+            .unwrap();
+        let length = (frame.len() as u32).to_le_bytes();
+        capture.extend([[0; 4], [0; 4], length, length].concat());
+        capture.extend(frame);
+    }
+
+    /// Ten revolutions a second from `from` on, each packet 4.8° and all distances 3 m plus the number of the packet.
+    fn capture(from: u16, packets: u16) -> Vec<u8> {
+        let mut capture = HEADER.to_vec();
+        for number in 0..packets {
+            let azimuth = (u32::from(from) + 480 * u32::from(number)) % 36_000;
+            add(&mut capture, &packet(azimuth as u16, 0x37, |_, _| 1500 + number));
+        }
+        capture
+    }
+
+    fn fault(bytes: &[u8], revolution: usize) -> String {
+        read(bytes, revolution).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_revolution_begins_behind_and_holds_every_firing_once() {
+        // A turn is 75 packets; the first passing comes after 37.5 packets.
+        let capture = capture(0, 37 + 3 * 75 + 2);
+        for revolution in 0..3 {
+            let points = read(&capture, revolution).unwrap();
+            assert_eq!(points.len(), 1800 * 16);
+            let (first, last) = (points[0], points[points.len() - 1]);
+            assert!(first.x < 0.0 && (-1e-6..0.02).contains(&first.y), "{first}");
+            assert!(last.x < 0.0 && (-0.02..0.0).contains(&last.y), "{last}");
+            let nearest = points.iter().map(|point| point.length()).fold(f32::INFINITY, f32::min);
+            let expected = 3.0 + 0.002 * (37 + 75 * revolution) as f32;
+            assert!((nearest - expected).abs() < 0.012, "{nearest} {expected}");
+        }
+        assert_eq!(
+            fault(&capture, 3),
+            "revolution = 3: expected 0 to 2: the capture has 3 whole revolutions"
+        );
+    }
+
+    #[test]
+    fn a_short_capture_has_no_whole_revolution() {
+        assert_eq!(
+            fault(&capture(0, 100), 0),
+            "revolution = 0: expected a longer capture: this one has no whole revolution"
+        );
+        assert_eq!(fault(&capture(0, 115), 1), "revolution = 1: expected 0, the only one in the file");
+    }
+
+    #[test]
+    fn other_packets_are_passed_over() {
+        let plain = capture(0, 150);
+        let mut mixed = HEADER.to_vec();
+        add(&mut mixed, &[0; 512]);
+        add(&mut mixed, &[0; PACKET_BYTES]);
+        mixed.extend([[0; 4], [0; 4], [3, 0, 0, 0], [3, 0, 0, 0]].concat());
+        mixed.extend([1, 2, 3]);
+        mixed.extend(&plain[24..]);
+        assert_eq!(read(&mixed, 0), read(&plain, 0));
+        mixed.truncate(24 + 2 * 16 + 512 + PACKET_BYTES + 2 * 42);
+        assert!(fault(&mixed, 0).contains("none of its 2 packets is a VLP-16 data packet"));
+    }
+
+    #[test]
+    fn damage_is_named() {
+        let whole = capture(0, 150);
+        assert!(fault(&whole[..20], 0).contains("ends inside its header"));
+        assert!(fault(&whole[..5000], 0).contains("ends inside packet 4"), "{}", fault(&whole[..5000], 0));
+        assert!(fault(b"not a capture, but long enough for one", 0).contains("magic number"));
+        let mut link = whole.clone();
+        link[20] = 105;
+        assert!(fault(&link, 0).starts_with("link type = 105: expected 1 (Ethernet)"));
+        let mut huge = whole.clone();
+        huge[24 + 8..24 + 12].copy_from_slice(&u32::MAX.to_le_bytes());
+        assert!(fault(&huge, 0).contains("ends inside packet 1"));
+        let mut bent = whole;
+        bent[24 + 16 + 42 + 100] = 0;
+        assert!(fault(&bent, 0).starts_with("packet 1, block 2, flag = 0x00ee"));
+    }
+
+    proptest! {
+        #[test]
+        fn any_bytes_after_the_header_give_points_or_a_fault(
+            bytes in prop::collection::vec(any::<u8>(), 0..2000),
+        ) {
+            drop(read(&[&HEADER, bytes.as_slice()].concat(), 0));
+            drop(read(&bytes, 0));
+        }
+
+        #[test]
+        fn damage_anywhere_gives_points_or_a_fault(
+            at in prop::collection::vec((0..60_000_usize, any::<u8>()), 1..20), end in 0..200_000_usize,
+        ) {
+            let mut bytes = capture(0, 130);
+            for (at, byte) in at {
+                bytes[at] = byte;
+            }
+            bytes.truncate(end);
+            drop(read(&bytes, 0));
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! What can be wrong with a file.
+
+/// Why a scan could not be read: the file and what is wrong with it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{file}: {fault}")]
+pub struct ScanError {
+    /// The file as it was named.
+    pub file: String,
+    /// What is wrong with it.
+    pub fault: ScanFault,
+}
+
+/// What is wrong with a file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ScanFault {
+    /// The file could not be read, or there is nothing in it.
+    #[error("cannot be read: {reason}")]
+    Read {
+        /// Why.
+        reason: String,
+    },
+    /// The file's extension is not that of a supported format.
+    #[error("extension \"{extension}\": expected .pcd, .csv, .txt, .xyz or .pcap")]
+    Extension {
+        /// The extension found, in lower case and without the dot.
+        extension: String,
+    },
+    /// The file is damaged or not of the format its extension says.
+    #[error("not a valid {format} file: {reason}")]
+    Damaged {
+        /// The format expected.
+        format: &'static str,
+        /// What the reader met, with the place where known.
+        reason: String,
+    },
+    /// A value is not allowed.
+    #[error("{place} = {value}: expected {expected}")]
+    Value {
+        /// Where in the file.
+        place: String,
+        /// What stands there.
+        value: String,
+        /// What is allowed there.
+        expected: String,
+    },
+    /// There is no such revolution.
+    #[error("revolution = {revolution}: expected {}", expected_revolution(*.whole))]
+    Revolution {
+        /// The revolution asked for.
+        revolution: usize,
+        /// Number of whole revolutions in the file.
+        whole: usize,
+    },
+}
+
+impl ScanFault {
+    pub(crate) fn value(place: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Self {
+        Self::Value { place: place.into(), value: value.to_string(), expected: expected.into() }
+    }
+}
+
+fn expected_revolution(whole: usize) -> String {
+    match whole {
+        0 => "a longer capture: this one has no whole revolution".to_owned(),
+        1 => "0, the only one in the file".to_owned(),
+        _ => format!("0 to {}: the capture has {whole} whole revolutions", whole - 1),
+    }
+}

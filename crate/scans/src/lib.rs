@@ -1,0 +1,114 @@
+//! Reading recorded LiDAR scans.
+//!
+//! [`read_scan`] gives the returns of one scan in the project's sensor frame: x forward, y left, z up, metres. The
+//! extension of the file says its format:
+//!
+//! - `.pcd`: a point cloud of the Point Cloud Library, version 0.5 to 0.7, `ascii`, `binary` or `binary_compressed`, with
+//!   fields `x`, `y` and `z` of type F. Its coordinates are taken as the sensor frame's and its viewpoint is not applied.
+//!   Points that are not finite are beams without a return and are passed over.
+//! - `.csv`, `.txt` or `.xyz`: text with one point a line, x y z, separated by a comma or by blanks. The first line may
+//!   be the header `x,y,z`. Every value must be a finite number.
+//! - `.pcap`: a capture of one Velodyne VLP-16, with one or two returns a beam. Its azimuth turns clockwise as seen from
+//!   above, from the sensor's y axis, which looks forward: forward is Velodyne's y and left its -x. A revolution goes
+//!   from behind the sensor round to behind it again, so that what lies ahead is seen in one sweep. What stands before
+//!   the first whole revolution and after the last one is left out.
+
+mod capture;
+mod csv;
+mod error;
+mod pcd;
+mod vlp16;
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+use glam::Vec3;
+
+pub use error::{ScanError, ScanFault};
+
+/// Largest file read, in bytes: a quarter of an hour of a VLP-16.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// Reads one scan: its returns in the sensor frame, metres, in the order of the file. A scan without a return is no
+/// error.
+///
+/// `revolution` counts the whole revolutions of a capture from 0; a file of another format holds revolution 0 alone.
+///
+/// # Errors
+/// [`ScanError`] names the file, the place in it, the value and what was expected.
+pub fn read_scan(path: &Path, revolution: usize) -> Result<Vec<Vec3>, ScanError> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let points = match extension.as_str() {
+        "pcap" => read_file(path).and_then(|bytes| capture::read(&bytes, revolution)),
+        "pcd" => read_file(path).and_then(|bytes| pcd::read(&bytes)).and_then(only(revolution)),
+        "csv" | "txt" | "xyz" => {
+            read_file(path).and_then(|bytes| csv::read(&bytes)).and_then(only(revolution))
+        }
+        _ => Err(ScanFault::Extension { extension }),
+    };
+    points.map_err(|fault| ScanError { file: path.display().to_string(), fault })
+}
+
+/// Lets a file that holds one scan answer for revolution 0 alone.
+fn only(revolution: usize) -> impl FnOnce(Vec<Vec3>) -> Result<Vec<Vec3>, ScanFault> {
+    move |points| {
+        if revolution == 0 { Ok(points) } else { Err(ScanFault::Revolution { revolution, whole: 1 }) }
+    }
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, ScanFault> {
+    let failed = |error: std::io::Error| ScanFault::Read { reason: error.to_string() };
+    let mut bytes = Vec::new();
+    // Devices and pipes say nothing of their length, so what is read is limited, too.
+    File::open(path).map_err(failed)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(ScanFault::Read { reason: format!("expected at most {MAX_BYTES} bytes") });
+    }
+    if bytes.is_empty() {
+        return Err(ScanFault::Read { reason: "the file is empty".to_owned() });
+    }
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(name: &str, bytes: &[u8], revolution: usize) -> Result<Vec<Vec3>, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        read_scan(&path, revolution)
+            .map_err(|error| error.to_string().replace(&format!("{}/", folder.path().display()), ""))
+    }
+
+    #[test]
+    fn the_extension_says_the_format() {
+        assert_eq!(read("a.XYZ", b"1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)]));
+        assert_eq!(
+            read("a.las", b"1 2 3", 0).unwrap_err(),
+            "a.las: extension \"las\": expected .pcd, .csv, .txt, .xyz or .pcap"
+        );
+        assert!(read("scan", b"1 2 3", 0).unwrap_err().contains("extension \"\""));
+        assert!(read("a.pcd", b"1 2 3", 0).unwrap_err().starts_with("a.pcd: not a valid PCD file: "));
+        assert!(read("a.pcap", b"1 2 3", 0).unwrap_err().starts_with("a.pcap: not a valid pcap file: "));
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_named() {
+        for name in ["a.csv", "a.pcd", "a.pcap"] {
+            assert_eq!(read(name, b"", 0).unwrap_err(), format!("{name}: cannot be read: the file is empty"));
+        }
+        let missing = read_scan(Path::new("no/such.pcd"), 0).unwrap_err().to_string();
+        assert!(missing.starts_with("no/such.pcd: cannot be read: "), "{missing}");
+    }
+
+    #[test]
+    fn a_file_with_one_scan_has_revolution_0_alone() {
+        assert_eq!(
+            read("a.csv", b"1 2 3", 3).unwrap_err(),
+            "a.csv: revolution = 3: expected 0, the only one in the file"
+        );
+    }
+}
