@@ -326,3 +326,17 @@ fn profile_compares_with_the_truth() {
         &["cannot be read"],
     );
 }
+
+#[test]
+fn every_mode_of_learning_drives() {
+    let folder = Folder::new();
+    let fixed = folder.json(&[]);
+    let once = folder.json(&["--learning", "once"]);
+    assert_eq!(folder.json(&["--learning", "fixed"])["digest"], fixed["digest"]);
+    assert_ne!(once["digest"], fixed["digest"]);
+    refused(
+        &folder.run("meadow-drive.toml", &["--learning", "always"]),
+        "error: invalid value 'always'",
+        &["every_scan"],
+    );
+}

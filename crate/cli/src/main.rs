@@ -15,6 +15,7 @@ use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
+use mapless::learning::LearningMode;
 use mapless_trials::{Outcome, Preset};
 
 /// Mapless navigation on uneven terrain: a simulated Husky with a VLP-16 drives to a goal.
@@ -63,4 +64,9 @@ fn usage(message: &clap::Error) -> ExitCode {
 /// Reads the name of a preset, for `--preset`.
 fn preset_parser() -> impl TypedValueParser<Value = Preset> {
     PossibleValuesParser::new(["default", "paper"]).try_map(|name| name.parse::<Preset>())
+}
+
+/// Reads the name of a mode of learning, for `--learning`.
+fn learning_parser() -> impl TypedValueParser<Value = LearningMode> {
+    PossibleValuesParser::new(["fixed", "once", "every_scan"]).try_map(|name| name.parse::<LearningMode>())
 }

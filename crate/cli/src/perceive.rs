@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use glam::{DVec2, DVec3};
+use mapless::learning::LearningMode;
 use mapless::perception::PredictedSurface;
 use mapless::pose::Pose;
 use mapless::{Planner, Step};
@@ -35,6 +36,9 @@ pub(crate) struct Args {
     /// Planner configuration.
     #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
     preset: Preset,
+    /// When hyperparameters are learned, instead of what the configuration says.
+    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
+    learning: Option<LearningMode>,
     /// Write variance_image.svg and occupancy_surface.svg to this folder, which is made when missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -46,7 +50,11 @@ pub(crate) struct Args {
 /// Perceives the scan and shows what was seen and decided.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let points_m = read_scan(&args.file, args.revolution)?;
-    let mut planner = Planner::new(args.preset.planner_config())?;
+    let mut config = args.preset.planner_config();
+    if let Some(mode) = args.learning {
+        config.perception.learning.mode = mode;
+    }
+    let mut planner = Planner::new(config)?;
     let variance_threshold = planner.config().perception.variance_threshold;
     let report =
         PerceptionReport::new(subject(args), points_m.len(), &planner.step(&points_m, &POSE, GOAL_M));

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::Context as _;
 use comfy_table::{CellAlignment, Table, presets};
+use mapless::learning::LearningMode;
 use mapless_trials::{LoadedScenario, Preset, ProfileAccuracy, profile_accuracy};
 use mapless_world::Caster;
 
@@ -15,6 +16,9 @@ pub(crate) struct Args {
     /// Planner configuration that the scenario's [planner] section starts from.
     #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
     preset: Preset,
+    /// When hyperparameters are learned, instead of what the configuration says.
+    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
+    learning: Option<LearningMode>,
     /// Random poses at which the robot can stand.
     #[arg(long, default_value_t = 200, value_name = "N")]
     poses: usize,
@@ -30,7 +34,10 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let LoadedScenario { scenario, terrain } = LoadedScenario::read(&args.scenario)?;
     let file = || args.scenario.display().to_string();
-    let planner = scenario.planner_config(args.preset).with_context(file)?;
+    let mut planner = scenario.planner_config(args.preset).with_context(file)?;
+    if let Some(mode) = args.learning {
+        planner.perception.learning.mode = mode;
+    }
     let caster = Caster::new(terrain.field);
     let accuracy =
         profile_accuracy(&caster, &scenario.sensor, &scenario.robot, &planner, args.poses, args.seed)

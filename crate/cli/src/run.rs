@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use anyhow::Context as _;
+use mapless::learning::LearningMode;
 use mapless_trials::{LoadedScenario, Outcome, Preset, Trial};
 
 use crate::log::Log;
@@ -18,6 +19,9 @@ pub(crate) struct Args {
     /// Planner configuration that the scenario's [planner] section starts from.
     #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
     preset: Preset,
+    /// When hyperparameters are learned, instead of what the configuration says.
+    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
+    learning: Option<LearningMode>,
     /// Seed of the sensor's noise, instead of the scenario's own.
     #[arg(long)]
     seed: Option<u64>,
@@ -33,8 +37,12 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<Outcome> {
     let LoadedScenario { scenario, terrain } = LoadedScenario::read(&args.scenario)?;
     let seed = args.seed.unwrap_or(scenario.seed);
-    let mut trial = Trial::new(terrain.field, &scenario, args.preset, seed)
-        .with_context(|| args.scenario.display().to_string())?;
+    let file = || args.scenario.display().to_string();
+    let mut planner = scenario.planner_config(args.preset).with_context(file)?;
+    if let Some(mode) = args.learning {
+        planner.perception.learning.mode = mode;
+    }
+    let mut trial = Trial::with_planner(terrain.field, &scenario, planner, seed).with_context(file)?;
     let mut log = args.out.as_deref().map(Log::create).transpose()?;
 
     let (outcome, planner_times) = drive(&mut trial, &mut log)?;

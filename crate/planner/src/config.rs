@@ -1,7 +1,9 @@
 //! Every parameter of the planner, with its unit and the paper's value.
 
 use crate::error::{ConfigError, require};
+use crate::hyperparameters::Hyperparameters;
 use crate::kernel::RationalQuadratic;
+use crate::learning::{LearningConfig, LearningMode};
 use crate::pose::SensorMount;
 
 /// The planner's configuration. [`PlannerConfig::default`] is the best mapless choice known here, and
@@ -59,6 +61,8 @@ pub struct PerceptionConfig {
     pub inducing_spacing_length_scales: f64,
     /// Farthest points at most. Paper: not given; the authors' earlier code uses 400 to 500.
     pub max_inducing_inputs: usize,
+    /// Whether and how the kernel's hyperparameters and the noise are learned; the values above are then where it starts.
+    pub learning: LearningConfig,
     /// Threshold V_th on the variance, as a share of the signal variance. Paper: 0.7.
     pub variance_threshold: f64,
 }
@@ -219,6 +223,7 @@ impl Default for PerceptionConfig {
             inducing_inputs: InducingInputs::Lattice,
             inducing_spacing_length_scales: 0.95,
             max_inducing_inputs: 1000,
+            learning: LearningConfig::default(),
             variance_threshold: 0.3,
         }
     }
@@ -296,6 +301,7 @@ impl PlannerConfig {
                 noise_variance_m2: 0.01,
                 inducing_inputs: InducingInputs::FarthestPoints,
                 inducing_spacing_length_scales: 0.85,
+                learning: LearningConfig { mode: LearningMode::Fixed, ..LearningConfig::paper() },
                 variance_threshold: 0.7,
                 ..default.perception
             },
@@ -344,6 +350,24 @@ impl PerceptionConfig {
         positive(self.noise_variance_m2, place, "noise_variance_m2")?;
         positive(self.inducing_spacing_length_scales, place, "inducing_spacing_length_scales")?;
         require(self.max_inducing_inputs > 0, place, "max_inducing_inputs", 0, "at least 1")?;
+        self.learning.validate("planner.perception.learning")?;
+        if self.learning.mode != LearningMode::Fixed {
+            let start = Hyperparameters { kernel: self.kernel, noise_variance: self.noise_variance_m2 };
+            let expected = "a start (kernel, noise_variance_m2) within its bounds";
+            let fault = self.learning.check_start(&start).err();
+            let value = fault.as_ref().map_or(String::new(), ToString::to_string);
+            require(fault.is_none(), "planner.perception", "learning", value, expected)?;
+            let lattice = self.inducing_inputs == InducingInputs::Lattice;
+            let place = "planner.perception.learning";
+            let expected = "false with inducing_inputs = \"lattice\", which cannot move";
+            require(
+                !(lattice && self.learning.learn_inducing_inputs),
+                place,
+                "learn_inducing_inputs",
+                true,
+                expected,
+            )?;
+        }
         let threshold = self.variance_threshold;
         require(
             threshold > 0.0 && threshold < 1.0,

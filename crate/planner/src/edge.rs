@@ -67,7 +67,7 @@ impl EdgeTracer {
     ) -> Result<Effort, GpError> {
         self.mark_cells(observed);
         gp.observe(observed, &self.masks);
-        let mut effort = Effort { inducing_inputs: gp.inducing_inputs(), jitter: 0.0 };
+        let mut effort = Effort { inducing_inputs: gp.inducing_inputs(), ..Effort::default() };
         profile.clear();
         profile.resize(COLUMNS, Column::Unknown);
         for sector in 0..SECTORS {

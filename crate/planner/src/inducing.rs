@@ -7,16 +7,36 @@ use core::f64::consts::TAU;
 
 use glam::DVec2;
 
+use crate::config::PerceptionConfig;
+use crate::occupancy::OccupancySurface;
+
 /// Reusable memory of the selection.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FarthestPoints {
+    directions: Vec<DVec2>,
     distances_squared: Vec<f64>,
 }
 
 impl FarthestPoints {
-    /// Appends to `chosen` the indices of inputs, each the farthest from those before it, until every input is within
+    /// Chooses among the cells of an occupancy surface, as configured.
+    pub(crate) fn choose_cells(
+        &mut self,
+        observed: &OccupancySurface,
+        config: &PerceptionConfig,
+        chosen: &mut Vec<usize>,
+    ) {
+        let mut directions = core::mem::take(&mut self.directions);
+        directions.clear();
+        directions.extend(observed.cells().iter().map(|cell| cell.direction_rad()));
+        let PerceptionConfig { kernel, inducing_spacing_length_scales, max_inducing_inputs, .. } = config;
+        let spacing = *inducing_spacing_length_scales;
+        self.choose(&directions, kernel.length_scales_rad, spacing, *max_inducing_inputs, chosen);
+        self.directions = directions;
+    }
+
+    /// Writes to `chosen` the indices of inputs, each the farthest from those before it, until every input is within
     /// `spacing` length-scales of one or `most` are chosen. Starts with the first input.
-    pub(crate) fn choose(
+    fn choose(
         &mut self,
         inputs: &[DVec2],
         length_scales_rad: [f64; 2],

@@ -31,6 +31,19 @@ pub enum LearningMode {
     EveryScan,
 }
 
+impl core::str::FromStr for LearningMode {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        match name {
+            "fixed" => Ok(Self::Fixed),
+            "once" => Ok(Self::Once),
+            "every_scan" => Ok(Self::EveryScan),
+            _ => Err(format!("learning \"{name}\": expected fixed, once or every_scan")),
+        }
+    }
+}
+
 /// What learning may do and how much work it may be.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -140,6 +153,16 @@ impl LearningConfig {
             self.isotropic,
             "bounds on both length-scales that overlap",
         )
+    }
+}
+
+impl LearningConfig {
+    /// Checks that learning can start at `start`.
+    ///
+    /// # Errors
+    /// [`LearningError`] when it lies outside the bounds.
+    pub fn check_start(&self, start: &Hyperparameters) -> Result<(), LearningError> {
+        Space::new(self, start, &[]).map(|_| ())
     }
 }
 

@@ -6,9 +6,14 @@
 
 use core::f64::consts::PI;
 
+use glam::DVec2;
+
 use crate::config::{InducingInputs, PerceptionConfig};
 use crate::edge::{EdgeTracer, all_cells};
+use crate::hyperparameters::Hyperparameters;
+use crate::inducing::FarthestPoints;
 use crate::lattice::{LatticeGp, Query};
+use crate::learning::{Learner, LearningMode, Stop};
 use crate::occupancy::{COLUMNS, LOWEST_ELEVATION_RAD, OccupancySurface};
 use crate::profile::{ElevationProfile, read_profile};
 use crate::sectors::SectorGp;
@@ -49,6 +54,21 @@ pub struct Effort {
     pub inducing_inputs: usize,
     /// Largest jitter any sector needed on the covariance of its inducing inputs.
     pub jitter: f64,
+    /// What was learned from this scan or, with [`LearningMode::Once`], from the first one.
+    pub learned: Option<LearnedHyperparameters>,
+}
+
+/// What learning came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LearnedHyperparameters {
+    /// The hyperparameters.
+    pub hyperparameters: Hyperparameters,
+    /// The bound at the start and where it ended, nats.
+    pub bound: [f64; 2],
+    /// Evaluations of the bound.
+    pub evaluations: u32,
+    /// Why learning ended.
+    pub stop: Stop,
 }
 
 impl Default for PredictedSurface {
@@ -84,20 +104,31 @@ pub(crate) struct Perception {
     edge: EdgeTracer,
     surface: PredictedSurface,
     effort: Effort,
+    learner: Learner,
+    learned: Option<LearnedHyperparameters>,
+    farthest_points: FarthestPoints,
     queries: Vec<Query>,
     values: Vec<f64>,
 }
 
+impl Process {
+    fn new(config: PerceptionConfig) -> Self {
+        match config.inducing_inputs {
+            InducingInputs::Lattice => Self::Lattice(Box::new(LatticeGp::new(&config))),
+            InducingInputs::FarthestPoints => Self::FarthestPoints(Box::new(SectorGp::new(config))),
+        }
+    }
+}
+
 impl Perception {
     pub(crate) fn new(config: PerceptionConfig) -> Self {
-        let process = match config.inducing_inputs {
-            InducingInputs::Lattice => Process::Lattice(Box::new(LatticeGp::new(&config))),
-            InducingInputs::FarthestPoints => Process::FarthestPoints(Box::new(SectorGp::new(config))),
-        };
         Self {
             edge: EdgeTracer::new(&config),
+            process: Process::new(config),
+            learner: Learner::new(config.learning),
+            learned: None,
+            farthest_points: FarthestPoints::default(),
             config,
-            process,
             surface: PredictedSurface::default(),
             effort: Effort::default(),
             queries: Vec::new(),
@@ -116,6 +147,7 @@ impl Perception {
         observed: &OccupancySurface,
         profile: &mut ElevationProfile,
     ) -> Result<(), GpError> {
+        self.learn(observed)?;
         match &mut self.process {
             Process::Lattice(gp) => self.effort = self.edge.trace(observed, gp, profile)?,
             Process::FarthestPoints(gp) => {
@@ -124,6 +156,47 @@ impl Perception {
                 read_profile(observed, &self.surface, self.config.variance_threshold, profile);
             }
         }
+        self.effort.learned = self.learned;
+        Ok(())
+    }
+
+    /// Learns from the observed surface, where that is configured and there is something to learn from.
+    fn learn(&mut self, observed: &OccupancySurface) -> Result<(), GpError> {
+        let due = match self.config.learning.mode {
+            LearningMode::Fixed => false,
+            LearningMode::Once => self.learned.is_none(),
+            LearningMode::EveryScan => true,
+        };
+        if !due || observed.cells().is_empty() {
+            return Ok(());
+        }
+        let mut chosen = Vec::new();
+        self.farthest_points.choose_cells(observed, &self.config, &mut chosen);
+        let inputs: Vec<DVec2> = observed.cells().iter().map(|cell| cell.direction_rad()).collect();
+        let targets: Vec<f64> = observed.cells().iter().map(|cell| cell.occupancy_m).collect();
+        let inducing: Vec<DVec2> = chosen.iter().map(|&index| inputs[index]).collect();
+        let start =
+            Hyperparameters { kernel: self.config.kernel, noise_variance: self.config.noise_variance_m2 };
+        // The start is within its bounds and the cells are finite numbers, so only the factorisation can fail.
+        let Ok(learned) = self.learner.learn(&inputs, &targets, &inducing, &start) else {
+            return Err(GpError::NothingLearned { inducing: inducing.len() });
+        };
+        self.config.kernel = learned.hyperparameters.kernel;
+        self.config.noise_variance_m2 = learned.hyperparameters.noise_variance;
+        self.edge = EdgeTracer::new(&self.config);
+        self.process = Process::new(self.config);
+        if let Process::FarthestPoints(gp) = &mut self.process
+            && self.config.learning.learn_inducing_inputs
+            && self.config.learning.mode == LearningMode::EveryScan
+        {
+            gp.set_inducing_inputs(learned.inducing);
+        }
+        self.learned = Some(LearnedHyperparameters {
+            hyperparameters: learned.hyperparameters,
+            bound: [learned.bound_before, learned.bound_after],
+            evaluations: learned.evaluations,
+            stop: learned.stop,
+        });
         Ok(())
     }
 
@@ -132,7 +205,7 @@ impl Perception {
         match &mut self.process {
             Process::Lattice(gp) => {
                 gp.observe(observed, &all_cells(observed));
-                self.surface.effort = Effort { inducing_inputs: gp.inducing_inputs(), jitter: 0.0 };
+                self.surface.effort = Effort { inducing_inputs: gp.inducing_inputs(), ..Effort::default() };
                 self.surface.mean_m.fill(0.0);
                 self.surface.relative_variance.fill(1.0);
                 self.queries.clear();
@@ -160,5 +233,68 @@ impl Perception {
 fn scatter(values: &[f64], columns: impl Iterator<Item = usize>, surface: &mut [f64]) {
     for (values, column) in values.chunks_exact(ROWS).zip(columns) {
         surface[column * ROWS..(column + 1) * ROWS].copy_from_slice(values);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::PlannerConfig;
+    use crate::profile::Column;
+    use crate::testing::undulating_scan;
+
+    /// Profiles of two scans, and what was learned from each.
+    fn two_scans(config: PerceptionConfig) -> [(ElevationProfile, Option<LearnedHyperparameters>); 2] {
+        let mut perception = Perception::new(config);
+        [(90, 150), (100, 170)].map(|(from, to)| {
+            let mut observed = OccupancySurface::new(7.0);
+            observed.project(&undulating_scan(from, to));
+            let mut profile = Vec::new();
+            perception.profile(&observed, &mut profile).unwrap();
+            (profile, perception.effort().learned)
+        })
+    }
+
+    fn with_mode(mut config: PlannerConfig, mode: LearningMode) -> PerceptionConfig {
+        config.perception.learning.mode = mode;
+        config.perception.learning.evaluations_per_scan = 6;
+        config.validate().unwrap();
+        config.perception
+    }
+
+    fn ground(profile: &[Column]) -> usize {
+        profile.iter().filter(|column| matches!(column, Column::Ground { .. })).count()
+    }
+
+    #[test]
+    fn each_mode_learns_when_it_says() {
+        for preset in [PlannerConfig::default, PlannerConfig::paper] {
+            let learned = |mode| {
+                two_scans(with_mode(preset(), mode)).map(|(profile, learned)| {
+                    assert!(ground(&profile) >= 55, "{mode:?}: {}", ground(&profile));
+                    learned
+                })
+            };
+            assert_eq!(learned(LearningMode::Fixed), [None, None]);
+            let [first, second] = learned(LearningMode::Once);
+            assert!(first.is_some() && first == second);
+            let [first, second] = learned(LearningMode::EveryScan).map(Option::unwrap);
+            assert!(first.bound[1] > first.bound[0] && second.bound[1] >= second.bound[0]);
+            assert_ne!(first, second);
+        }
+    }
+
+    #[test]
+    fn learning_must_begin_within_its_bounds_and_leave_a_lattice_alone() {
+        let mut config = PlannerConfig::default();
+        config.perception.learning.mode = LearningMode::Once;
+        config.perception.noise_variance_m2 = 100.0;
+        let error = config.validate().unwrap_err().to_string();
+        assert!(error.contains("noise_variance = 100: expected a start between"), "{error}");
+        let mut config = PlannerConfig::default();
+        config.perception.learning.mode = LearningMode::EveryScan;
+        config.perception.learning.learn_inducing_inputs = true;
+        let error = config.validate().unwrap_err().to_string();
+        assert!(error.starts_with("planner.perception.learning.learn_inducing_inputs = true"), "{error}");
     }
 }

@@ -8,9 +8,10 @@ use core::ops::Range;
 
 use glam::DVec2;
 
+use crate::angle::difference_rad;
 use crate::config::PerceptionConfig;
 use crate::inducing::FarthestPoints;
-use crate::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface};
+use crate::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface, column_azimuth_rad};
 use crate::perception::{
     PredictedSurface, REACH_LENGTH_SCALES, ROWS, SECTOR_COLUMNS, SECTORS, row_elevation_rad,
 };
@@ -22,9 +23,10 @@ pub(crate) struct SectorGp {
     config: PerceptionConfig,
     gp: SparseGp,
     farthest_points: FarthestPoints,
-    directions: Vec<DVec2>,
     chosen: Vec<usize>,
     is_inducing: Vec<bool>,
+    /// Inducing inputs that were learned; they take the place of the farthest points.
+    learned: Vec<DVec2>,
     window_inputs: Vec<DVec2>,
     window_targets: Vec<f64>,
     window_inducing: Vec<DVec2>,
@@ -48,9 +50,9 @@ impl SectorGp {
             config,
             gp: SparseGp::new(config.kernel, config.noise_variance_m2),
             farthest_points: FarthestPoints::default(),
-            directions: Vec::new(),
             chosen: Vec::new(),
             is_inducing: Vec::new(),
+            learned: Vec::new(),
             window_inputs: Vec::new(),
             window_targets: Vec::new(),
             window_inducing: Vec::new(),
@@ -61,27 +63,27 @@ impl SectorGp {
         }
     }
 
+    /// Sets learned inducing inputs for the next prediction; none for farthest points.
+    pub(crate) fn set_inducing_inputs(&mut self, learned: Vec<DVec2>) {
+        self.learned = learned;
+    }
+
     /// Predicts both surfaces from the observed one.
     pub(crate) fn predict(
         &mut self,
         observed: &OccupancySurface,
         surface: &mut PredictedSurface,
     ) -> Result<(), GpError> {
-        self.directions.clear();
-        self.directions.extend(observed.cells().iter().map(|cell| cell.direction_rad()));
-        self.farthest_points.choose(
-            &self.directions,
-            self.config.kernel.length_scales_rad,
-            self.config.inducing_spacing_length_scales,
-            self.config.max_inducing_inputs,
-            &mut self.chosen,
-        );
+        self.chosen.clear();
+        if self.learned.is_empty() {
+            self.farthest_points.choose_cells(observed, &self.config, &mut self.chosen);
+        }
         self.is_inducing.clear();
-        self.is_inducing.resize(self.directions.len(), false);
+        self.is_inducing.resize(observed.cells().len(), false);
         for &index in &self.chosen {
             self.is_inducing[index] = true;
         }
-        surface.effort.inducing_inputs = self.chosen.len();
+        surface.effort.inducing_inputs = self.chosen.len() + self.learned.len();
         surface.effort.jitter = 0.0;
         (0..SECTORS).try_for_each(|sector| self.predict_sector(sector, observed, surface))
     }
@@ -116,6 +118,11 @@ impl SectorGp {
                 }
             }
         }
+
+        let half_width = COLUMN_STEP_RAD * (0.5 * SECTOR_COLUMNS as f64 + margin_columns as f64);
+        let centre = column_azimuth_rad(sector * SECTOR_COLUMNS) - self.queries[0].x;
+        let local = |z: &DVec2| DVec2::new(difference_rad(z.x, centre), z.y);
+        self.window_inducing.extend(self.learned.iter().map(local).filter(|z| z.x.abs() <= half_width));
 
         let span = sector * SECTOR_COLUMNS * ROWS..(sector + 1) * SECTOR_COLUMNS * ROWS;
         let mean = &mut surface.mean_m[span.clone()];

@@ -24,6 +24,12 @@ pub enum GpError {
         /// The last jitter tried.
         jitter: f64,
     },
+    /// No bound to climb: the covariance could not be factored at the start.
+    #[error("nothing can be learned through {inducing} inducing inputs")]
+    NothingLearned {
+        /// Number of inducing inputs.
+        inducing: usize,
+    },
     /// There was nothing to fit.
     #[error("no inducing inputs")]
     NoInducingInputs,
