@@ -80,6 +80,7 @@ test('every control can be reached and has a name', async ({ mapless: page }) =>
   for (const id of [
     'scenario',
     'preset',
+    'learning',
     'seed',
     'help',
     'view',

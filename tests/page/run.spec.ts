@@ -68,6 +68,8 @@ test('another scenario, planner and seed are loaded from the bar', async ({ mapl
   await until(page, (now) => now.scenario === 'ht' && now.playing);
   await page.locator('#preset').selectOption('paper');
   await until(page, (now) => now.preset === 'paper');
+  await page.locator('#learning').selectOption('once');
+  await until(page, (now) => now.learning === 'once' && now.preset === 'paper' && now.tick > 0);
   await page.locator('#seed').fill('42');
   await page.locator('#seed').press('Enter');
   await until(page, (now) => now.seed === 42 && now.scenario === 'ht' && now.preset === 'paper');

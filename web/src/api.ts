@@ -4,11 +4,11 @@
  */
 
 import type { App } from './app.ts';
-import type { Brush, Frame, Heading, Place, Preset, SessionInfo } from './core/protocol.ts';
+import type { Brush, Frame, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
 
 /** What the page shows, as plain data. */
 export type MaplessState = Omit<Frame, 'buffers' | 'path' | 'segments' | 'subgoals'> &
-  Pick<SessionInfo, 'scenario' | 'preset' | 'seed' | 'start' | 'goal'> & {
+  Pick<SessionInfo, 'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'goal'> & {
     readonly playing: boolean;
     readonly speed: number;
     readonly ground: { readonly columns: number; readonly rows: number; readonly cell_m: number };
@@ -21,7 +21,7 @@ export interface MaplessApi {
   /** Nothing until the first scenario is loaded. */
   state(): MaplessState | undefined;
   /** Loads a scenario by its name, such as `cht-ad`; the seed is the scenario's own unless given. */
-  loadScenario(scenario: string, options?: { preset?: Preset; seed?: number }): Promise<void>;
+  loadScenario(scenario: string, options?: Partial<Setting> & { seed?: number }): Promise<void>;
   play(): Promise<void>;
   pause(): Promise<void>;
   /** One planning tick, 0.1 s; pauses first. */
@@ -53,7 +53,7 @@ export function publish(app: App): void {
     };
   window.mapless = {
     state: () => app.state(),
-    loadScenario: used((scenario, options = {}) => app.load(scenario, options.preset, options.seed)),
+    loadScenario: used((scenario, { seed, ...setting } = {}) => app.load(scenario, setting, seed)),
     play: used(() => app.play()),
     pause: used(() => app.pause()),
     step: used(() => app.step()),

@@ -3,7 +3,7 @@
 import type { MaplessState } from './api.ts';
 import { entry, following } from './core/catalogue.ts';
 import { CoreClient } from './core/client.ts';
-import type { Brush, Frame, Ground, GroundPatch, Heading, Place, Preset, SessionInfo } from './core/protocol.ts';
+import type { Brush, Frame, Ground, GroundPatch, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
 import { HeightField } from './scene/heightfield.ts';
 import type { Tool } from './scene/tools.ts';
 import { SPEEDS } from './ui/controls.ts';
@@ -61,8 +61,9 @@ export class App {
     return this.#info?.scenario ?? following('').id;
   }
 
-  get preset(): Preset {
-    return this.#info?.preset ?? 'default';
+  get setting(): Setting {
+    const { preset = 'default', learning = 'fixed' } = this.#info ?? {};
+    return { preset, learning };
   }
 
   state(): MaplessState | undefined {
@@ -73,6 +74,7 @@ export class App {
       ...rest,
       scenario: info.scenario,
       preset: info.preset,
+      learning: info.learning,
       seed: info.seed,
       start: info.start,
       goal: info.goal,
@@ -84,15 +86,15 @@ export class App {
     };
   }
 
-  async load(scenario: string, preset: Preset = this.preset, seed?: number): Promise<void> {
+  async load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'load', scenario, preset, seed });
+    await this.#core.request({ type: 'load', scenario, setting: { ...this.setting, ...setting }, seed });
     this.#views.clearNotice();
   }
 
   /** Loads a scenario and runs it at once. */
-  async run(scenario: string, preset?: Preset, seed?: number): Promise<void> {
-    await Promise.all([this.load(scenario, preset, seed), this.#setPlaying(true)]);
+  async run(scenario: string, setting?: Partial<Setting>, seed?: number): Promise<void> {
+    await Promise.all([this.load(scenario, setting, seed), this.#setPlaying(true)]);
   }
 
   async play(): Promise<void> {
@@ -251,7 +253,7 @@ export class App {
     const again = this.#core.request({
       type: 'load',
       scenario: this.scenario,
-      preset: this.preset,
+      setting: this.setting,
       seed: this.#info?.seed,
     });
     again

@@ -58,7 +58,7 @@ const app = new App({
     pitch.limit(info.limits.pitch_rad);
     decision.session(info);
     status.session(info);
-    controls.showSession(info.scenario, info.preset, info.seed);
+    controls.showSession(info);
     controls.showFollowing(stage?.following ?? false);
     const { group, title, lesson } = entry(info.scenario);
     setText(element('scene-title'), `${group}: ${title}`);

@@ -229,6 +229,11 @@ impl Learner {
         Self { config, bound: CollapsedBound::new() }
     }
 
+    /// Whether inducing inputs are learned too.
+    pub fn moves_inducing_inputs(&self) -> bool {
+        self.config.learn_inducing_inputs
+    }
+
     /// Climbs the bound for `targets` (n) at `inputs` (n, azimuth and elevation in radians) from `start` and the inducing
     /// inputs `inducing` (m).
     ///

@@ -13,7 +13,7 @@ use crate::edge::{EdgeTracer, all_cells};
 use crate::hyperparameters::Hyperparameters;
 use crate::inducing::FarthestPoints;
 use crate::lattice::{LatticeGp, Query};
-use crate::learning::{Learner, LearningMode, Stop};
+use crate::learning::{Learner, LearningConfig, LearningMode, Stop};
 use crate::occupancy::{COLUMNS, LOWEST_ELEVATION_RAD, OccupancySurface};
 use crate::profile::{ElevationProfile, read_profile};
 use crate::sectors::SectorGp;
@@ -30,6 +30,9 @@ pub(crate) const SECTORS: usize = 18;
 pub(crate) const SECTOR_COLUMNS: usize = COLUMNS / SECTORS;
 /// How far beyond its sector a window reaches. At 3.5 length-scales the kernel is below 1 % of its peak.
 pub(crate) const REACH_LENGTH_SCALES: f64 = 3.5;
+
+/// The farthest points that hyperparameters are learned through: enough for them, and a bound on the cost.
+const MOST_INDUCING_INPUTS_FOR_HYPERPARAMETERS: usize = 200;
 
 /// Elevation of a row of the predicted surfaces.
 pub fn row_elevation_rad(row: usize) -> f64 {
@@ -125,7 +128,12 @@ impl Perception {
         Self {
             edge: EdgeTracer::new(&config),
             process: Process::new(config),
-            learner: Learner::new(config.learning),
+            learner: Learner::new(LearningConfig {
+                // The inducing inputs of one scan are of no use to the next.
+                learn_inducing_inputs: config.learning.learn_inducing_inputs
+                    && config.learning.mode == LearningMode::EveryScan,
+                ..config.learning
+            }),
             learned: None,
             farthest_points: FarthestPoints::default(),
             config,
@@ -172,6 +180,9 @@ impl Perception {
         }
         let mut chosen = Vec::new();
         self.farthest_points.choose_cells(observed, &self.config, &mut chosen);
+        if !self.learner.moves_inducing_inputs() {
+            chosen.truncate(MOST_INDUCING_INPUTS_FOR_HYPERPARAMETERS);
+        }
         let inputs: Vec<DVec2> = observed.cells().iter().map(|cell| cell.direction_rad()).collect();
         let targets: Vec<f64> = observed.cells().iter().map(|cell| cell.occupancy_m).collect();
         let inducing: Vec<DVec2> = chosen.iter().map(|&index| inputs[index]).collect();
@@ -186,8 +197,7 @@ impl Perception {
         self.edge = EdgeTracer::new(&self.config);
         self.process = Process::new(self.config);
         if let Process::FarthestPoints(gp) = &mut self.process
-            && self.config.learning.learn_inducing_inputs
-            && self.config.learning.mode == LearningMode::EveryScan
+            && self.learner.moves_inducing_inputs()
         {
             gp.set_inducing_inputs(learned.inducing);
         }

@@ -33,10 +33,10 @@ pub struct Session {
 
 #[wasm_bindgen]
 impl Session {
-    /// Loads a scenario; without a `seed` it is the scenario's own.
+    /// Loads a scenario. `learning` is `fixed`, `once` or `every_scan`; without it, or a `seed`, it is the scenario's own.
     ///
     /// # Errors
-    /// A fault in one of the files, or an unknown preset, with place, value and expectation.
+    /// A fault in one of the files, or an unknown preset or mode of learning, with place, value and expectation.
     #[wasm_bindgen(constructor)]
     pub fn new(
         scenario_file: &str,
@@ -44,6 +44,7 @@ impl Session {
         terrain_file: &str,
         terrain: &[u8],
         preset: &str,
+        learning: Option<String>,
         seed: Option<u64>,
     ) -> Result<Session, JsError> {
         let scenario = Scenario::parse(scenario_file, scenario_toml)?;
@@ -52,7 +53,12 @@ impl Session {
             Err(format!("{file}: the page holds no files that a recipe imports"))
         })?;
         let seed = seed.unwrap_or(scenario.seed);
-        let trial = Trial::new(terrain.field, &scenario, preset, seed)?;
+        let mut planner = scenario.planner_config(preset)?;
+        if let Some(mode) = learning {
+            planner.perception.learning.mode =
+                mode.parse().map_err(|reason: String| JsError::new(&reason))?;
+        }
+        let trial = Trial::with_planner(terrain.field, &scenario, planner, seed)?;
         let scanned_from = sensor_pose(&trial);
         let mut session = Session { trial, seed, scanned_from, scratch: Vec::new() };
         session.look();
@@ -259,12 +265,10 @@ impl Session {
     pub fn variance(&mut self, out: &Float32Array) {
         self.scratch.clear();
         let size = out.length() as usize;
-        match self.trial.predicted_surface() {
-            Ok(surface) => {
-                self.scratch.extend(surface.relative_variance.iter().take(size).map(|&v| v as f32))
-            }
-            Err(_) => self.scratch.resize(size, 1.0),
+        if let Ok(surface) = self.trial.predicted_surface() {
+            self.scratch.extend(surface.relative_variance.iter().take(size).map(|&v| v as f32));
         }
+        self.scratch.resize(size, 1.0);
         self.send(out);
     }
 

@@ -29,7 +29,7 @@ fn session(preset: &str, seed: Option<u64>) -> Session {
 }
 
 fn open(scenario: &str, preset: &str, seed: Option<u64>) -> Result<Session, wasm_bindgen::JsError> {
-    Session::new("scenario.toml", scenario, "hill.toml", RECIPE.as_bytes(), preset, seed)
+    Session::new("scenario.toml", scenario, "hill.toml", RECIPE.as_bytes(), preset, None, seed)
 }
 
 fn message(error: wasm_bindgen::JsError) -> String {

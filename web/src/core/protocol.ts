@@ -11,6 +11,15 @@ export type Outcome = 'running' | 'reached' | 'tilt_limit' | 'stuck' | 'no_subgo
 /** `default` is the best mapless planner known to the project, `paper` the literal text of the paper. */
 export type Preset = 'default' | 'paper';
 
+/** When the planner learns the hyperparameters of its Gaussian process. */
+export type Learning = 'fixed' | 'once' | 'every_scan';
+
+/** How the planner is set up. */
+export interface Setting {
+  readonly preset: Preset;
+  readonly learning: Learning;
+}
+
 export type BrushKind = 'raise' | 'lower' | 'smooth';
 
 /** One dab of the sculpting brush, centred on a point of the ground. */
@@ -52,9 +61,8 @@ export interface GroundPatch {
 }
 
 /** What a scenario is made of, after its files were read. */
-export interface SessionInfo {
+export interface SessionInfo extends Setting {
   readonly scenario: string;
-  readonly preset: Preset;
   readonly seed: number;
   readonly start: Heading;
   readonly goal: Place;
@@ -177,7 +185,7 @@ export const TICK_RATE_HZ = 10;
 export type Speed = number;
 
 export type Command =
-  | { type: 'load'; scenario: string; preset: Preset; seed: number | undefined }
+  | { type: 'load'; scenario: string; setting: Setting; seed: number | undefined }
   | { type: 'restart' }
   | { type: 'play'; playing: boolean }
   | { type: 'speed'; speed: Speed }

@@ -12,8 +12,8 @@ import type {
   Heading,
   Outcome,
   Place,
-  Preset,
   SessionInfo,
+  Setting,
 } from './protocol.ts';
 import type { CoreModule, CoreSession } from './wasm.ts';
 
@@ -23,25 +23,26 @@ const MAX_RETURNS = 28_800;
 export class Session {
   readonly #core: CoreSession;
   readonly #scenario: string;
-  readonly #preset: Preset;
+  readonly #setting: Setting;
   readonly #pool: FrameBuffers[] = [];
   #info: SessionInfo;
   #planner_ms = 0;
 
-  private constructor(core: CoreSession, scenario: string, preset: Preset) {
+  private constructor(core: CoreSession, scenario: string, setting: Setting) {
     this.#core = core;
     this.#scenario = scenario;
-    this.#preset = preset;
+    this.#setting = setting;
     this.#info = this.#readInfo();
   }
 
-  static async open(core: CoreModule, scenario: string, preset: Preset, seed: number | undefined): Promise<Session> {
+  static async open(core: CoreModule, scenario: string, setting: Setting, seed: number | undefined): Promise<Session> {
     const file = `scenarios/${scenario}.toml`;
     const toml = await terrainFile(file);
     const path = core.terrain_of(file, toml);
     const terrain = new TextEncoder().encode(await terrainFile(`scenarios/${path}`));
     const whole = seed === undefined ? undefined : BigInt(seed);
-    return new Session(new core.Session(file, toml, path, terrain, preset, whole), scenario, preset);
+    const { preset, learning } = setting;
+    return new Session(new core.Session(file, toml, path, terrain, preset, learning, whole), scenario, setting);
   }
 
   free(): void {
@@ -156,7 +157,7 @@ export class Session {
     const scene = named(SCENE, this.#core.scene());
     return {
       scenario: this.#scenario,
-      preset: this.#preset,
+      ...this.#setting,
       seed: Number(this.#core.seed()),
       start: { x: scene.start_x, y: scene.start_y, heading_rad: scene.start_heading_rad },
       goal: { x: scene.goal_x, y: scene.goal_y },

@@ -46,6 +46,7 @@ export interface CoreModule {
     terrain_file: string,
     terrain: Uint8Array,
     preset: string,
+    learning?: string | null,
     seed?: bigint | null,
   ) => CoreSession;
   /** The terrain file that a scenario names, relative to the scenario's own folder. */

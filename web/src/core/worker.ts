@@ -111,7 +111,7 @@ function openFromStart(): void {
 async function carryOut(command: Command): Promise<void> {
   if (command.type === 'load') {
     core ??= await loadCore();
-    const opened = await Session.open(core, command.scenario, command.preset, command.seed);
+    const opened = await Session.open(core, command.scenario, command.setting, command.seed);
     session?.free();
     session = opened;
     const ground = session.ground();

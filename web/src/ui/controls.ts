@@ -1,7 +1,7 @@
 /** The page's buttons, choosers and sliders: each calls one action, and shows the state it is told. */
 
 import { CATALOGUE } from '../core/catalogue.ts';
-import type { Preset } from '../core/protocol.ts';
+import type { Learning, SessionInfo, Setting } from '../core/protocol.ts';
 import { TOOLS, type Tool } from '../scene/tools.ts';
 import { byId, html } from './dom.ts';
 
@@ -13,7 +13,7 @@ export interface Actions {
   restart(): void;
   next(): void;
   setSpeed(speed: number): void;
-  load(scenario: string, preset: Preset, seed: number | undefined): void;
+  load(scenario: string, setting: Setting, seed: number | undefined): void;
   selectTool(tool: Tool): void;
   setBrushRadius(radius_m: number): void;
   toggleFollow(): void;
@@ -21,12 +21,14 @@ export interface Actions {
   help(): void;
 }
 
+const LEARNING: readonly Learning[] = ['fixed', 'once', 'every_scan'];
 const MAX_SEED = 0xffff_ffff;
 
 export class Controls {
   readonly #setup = byId('setup', HTMLFormElement);
   readonly #scenario = byId('scenario', HTMLSelectElement);
   readonly #preset = byId('preset', HTMLSelectElement);
+  readonly #learning = byId('learning', HTMLSelectElement);
   readonly #seed = byId('seed', HTMLInputElement);
   readonly #play = byId('play', HTMLButtonElement);
   readonly #follow = byId('follow', HTMLButtonElement);
@@ -41,7 +43,9 @@ export class Controls {
     // Enter in a field changes the field; there is nothing to send.
     this.#setup.addEventListener('submit', (event) => event.preventDefault());
     this.#scenario.addEventListener('change', () => this.#load(undefined));
-    this.#preset.addEventListener('change', () => this.#load(this.#readSeed()));
+    for (const select of [this.#preset, this.#learning]) {
+      select.addEventListener('change', () => this.#load(this.#readSeed()));
+    }
     this.#seed.addEventListener('change', () => {
       const seed = this.#readSeed();
       if (seed !== undefined) this.#load(seed);
@@ -74,9 +78,10 @@ export class Controls {
     this.#follow.setAttribute('aria-pressed', String(following));
   }
 
-  showSession(scenario: string, preset: Preset, seed: number): void {
+  showSession({ scenario, preset, learning, seed }: SessionInfo): void {
     this.#scenario.value = scenario;
     this.#preset.value = preset;
+    this.#learning.value = learning;
     this.#seed.value = String(seed);
     this.#seed.setCustomValidity('');
   }
@@ -105,7 +110,8 @@ export class Controls {
 
   #load(seed: number | undefined): void {
     const preset = this.#preset.value === 'paper' ? 'paper' : 'default';
-    this.#actions.load(this.#scenario.value, preset, seed);
+    const learning = LEARNING.find((mode) => mode === this.#learning.value) ?? 'fixed';
+    this.#actions.load(this.#scenario.value, { preset, learning }, seed);
   }
 
   /** The seed, or nothing and a complaint at the field. */
