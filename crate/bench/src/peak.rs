@@ -11,17 +11,15 @@ use crate::work::{Values, Work};
 const LANES: usize = 8;
 const STEPS: u32 = 1_000_000;
 
-/// `CHAINS` chains of multiply, then add, unfused like all arithmetic here, in the widest registers that the planner uses. How
-/// many chains keep the machine busiest depends on its registers.
-pub(crate) struct Peak<const CHAINS: usize>;
+/// As many as keep the machine busiest while they fit its registers.
+const CHAINS: usize = 8;
 
-impl<const CHAINS: usize> Work for Peak<CHAINS> {
+/// Chains of multiply, then add, unfused like all arithmetic here, in the widest registers that the planner uses.
+pub(crate) struct Peak;
+
+impl Work for Peak {
     fn run(&mut self) -> Result<(), BenchError> {
-        let chains = black_box([[1.0; LANES]; 12]);
-        match CHAINS {
-            6 => black_box(six(chains, black_box(0.999), black_box(0.001))),
-            _ => black_box(twelve(chains, black_box(0.999), black_box(0.001))),
-        };
+        multiply_and_add(&mut black_box([[1.0; LANES]; CHAINS]), black_box(0.999), black_box(0.001));
         Ok(())
     }
 
@@ -30,25 +28,16 @@ impl<const CHAINS: usize> Work for Peak<CHAINS> {
     }
 }
 
+/// Leaves the chains where the caller can see them: a sum over them would make the compiler shuffle them in every step.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
-fn six(chains: [[f64; LANES]; 12], factor: f64, summand: f64) -> f64 {
-    multiply_and_add::<6>(chains, factor, summand)
-}
-
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
-fn twelve(chains: [[f64; LANES]; 12], factor: f64, summand: f64) -> f64 {
-    multiply_and_add::<12>(chains, factor, summand)
-}
-
-#[inline(always)]
-fn multiply_and_add<const CHAINS: usize>(chains: [[f64; LANES]; 12], factor: f64, summand: f64) -> f64 {
-    let mut sums: [[f64; LANES]; CHAINS] = core::array::from_fn(|chain| chains[chain]);
+fn multiply_and_add(chains: &mut [[f64; LANES]; CHAINS], factor: f64, summand: f64) {
+    let mut values = *chains;
     for _ in 0..STEPS {
-        for chain in &mut sums {
+        for chain in &mut values {
             for value in chain {
                 *value = *value * factor + summand;
             }
         }
     }
-    sums.as_flattened().iter().sum()
+    *chains = black_box(values);
 }

@@ -39,8 +39,7 @@ pub(crate) fn make(name: &str) -> Result<Box<dyn Work>, BenchError> {
         ("drive", "") => Box::new(Drive::new()?),
         ("scan-rugged", samples) => Box::new(Scanning::rugged(number(samples)?)?),
         ("scan-level", samples) => Box::new(Scanning::level(number(samples)?)?),
-        ("peak", "6") => Box::new(Peak::<6>),
-        ("peak", "12") => Box::new(Peak::<12>),
+        ("peak", "") => Box::new(Peak),
         _ => match name.strip_prefix("trial-") {
             Some(scenario) => Box::new(WholeTrial::new(scenario)?),
             None => return Err(unknown()),
