@@ -8,8 +8,8 @@ use crate::work::{Values, Work};
 
 /// One scenario on each terrain.
 const DRIVES: [&str; 5] = ["cht-ab", "gsb", "ht", "ml", "vta"];
-/// Ticks before the next terrain's turn.
-const TURN_TICKS: usize = 20;
+/// Steps on each terrain; after all of them the drives begin anew.
+const STEPS: usize = 60;
 
 fn scenario(name: &str) -> Result<&'static Bundled, BenchError> {
     let found = SCENARIOS.iter().find(|scenario| scenario.name == name);
@@ -20,9 +20,10 @@ fn start(scenario: &Bundled) -> Result<Trial, BenchError> {
     scenario.trial().map_err(BenchError::Scenario)
 }
 
-/// The planner's steps along drives over every terrain; the world between them is not timed.
+/// The planner's steps along the first seconds of drives over every terrain; the world between them is not timed.
 pub(crate) struct Drive {
-    drives: Vec<(&'static Bundled, Trial)>,
+    starts: Vec<Trial>,
+    trials: Vec<Trial>,
     ticks: usize,
     returns: usize,
     most_cells: usize,
@@ -30,50 +31,41 @@ pub(crate) struct Drive {
 
 impl Drive {
     pub(crate) fn new() -> Result<Self, BenchError> {
-        let drive = |name| {
-            let scenario = scenario(name)?;
-            Ok((scenario, start(scenario)?))
-        };
-        let drives = DRIVES.into_iter().map(drive).collect::<Result<_, BenchError>>()?;
-        Ok(Self { drives, ticks: 0, returns: 0, most_cells: 0 })
-    }
-
-    fn current(&self) -> usize {
-        self.ticks / TURN_TICKS % DRIVES.len()
+        let starts = DRIVES.into_iter().map(|name| start(scenario(name)?));
+        let starts = starts.collect::<Result<Vec<_>, BenchError>>()?;
+        Ok(Self { trials: starts.clone(), starts, ticks: 0, returns: 0, most_cells: 0 })
     }
 }
 
 impl Work for Drive {
     fn prepare(&mut self) -> Result<(), BenchError> {
-        let current = self.current();
-        let (scenario, trial) = &mut self.drives[current];
-        // Moves on from the decision of this drive's last step, if there was one.
-        if trial.ticks() > 0 || !trial.scan().points.is_empty() {
-            trial.act();
+        if self.ticks == STEPS * DRIVES.len() {
+            self.trials.clone_from(&self.starts);
+            (self.ticks, self.returns, self.most_cells) = (0, 0, 0);
         }
-        if trial.outcome().is_some() {
-            *trial = start(scenario)?;
+        let trial = &mut self.trials[self.ticks / STEPS];
+        if !self.ticks.is_multiple_of(STEPS) {
+            trial.act();
         }
         trial.look();
         self.returns += trial.scan().points.len();
-        self.ticks += 1;
         Ok(())
     }
 
     fn run(&mut self) -> Result<(), BenchError> {
-        let current = (self.ticks - 1) / TURN_TICKS % DRIVES.len();
-        let cells = self.drives[current].1.plan().observed.cells().len();
-        self.most_cells = self.most_cells.max(cells);
+        let step = self.trials[self.ticks / STEPS].plan();
+        self.most_cells = self.most_cells.max(step.observed.cells().len());
+        self.ticks += 1;
         Ok(())
     }
 
     fn values(&mut self) -> Values {
-        let position = |(_, trial): &(_, Trial)| trial.pose().position_m.to_array();
+        let position = |trial: &Trial| trial.pose().position_m.to_array();
         Values::from([
             ("ticks", vec![self.ticks as f64]),
             ("mean_returns", vec![self.returns as f64 / self.ticks as f64]),
             ("most_cells", vec![self.most_cells as f64]),
-            ("positions_m", self.drives.iter().flat_map(position).collect()),
+            ("positions_m", self.trials.iter().flat_map(position).collect()),
         ])
     }
 }

@@ -22,3 +22,5 @@ pub use answer::Bench;
 pub use error::BenchError;
 #[cfg(not(target_arch = "wasm32"))]
 pub use inputs::write_inputs;
+#[cfg(target_arch = "wasm32")]
+pub use wasm::answer;

@@ -119,8 +119,9 @@ impl Environment {
             printed.split_whitespace().take(words).collect::<Vec<_>>().join(" ")
         };
         Ok(format!(
-            "{}, {threads} hardware threads, {}; {}, Node {}, {}, {}",
+            "{}, {threads} hardware threads{}, {}; {}, Node {}, {}, {}",
             processor(sh),
+            others(sh),
             std::env::consts::OS,
             short(&rustc, 2),
             node.trim_start_matches('v'),
@@ -128,6 +129,13 @@ impl Environment {
             peers.join(", ")
         ))
     }
+}
+
+/// What else the machine does, where Linux tells.
+fn others(sh: &Shell) -> String {
+    let average =
+        sh.read_file("/proc/loadavg").ok().and_then(|text| text.split(' ').next().map(str::to_owned));
+    average.map_or_else(String::new, |average| format!(" under a load of {average} before the first round"))
 }
 
 /// The model name of the processor.

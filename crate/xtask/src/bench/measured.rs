@@ -56,6 +56,21 @@ impl Measured {
         Times::of(times.with_context(|| format!("{side:?} was not asked for {work}"))?)
     }
 
+    /// The same, of each repetition of a round the fastest over all rounds: a round does the same work as the one before, so what
+    /// remains is the work's own, without the machine's other business.
+    pub(crate) fn quiet_times(&self, work: &str, side: Side) -> anyhow::Result<Times> {
+        let times = self.times.get(&(work.to_owned(), side));
+        let times = times.with_context(|| format!("{side:?} was not asked for {work}"))?;
+        let mut rounds = times.chunks_exact((times.len() / self.rounds as usize).max(1));
+        let mut fastest = rounds.next().unwrap_or_default().to_vec();
+        for round in rounds {
+            for (fastest, ms) in fastest.iter_mut().zip(round) {
+                *fastest = fastest.min(*ms);
+            }
+        }
+        Times::of(&fastest)
+    }
+
     /// A number that a work gave.
     pub(crate) fn number(&self, work: &str, name: &str) -> anyhow::Result<f64> {
         self.values.get(work).with_context(|| format!("no values of {work}"))?.number(name)
@@ -72,5 +87,14 @@ mod tests {
         assert_eq!(Times::of(&times).unwrap(), Times { fastest: 1.0, median: 100.0, p99: 198.0 });
         assert_eq!(Times::of(&[7.0]).unwrap(), Times { fastest: 7.0, median: 7.0, p99: 7.0 });
         assert!(Times::of(&[]).is_err() && Times::of(&[f64::NAN]).is_err());
+    }
+
+    #[test]
+    fn quiet_times_are_those_of_the_quietest_rounds() {
+        let mut measured = Measured { rounds: 2, ..Measured::default() };
+        let times = vec![1.0, 9.0, 3.0, 8.0, 2.0, 3.5];
+        measured.times.insert(("drive".to_owned(), Side::Native), times);
+        let quiet = measured.quiet_times("drive", Side::Native).unwrap();
+        assert_eq!(quiet, Times { fastest: 1.0, median: 2.0, p99: 3.0 });
     }
 }

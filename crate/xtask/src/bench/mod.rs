@@ -24,14 +24,14 @@ const NATIVE: &[Side] = &[Side::Native];
 
 /// The pieces of work, each with its repetitions in a round and who does it.
 const WORKS: &[(&str, usize, &[Side])] = &[
-    ("posterior-200", 1, ALL),
+    ("posterior-200", 2, ALL),
     ("posterior-400", 1, ALL),
     ("bound-200", 2, ALL),
     ("scan-rugged-1000", 10, ALL),
     ("scan-level-1000", 10, ALL),
     ("tick-level", 10, OURS),
     ("tick-full", 10, OURS),
-    ("drive", 100, OURS),
+    ("drive", 300, OURS),
     ("peak", 5, NATIVE),
 ];
 
