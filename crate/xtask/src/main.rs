@@ -1,9 +1,10 @@
 //! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build`, and
-//! `cargo xtask scenarios` and `cargo xtask profile`, which measure.
+//! `cargo xtask scenarios`, `cargo xtask profile` and `cargo xtask bench`, which measure.
 //!
 //! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a browser),
 //! so that a fresh clone on a machine with Rust and Node needs nothing by hand.
 
+mod bench;
 mod browser;
 mod count;
 mod page;
@@ -59,6 +60,12 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 200)]
         poses: usize,
     },
+    /// Time mapless beside gpflow and Embree, natively and as wasm, and write docs/BENCHMARKS.md.
+    Bench {
+        /// Rounds in which everyone is asked in turn.
+        #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
+        rounds: u32,
+    },
 }
 
 fn main() -> ExitCode {
@@ -81,5 +88,6 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Test { part } => test::run(&sh, part),
         Command::Scenarios { seeds, paper_seeds } => scenarios::run(&sh, [seeds, paper_seeds]),
         Command::Profile { poses } => profile::run(&sh, poses),
+        Command::Bench { rounds } => bench::run(&sh, rounds),
     }
 }

@@ -17,6 +17,15 @@ pub(crate) struct Line {
     pub(crate) points: Vec<(f64, f64)>,
 }
 
+/// How the values of both axes are spaced.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Scale {
+    /// Evenly; the vertical axis includes zero.
+    Linear,
+    /// By their logarithms; all of them must be positive.
+    Logarithmic,
+}
+
 /// Lines over one axis.
 pub(crate) struct Plot {
     pub(crate) x_label: &'static str,
@@ -24,17 +33,31 @@ pub(crate) struct Plot {
     pub(crate) lines: Vec<Line>,
     /// A value of x to mark.
     pub(crate) mark_x: Option<f64>,
+    pub(crate) scale: Scale,
 }
 
 impl Plot {
     pub(crate) fn svg(&self) -> String {
+        let place = |value: f64| match self.scale {
+            Scale::Linear => value,
+            Scale::Logarithmic => libm::log10(value),
+        };
         let all = || self.lines.iter().flat_map(|line| line.points.iter().copied());
-        let (x_low, x_high) = range(all().map(|(x, _)| x));
-        let (y_low, y_high) = range(all().map(|(_, y)| y).chain([0.0]));
+        let zero = (self.scale == Scale::Linear).then_some(0.0);
+        let (x_low, x_high) = range(all().map(|(x, _)| place(x)));
+        let (y_low, y_high) = range(all().map(|(_, y)| place(y)).chain(zero));
+        let step = |span: f64| match self.scale {
+            Scale::Linear => step(span),
+            Scale::Logarithmic => 1.0,
+        };
         let y_step = step(y_high - y_low);
         let (y_low, y_high) = ((y_low / y_step).floor() * y_step, (y_high / y_step).ceil() * y_step);
-        let x_at = |x: f64| LEFT + (x - x_low) / (x_high - x_low) * (WIDTH - LEFT - RIGHT);
-        let y_at = |y: f64| HEIGHT - BOTTOM - (y - y_low) / (y_high - y_low) * (HEIGHT - TOP - BOTTOM);
+        let x_at = |x: f64| LEFT + (place(x) - x_low) / (x_high - x_low) * (WIDTH - LEFT - RIGHT);
+        let y_at = |y: f64| HEIGHT - BOTTOM - (place(y) - y_low) / (y_high - y_low) * (HEIGHT - TOP - BOTTOM);
+        let value_at = |tick: f64| match self.scale {
+            Scale::Linear => tick,
+            Scale::Logarithmic => libm::exp10(tick),
+        };
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"system-ui, sans-serif\" font-size=\"13\">\n\
              <style>text {{ fill: #333 }} .axis {{ stroke: #999 }} @media (prefers-color-scheme: dark) {{ text {{ fill: #ddd }} .axis {{ stroke: #777 }} }}</style>\n"
@@ -42,7 +65,7 @@ impl Plot {
         let mut draw = |text: String| {
             let _ = writeln!(svg, "{text}");
         };
-        for (value, y) in ticks(y_low, y_high, y_step).map(|v| (v, y_at(v))) {
+        for (value, y) in ticks(y_low, y_high, y_step).map(value_at).map(|v| (v, y_at(v))) {
             let width = if value.abs() < 1e-9 { 1.5 } else { 0.5 };
             draw(format!(
                 "<path class=\"axis\" d=\"M{LEFT} {y:.1}H{}\" stroke-width=\"{width}\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
@@ -53,7 +76,7 @@ impl Plot {
             ));
         }
         let x_step = step(x_high - x_low);
-        for value in ticks((x_low / x_step).ceil() * x_step, x_high, x_step) {
+        for value in ticks((x_low / x_step).ceil() * x_step, x_high, x_step).map(value_at) {
             draw(format!(
                 "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
                 x_at(value),
@@ -133,8 +156,24 @@ mod tests {
     #[test]
     fn a_plot_has_its_lines_and_labels() {
         let line = Line { name: "error", points: vec![(0.2, 1.0), (0.3, 0.5)] };
-        let svg = Plot { x_label: "x", y_label: "y", lines: vec![line], mark_x: Some(0.25) }.svg();
+        let svg =
+            Plot { x_label: "x", y_label: "y", lines: vec![line], mark_x: Some(0.25), scale: Scale::Linear }
+                .svg();
         assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
         assert!(svg.contains(">error</text>") && svg.contains("polyline") && !svg.contains("NaN"));
+    }
+
+    #[test]
+    fn decades_are_evenly_spaced_on_a_logarithmic_plot() {
+        let line = Line { name: "cost", points: vec![(10.0, 0.1), (100.0, 1.0), (1000.0, 10.0)] };
+        let plot =
+            Plot { x_label: "n", y_label: "ms", lines: vec![line], mark_x: None, scale: Scale::Logarithmic };
+        let svg = plot.svg();
+        let points = svg.split_once("points=\"").unwrap().1.split_once('"').unwrap().0;
+        let xs: Vec<f64> = points.split([' ', ',']).step_by(2).map(|x| x.parse().unwrap()).collect();
+        assert!((xs[0] + xs[2] - 2.0 * xs[1]).abs() < 0.2, "{points}");
+        for label in [">0.1<", ">10<", ">1000<"] {
+            assert!(svg.contains(label), "{label}\n{svg}");
+        }
     }
 }

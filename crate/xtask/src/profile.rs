@@ -9,7 +9,7 @@ use std::process::Command;
 use anyhow::{Context as _, ensure};
 use xshell::{Shell, cmd};
 
-use crate::plot::{Line, Plot};
+use crate::plot::{Line, Plot, Scale};
 use crate::setup;
 use crate::work::run_all;
 
@@ -258,6 +258,7 @@ fn figure(settings: &[Setting], measured: &BTreeMap<Job, Accuracy>) -> String {
             line("bias", |a| a.bias_rad),
         ],
         mark_x: Some(DEFAULT_THRESHOLD),
+        scale: Scale::Linear,
     }
     .svg()
 }

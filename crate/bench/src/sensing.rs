@@ -1,0 +1,139 @@
+//! Scans, and the planner's step on them.
+
+use glam::{DVec2, DVec3, Vec3};
+use mapless::pose::Pose;
+use mapless::{Planner, PlannerConfig, Status};
+use mapless_world::{Caster, HeightField, Scan, SensorConfig, SensorPose, Vlp16};
+
+use crate::BenchError;
+use crate::data::{full_scan, level_field, level_scan, rugged_field, sensor_pose};
+use crate::work::{Values, Work};
+
+/// The sensor without noise, with this many columns.
+fn exact_sensor(columns: usize) -> Result<Vlp16, BenchError> {
+    Ok(Vlp16::new(SensorConfig { columns, range_noise_m: 0.0, ..SensorConfig::default() })?)
+}
+
+/// One revolution of 28 800 beams.
+pub(crate) struct Scanning {
+    caster: Caster,
+    sensor: Vlp16,
+    pose: SensorPose,
+    scan: Scan,
+}
+
+impl Scanning {
+    fn over(field: HeightField) -> Result<Self, BenchError> {
+        let caster = Caster::new(field);
+        let pose = sensor_pose(&caster);
+        Ok(Self { caster, pose, sensor: exact_sensor(1800)?, scan: Scan::default() })
+    }
+
+    /// On hills of `samples` × `samples` heights.
+    pub(crate) fn rugged(samples: usize) -> Result<Self, BenchError> {
+        Self::over(rugged_field(samples)?)
+    }
+
+    /// On level ground of `samples` × `samples` heights.
+    pub(crate) fn level(samples: usize) -> Result<Self, BenchError> {
+        Self::over(level_field(samples)?)
+    }
+
+    /// The ranges as seen from `rise_m` higher.
+    fn ranges_m(&self, rise_m: f64) -> Vec<f64> {
+        let pose = SensorPose { position: self.pose.position + DVec3::Z * rise_m, ..self.pose };
+        let mut scan = Scan::default();
+        self.sensor.scan(&self.caster, &pose, 0, 0, &mut scan);
+        scan.ranges_m.into_iter().map(f64::from).collect()
+    }
+
+    /// The most by which a cell's bilinear patch and two triangles on the same corners differ in height: a quarter of its twist.
+    fn triangle_difference_m(&self) -> f64 {
+        let field = self.caster.field();
+        let rows: Vec<&[f32]> = field.heights_m().chunks_exact(field.columns()).collect();
+        let mut most = 0.0_f64;
+        for pair in rows.windows(2) {
+            for (south, north) in pair[0].windows(2).zip(pair[1].windows(2)) {
+                let twist =
+                    f64::from(south[0]) - f64::from(south[1]) - f64::from(north[0]) + f64::from(north[1]);
+                most = most.max(0.25 * twist.abs());
+            }
+        }
+        most
+    }
+}
+
+impl Work for Scanning {
+    fn run(&mut self) -> Result<(), BenchError> {
+        self.sensor.scan(&self.caster, &self.pose, 0, 0, &mut self.scan);
+        Ok(())
+    }
+
+    /// The ranges, and those from as much lower and higher as the triangulated ground can differ, with a millimetre for single
+    /// precision: the range to any surface in between lies in between.
+    fn values(&mut self) -> Values {
+        let slack_m = self.triangle_difference_m() + 1e-3;
+        Values::from([
+            ("range_m", self.ranges_m(0.0)),
+            ("nearest_m", self.ranges_m(-slack_m)),
+            ("farthest_m", self.ranges_m(slack_m)),
+        ])
+    }
+}
+
+/// A planner's step on one scan, over and over.
+pub(crate) struct Tick {
+    planner: Planner,
+    points_m: Vec<Vec3>,
+    pose: Pose,
+    goal_m: DVec2,
+}
+
+impl Tick {
+    fn new(points_m: Vec<Vec3>, position_m: DVec3) -> Result<Self, BenchError> {
+        let pose = Pose { position_m, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
+        let goal_m = position_m.truncate() + DVec2::new(50.0, 0.0);
+        Ok(Self { planner: Planner::new(PlannerConfig::default())?, points_m, pose, goal_m })
+    }
+
+    /// On level ground with 1823 occupied cells.
+    pub(crate) fn on_level_scan() -> Result<Self, BenchError> {
+        Self::new(level_scan(), DVec3::ZERO)
+    }
+
+    /// Inside a round wall, with all 28 800 beams within 7 m and all 5760 cells occupied.
+    pub(crate) fn on_full_scan() -> Result<Self, BenchError> {
+        Self::new(full_scan(), DVec3::ZERO)
+    }
+
+    /// On a scan of hills with this many columns.
+    pub(crate) fn on_rugged_ground(columns: usize) -> Result<Self, BenchError> {
+        let caster = Caster::new(rugged_field(1000)?);
+        let mut scan = Scan::default();
+        let pose = sensor_pose(&caster);
+        let sensor = exact_sensor(columns)?;
+        sensor.scan(&caster, &pose, 0, 0, &mut scan);
+        Self::new(scan.points, pose.position - DVec3::Z * sensor.config().height_m)
+    }
+}
+
+impl Work for Tick {
+    fn run(&mut self) -> Result<(), BenchError> {
+        match self.planner.step(&self.points_m, &self.pose, self.goal_m).status {
+            // In the pit there is nowhere to go; the whole of the perception runs all the same.
+            Status::Stopped(mapless::StopReason::NoSubgoal) => Ok(()),
+            Status::Stopped(reason) => Err(BenchError::Stopped(reason)),
+            Status::Driving | Status::Arrived | Status::Looking => Ok(()),
+        }
+    }
+
+    fn values(&mut self) -> Values {
+        let step = self.planner.last_step();
+        Values::from([
+            ("returns", vec![self.points_m.len() as f64]),
+            ("cells", vec![step.observed.cells().len() as f64]),
+            ("columns", vec![step.profile.len() as f64]),
+            ("command", vec![step.command.linear_m_s, step.command.angular_rad_s]),
+        ])
+    }
+}

@@ -1,0 +1,98 @@
+//! After its first steps a planner works in the memory it has: a step that allocates can be late.
+
+#![allow(unsafe_code, reason = "an allocator that counts is one by nature")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use glam::DVec2;
+use mapless::pose::Pose;
+use mapless::{Planner, PlannerConfig, Status};
+use mapless_world::{Caster, DriveCommand, HeightField, Husky, HuskyConfig, Scan, SensorConfig, Vlp16};
+
+thread_local! {
+    /// Allocations of this thread; the test harness has threads of its own.
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+impl Counting {
+    fn count() {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+    }
+}
+
+// SAFETY: everything is passed on to the system's allocator; the counter itself allocates nothing.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        Self::count();
+        // SAFETY: the caller keeps the promises that this function asks for.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        Self::count();
+        // SAFETY: as above.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Hills, 40 m square.
+fn hills() -> HeightField {
+    let height = |column: usize, row: usize| {
+        let (x, y) = (column as f64 * 0.2, row as f64 * 0.2);
+        (0.8 * libm::sin(x / 4.0) * libm::cos(y / 5.0) + 0.1 * libm::sin(1.7 * x + y)) as f32
+    };
+    let heights = (0..200).flat_map(|row| (0..200).map(move |column| height(column, row)));
+    HeightField::new(200, 200, 0.2, heights.collect()).unwrap()
+}
+
+/// Drives for this many steps over the hills; gives the allocations of each step.
+fn drive(ticks: u64) -> Vec<usize> {
+    let caster = Caster::new(hills());
+    let sensor = Vlp16::new(SensorConfig::default()).unwrap();
+    let mut husky = Husky::new(HuskyConfig::default(), caster.field(), DVec2::splat(8.0), 0.7).unwrap();
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    let mut scan = Scan::default();
+    let mut allocations = Vec::new();
+    for tick in 0..ticks {
+        let state = *husky.state();
+        let pose = Pose {
+            position_m: husky.position(),
+            roll_rad: state.attitude.roll_rad,
+            pitch_rad: state.attitude.pitch_rad,
+            yaw_rad: state.yaw_rad,
+        };
+        let sensor_pose = sensor.config().pose_on(state.position, state.yaw_rad, &state.attitude);
+        sensor.scan(&caster, &sensor_pose, 1, tick, &mut scan);
+        let before = ALLOCATIONS.get();
+        let step = planner.step(&scan.points, &pose, DVec2::splat(33.0));
+        let during = ALLOCATIONS.get() - before;
+        assert!(matches!(step.status, Status::Driving | Status::Looking), "{:?}", step.status);
+        let command =
+            DriveCommand { speed_m_s: step.command.linear_m_s, turn_rate_rad_s: step.command.angular_rad_s };
+        allocations.push(during);
+        for _ in 0..10 {
+            husky.step(command, 0.01, caster.field()).unwrap();
+        }
+    }
+    allocations
+}
+
+#[test]
+fn a_step_allocates_nothing_after_the_first_ones() {
+    let allocations = drive(120);
+    let (first, rest) = allocations.split_at(20);
+    assert!(first[0] > 0, "the counter counts");
+    assert!(rest.iter().all(|&count| count == 0), "{allocations:?}");
+}
