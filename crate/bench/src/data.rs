@@ -158,9 +158,12 @@ mod tests {
         let [azimuth, elevation] = hyperparameters().kernel.length_scales_rad;
         let scale = DVec2::new(azimuth, elevation);
         let far = |a: &DVec2, b: &DVec2| ((*a - *b) / scale).length();
-        for (index, a) in chosen.iter().enumerate() {
-            assert!(chosen[..index].iter().all(|b| far(a, b) > 0.8));
-        }
+        // No two chosen ones are nearer to each other than some input is to all of them.
+        let nearest =
+            |a: &DVec2, others: &[DVec2]| others.iter().map(|b| far(a, b)).fold(f64::INFINITY, f64::min);
+        let spacing = (1..200).map(|k| nearest(&chosen[k], &chosen[..k])).fold(f64::INFINITY, f64::min);
+        let cover = inputs.iter().map(|input| nearest(input, &chosen)).fold(0.0, f64::max);
+        assert!(cover <= spacing + 1e-12, "{cover} {spacing}");
         assert_eq!(farthest_points(&inputs[..3], 9).len(), 3);
     }
 }
