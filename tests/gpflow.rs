@@ -127,6 +127,27 @@ pub const SCENE: &str = include_str!("gpflow/crest.json");
 /// See [`SCENE`].
 pub const KERNELS: &str = include_str!("gpflow/rq_kernel.json");
 
+/// A regression problem: (azimuth, elevation) in radians, occupancy in metres.
+#[derive(Debug)]
+pub struct Problem {
+    /// Training inputs.
+    pub inputs: Vec<DVec2>,
+    /// Their targets.
+    pub targets: Vec<f64>,
+    /// Inducing inputs.
+    pub inducing: Vec<DVec2>,
+}
+
+/// The problem of [`SCENE`].
+///
+/// # Errors
+/// Says why the text is not a scene.
+pub fn problem() -> Result<Problem, String> {
+    let scene: Scene = serde_json::from_str(SCENE).map_err(|e| e.to_string())?;
+    let (inputs, inducing) = (points(&scene.inputs), points(&scene.inducing));
+    Ok(Problem { inputs, targets: scene.targets, inducing })
+}
+
 /// Compares one fixture file of either form, given as its text; gives the number of cases compared.
 ///
 /// # Errors
@@ -142,8 +163,11 @@ pub fn compare(text: &str) -> Result<usize, String> {
     }
 }
 
+fn points(list: &[[f64; 2]]) -> Vec<DVec2> {
+    list.iter().copied().map(DVec2::from_array).collect()
+}
+
 fn compare_scene(scene: &Scene) -> Result<usize, String> {
-    let points = |list: &[[f64; 2]]| -> Vec<DVec2> { list.iter().copied().map(DVec2::from_array).collect() };
     let (inputs, inducing, queries) =
         (points(&scene.inputs), points(&scene.inducing), points(&scene.queries));
     for case in &scene.cases {

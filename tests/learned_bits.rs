@@ -1,23 +1,11 @@
 //! Learning on the repository's scene gives recorded bits; native and browser tests compare with the same number, so a pass of
 //! both shows that bound, gradient and both optimisers agree on every target.
 
-use glam::DVec2;
 use mapless::hyperparameters::Hyperparameters;
 use mapless::kernel::RationalQuadratic;
 use mapless::learning::{Learned, Learner, LearningConfig, Optimiser};
-use serde::Deserialize;
 
 use crate::gpflow;
-
-#[derive(Deserialize)]
-struct Data {
-    #[serde(rename = "X")]
-    inputs: Vec<[f64; 2]>,
-    #[serde(rename = "y")]
-    targets: Vec<f64>,
-    #[serde(rename = "Z")]
-    inducing: Vec<[f64; 2]>,
-}
 
 /// The digest of what L-BFGS and Adam learn in twenty evaluations, with every inducing input free.
 pub const RECORDED: u64 = 15_962_657_902_025_265_521;
@@ -27,15 +15,13 @@ pub const RECORDED: u64 = 15_962_657_902_025_265_521;
 /// # Errors
 /// Says why the scene could not be read or learned from.
 pub fn digest() -> Result<u64, String> {
-    let data: Data = serde_json::from_str(gpflow::SCENE).map_err(|e| e.to_string())?;
-    let points = |list: Vec<[f64; 2]>| -> Vec<DVec2> { list.into_iter().map(DVec2::from_array).collect() };
-    let (inputs, inducing) = (points(data.inputs), points(data.inducing));
+    let gpflow::Problem { inputs, targets, inducing } = gpflow::problem()?;
     let start = Hyperparameters { kernel: RationalQuadratic::default(), noise_variance: 3.0 };
     let mut digest = 0;
     for optimiser in [Optimiser::Lbfgs, Optimiser::Adam] {
         let config = LearningConfig { optimiser, learn_inducing_inputs: true, ..LearningConfig::default() };
         let learned = Learner::new(config)
-            .learn(&inputs, &data.targets, &inducing, &start)
+            .learn(&inputs, &targets, &inducing, &start)
             .map_err(|e| format!("{optimiser:?}: {e}"))?;
         digest = numbers(&learned).into_iter().fold(digest, fold);
     }

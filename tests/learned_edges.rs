@@ -9,17 +9,6 @@ use mapless::hyperparameters::Hyperparameters;
 use mapless::learning::{HyperparameterBounds, Learner, LearningConfig, Stop};
 use mapless::sparse_gp::SparseGp;
 use mapless_tests::{gpflow, learned_bits};
-use serde::Deserialize;
-
-#[derive(Deserialize)]
-struct Scene {
-    #[serde(rename = "X")]
-    inputs: Vec<[f64; 2]>,
-    #[serde(rename = "y")]
-    targets: Vec<f64>,
-    #[serde(rename = "Z")]
-    inducing: Vec<[f64; 2]>,
-}
 
 /// Mean height of the edge, in degrees, over the highest return of a column, at the default threshold.
 fn edge_deg(inputs: &[DVec2], targets: &[f64], inducing: &[DVec2], hyperparameters: &Hyperparameters) -> f64 {
@@ -49,9 +38,7 @@ fn edge_deg(inputs: &[DVec2], targets: &[f64], inducing: &[DVec2], hyperparamete
 
 #[test]
 fn bounds_keep_the_edge_where_the_returns_are() {
-    let scene: Scene = serde_json::from_str(gpflow::SCENE).unwrap();
-    let points = |list: Vec<[f64; 2]>| -> Vec<DVec2> { list.into_iter().map(DVec2::from_array).collect() };
-    let (inputs, targets, inducing) = (points(scene.inputs), scene.targets, points(scene.inducing));
+    let gpflow::Problem { inputs, targets, inducing } = gpflow::problem().unwrap();
     let perception = PlannerConfig::default().perception;
     let start = Hyperparameters { kernel: perception.kernel, noise_variance: perception.noise_variance_m2 };
     let learn = |start: &Hyperparameters, bounds| {

@@ -10,6 +10,7 @@ mod profile;
 mod progress;
 mod report;
 mod run;
+mod setup;
 
 use std::process::ExitCode;
 

@@ -12,14 +12,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use glam::{DVec2, DVec3};
-use mapless::learning::LearningMode;
 use mapless::perception::PredictedSurface;
 use mapless::pose::Pose;
 use mapless::{Planner, Step};
 use mapless_scans::read_scan;
-use mapless_trials::Preset;
 
 use crate::picture::{OccupancyPicture, VarianceImage};
+use crate::setup::PlannerChoice;
 use report::PerceptionReport;
 
 const POSE: Pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
@@ -33,12 +32,8 @@ pub(crate) struct Args {
     /// Which whole revolution of a capture, from 0.
     #[arg(long, value_name = "K", default_value_t = 0)]
     revolution: usize,
-    /// Planner configuration.
-    #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
-    preset: Preset,
-    /// When hyperparameters are learned, instead of what the configuration says.
-    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
-    learning: Option<LearningMode>,
+    #[command(flatten)]
+    planner: PlannerChoice,
     /// Write variance_image.svg and occupancy_surface.svg to this folder, which is made when missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -50,10 +45,7 @@ pub(crate) struct Args {
 /// Perceives the scan and shows what was seen and decided.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let points_m = read_scan(&args.file, args.revolution)?;
-    let mut config = args.preset.planner_config();
-    if let Some(mode) = args.learning {
-        config.perception.learning.mode = mode;
-    }
+    let config = args.planner.apply(args.planner.preset.planner_config());
     let mut planner = Planner::new(config)?;
     let variance_threshold = planner.config().perception.variance_threshold;
     let report =
@@ -71,7 +63,7 @@ fn subject(args: &Args) -> String {
     let file = args.file.file_name().unwrap_or_default().to_string_lossy();
     let is_capture = args.file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pcap"));
     let revolution = if is_capture { format!(", revolution {}", args.revolution) } else { String::new() };
-    format!("{file}{revolution}, preset {}", args.preset.name())
+    format!("{file}{revolution}, preset {}", args.planner.preset.name())
 }
 
 fn draw(

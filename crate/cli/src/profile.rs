@@ -1,24 +1,18 @@
 //! `mapless profile`: the perceived elevation profile against the true skyline, at random poses on a scenario's terrain.
 
 use std::io::Write as _;
-use std::path::PathBuf;
 
 use anyhow::Context as _;
 use comfy_table::{CellAlignment, Table, presets};
-use mapless::learning::LearningMode;
-use mapless_trials::{LoadedScenario, Preset, ProfileAccuracy, profile_accuracy};
+use mapless_trials::{LoadedScenario, ProfileAccuracy, profile_accuracy};
 use mapless_world::Caster;
+
+use crate::setup::Setup;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Scenario file (TOML); its terrain, sensor and planner are used, its start and goal are not.
-    scenario: PathBuf,
-    /// Planner configuration that the scenario's [planner] section starts from.
-    #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
-    preset: Preset,
-    /// When hyperparameters are learned, instead of what the configuration says.
-    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
-    learning: Option<LearningMode>,
+    #[command(flatten)]
+    setup: Setup,
     /// Random poses at which the robot can stand.
     #[arg(long, default_value_t = 200, value_name = "N")]
     poses: usize,
@@ -32,12 +26,8 @@ pub(crate) struct Args {
 
 /// Measures and prints.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let LoadedScenario { scenario, terrain } = LoadedScenario::read(&args.scenario)?;
-    let file = || args.scenario.display().to_string();
-    let mut planner = scenario.planner_config(args.preset).with_context(file)?;
-    if let Some(mode) = args.learning {
-        planner.perception.learning.mode = mode;
-    }
+    let (LoadedScenario { scenario, terrain }, planner) = args.setup.load()?;
+    let file = || args.setup.file();
     let caster = Caster::new(terrain.field);
     let accuracy =
         profile_accuracy(&caster, &scenario.sensor, &scenario.robot, &planner, args.poses, args.seed)

@@ -5,23 +5,17 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use anyhow::Context as _;
-use mapless::learning::LearningMode;
-use mapless_trials::{LoadedScenario, Outcome, Preset, Trial};
+use mapless_trials::{LoadedScenario, Outcome, Trial};
 
 use crate::log::Log;
 use crate::progress::Progress;
 use crate::report::{Report, Subject};
+use crate::setup::Setup;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Scenario file (TOML): terrain, start, goal, seed and what differs from the defaults.
-    scenario: PathBuf,
-    /// Planner configuration that the scenario's [planner] section starts from.
-    #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
-    preset: Preset,
-    /// When hyperparameters are learned, instead of what the configuration says.
-    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
-    learning: Option<LearningMode>,
+    #[command(flatten)]
+    setup: Setup,
     /// Seed of the sensor's noise, instead of the scenario's own.
     #[arg(long)]
     seed: Option<u64>,
@@ -35,21 +29,17 @@ pub(crate) struct Args {
 
 /// Runs the trial and shows how it ended.
 pub(crate) fn run(args: &Args) -> anyhow::Result<Outcome> {
-    let LoadedScenario { scenario, terrain } = LoadedScenario::read(&args.scenario)?;
+    let (LoadedScenario { scenario, terrain }, planner) = args.setup.load()?;
     let seed = args.seed.unwrap_or(scenario.seed);
-    let file = || args.scenario.display().to_string();
-    let mut planner = scenario.planner_config(args.preset).with_context(file)?;
-    if let Some(mode) = args.learning {
-        planner.perception.learning.mode = mode;
-    }
-    let mut trial = Trial::with_planner(terrain.field, &scenario, planner, seed).with_context(file)?;
+    let mut trial =
+        Trial::with_planner(terrain.field, &scenario, planner, seed).with_context(|| args.setup.file())?;
     let mut log = args.out.as_deref().map(Log::create).transpose()?;
 
     let (outcome, planner_times) = drive(&mut trial, &mut log)?;
     let subject = Subject {
-        scenario: args.scenario.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        scenario: args.setup.scenario.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         terrain: terrain.name,
-        preset: args.preset,
+        preset: args.setup.planner.preset,
         seed,
         roll_limit_rad: scenario.robot.roll_limit_rad,
         pitch_limit_rad: scenario.robot.pitch_limit_rad,

@@ -1,0 +1,51 @@
+//! What `run` and `profile` begin with: a scenario and a planner for it.
+
+use std::path::PathBuf;
+
+use anyhow::Context as _;
+use mapless::PlannerConfig;
+use mapless::learning::LearningMode;
+use mapless_trials::{LoadedScenario, Preset};
+
+#[derive(clap::Args)]
+pub(crate) struct Setup {
+    /// Scenario file (TOML): terrain, start, goal, seed and what differs from the defaults.
+    pub(crate) scenario: PathBuf,
+    #[command(flatten)]
+    pub(crate) planner: PlannerChoice,
+}
+
+/// Which planner.
+#[derive(clap::Args)]
+pub(crate) struct PlannerChoice {
+    /// Planner configuration; a scenario's [planner] section starts from it.
+    #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
+    pub(crate) preset: Preset,
+    /// When hyperparameters are learned, instead of what the configuration says.
+    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
+    learning: Option<LearningMode>,
+}
+
+impl Setup {
+    /// The scenario with its terrain, and the planner's configuration.
+    pub(crate) fn load(&self) -> anyhow::Result<(LoadedScenario, PlannerConfig)> {
+        let loaded = LoadedScenario::read(&self.scenario)?;
+        let config = loaded.scenario.planner_config(self.planner.preset).with_context(|| self.file())?;
+        Ok((loaded, self.planner.apply(config)))
+    }
+
+    /// The scenario file's name, for messages.
+    pub(crate) fn file(&self) -> String {
+        self.scenario.display().to_string()
+    }
+}
+
+impl PlannerChoice {
+    /// The configuration with what was asked for on the command line.
+    pub(crate) fn apply(&self, mut config: PlannerConfig) -> PlannerConfig {
+        if let Some(mode) = self.learning {
+            config.perception.learning.mode = mode;
+        }
+        config
+    }
+}
