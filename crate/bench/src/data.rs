@@ -157,10 +157,13 @@ mod tests {
         assert_eq!(chosen.len(), 200);
         let [azimuth, elevation] = hyperparameters().kernel.length_scales_rad;
         let scale = DVec2::new(azimuth, elevation);
-        let far = |a: &DVec2, b: &DVec2| ((*a - *b) / scale).length();
-        for (index, a) in chosen.iter().enumerate() {
-            assert!(chosen[..index].iter().all(|b| far(a, b) > 0.8));
-        }
+        let nearest = |point: &DVec2, others: &[DVec2]| {
+            let distances = others.iter().map(|other| ((*point - *other) / scale).length());
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let apart = (1..200).map(|k| nearest(&chosen[k], &chosen[..k])).fold(f64::INFINITY, f64::min);
+        let covered = inputs.iter().map(|input| nearest(input, &chosen)).fold(0.0, f64::max);
+        assert!(covered <= apart && apart > 0.5, "{covered} {apart}");
         assert_eq!(farthest_points(&inputs[..3], 9).len(), 3);
     }
 }
