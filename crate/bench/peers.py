@@ -1,7 +1,7 @@
 """The peers of `cargo xtask bench`: gpflow and Embree, answering as `mapless-bench` does.
 
 `peers.py FOLDER` reads the inputs that `mapless-bench FOLDER` wrote, then answers a line for each request until its input ends:
-`NAME N` runs a piece of work N times, `{"ms": [...]}`; `NAME values` tells what it gives, `{"values": {...}}`.
+`NAME N` runs a piece of work N times, `{"ms": [...]}`; `NAME values` tells what it gives, `{"values": {...}}`; `versions all` tells the versions, `{"versions": {...}}`.
 """
 
 import json

@@ -38,7 +38,7 @@ const WORKS: &[(&str, usize, &[Side])] = &[
 /// How the cost grows: name of the line, and the works by their size.
 pub(crate) const COSTS: &[(&str, &[(&str, f64)])] = &[
     (
-        "posterior over n, m = 200",
+        "posterior over n",
         &[
             ("posterior-inputs-8", 720.0),
             ("posterior-inputs-4", 1440.0),
@@ -47,7 +47,7 @@ pub(crate) const COSTS: &[(&str, &[(&str, f64)])] = &[
         ],
     ),
     (
-        "posterior over m, n = 1823",
+        "posterior over m",
         &[
             ("posterior-50", 50.0),
             ("posterior-100", 100.0),
@@ -55,10 +55,7 @@ pub(crate) const COSTS: &[(&str, &[(&str, f64)])] = &[
             ("posterior-400", 400.0),
         ],
     ),
-    (
-        "bound over m, n = 1823",
-        &[("bound-50", 50.0), ("bound-100", 100.0), ("bound-200", 200.0), ("bound-400", 400.0)],
-    ),
+    ("bound over m", &[("bound-50", 50.0), ("bound-100", 100.0), ("bound-200", 200.0), ("bound-400", 400.0)]),
     (
         "planner step over beams",
         &[
@@ -69,7 +66,7 @@ pub(crate) const COSTS: &[(&str, &[(&str, f64)])] = &[
         ],
     ),
     (
-        "scan over terrain samples",
+        "scan over samples",
         &[
             ("scan-rugged-125", 15_625.0),
             ("scan-rugged-250", 62_500.0),

@@ -131,19 +131,20 @@ fn wasm(text: &mut String, measured: &Measured) -> anyhow::Result<()> {
 
 fn steps(text: &mut String, measured: &Measured) -> anyhow::Result<()> {
     text.push_str(
-        "\n## A planner step on a full scan\n\nNothing is thinned out. Over all of them together the slowest are those \
-         that something else on the machine interrupted; the target is compared with the steps' own times, each the fastest over the rounds.\n\n\
-         | scans | where | median of all, ms | p99 of all, ms | p99 of the steps' own, ms | at most | |\n|---|---|---:|---:|---:|---:|---|\n",
+        "\n## A planner step on a full scan\n\nNothing is thinned out. The slowest of all steps are those that something else on the machine interrupted; \
+         the steps' own times, each the fastest over the rounds, leave most of that out. The target is judged for both.\n\n\
+         | scans | where | median of all, ms | p99 of all, ms | p99 of the steps' own, ms | at most | all | own |\n|---|---|---:|---:|---:|---:|---|---|\n",
     );
     for (work, heading) in &AS_WASM[..2] {
         for (side, most) in MOST_STEP_MS {
             let (all, own) = (measured.times(work, side)?, measured.quiet_times(work, side)?);
             writeln!(
                 text,
-                "| {heading} | {side:?} | {:.2} | {:.2} | {:.2} | {most} | {} |",
+                "| {heading} | {side:?} | {:.2} | {:.2} | {:.2} | {most} | {} | {} |",
                 all.median,
                 all.p99,
                 own.p99,
+                verdict(all.p99 <= most),
                 verdict(own.p99 <= most)
             )?;
         }
@@ -188,7 +189,7 @@ fn peak(text: &mut String, measured: &Measured) -> anyhow::Result<()> {
 }
 
 fn costs(text: &mut String, measured: &Measured) -> anyhow::Result<()> {
-    text.push_str("\n## How the cost grows\n\n![Cost over size](bench.svg)\n\n| what | fastest time, ms, by size |\n|---|---|\n");
+    text.push_str("\n## How the cost grows\n\n![Cost over size](bench.svg)\n\n| what | fastest time, ms, by size (n with m = 200, m with n = 1823) |\n|---|---|\n");
     for line in cost_lines(measured)? {
         let points: Vec<String> =
             line.points.iter().map(|(size, ms)| format!("{size}: {}", significant(*ms))).collect();
@@ -213,7 +214,7 @@ fn agreements(text: &mut String, measured: &Measured) -> anyhow::Result<()> {
 pub(crate) fn figure(measured: &Measured) -> anyhow::Result<String> {
     let lines = cost_lines(measured)?;
     let plot = Plot {
-        x_label: "n, m, beams or samples",
+        x_label: "n (m = 200), m (n = 1823), beams or samples of terrain",
         y_label: "fastest time, ms",
         lines,
         mark_x: None,
@@ -279,11 +280,11 @@ mod tests {
             "| bound and all gradients, n = 1823, m = 200 | 1.00 / 1.00 | gpflow 24.0 / 24.0 | 24.0 / 24.0 | 6 | met |",
             "| 24.0 / 24.0 | 60 | **missed** |",
             "| planner step along drives | 1.00 | 2.00 | 2.00 | 2.00 | 2.00 | met |",
-            "| planner step along drives | Chromium | 2.00 | 2.00 | 2.00 | 30 | met |",
+            "| planner step along drives | Chromium | 2.00 | 2.00 | 2.00 | 30 | met | met |",
             "| ht | 40.0 | 8.00 | 5.0 | **missed** |",
             "100 % of that",
             "| mean | 2.0e-9 | 1e-6 |",
-            "| posterior over m, n = 1823 | 50: 1.00, 100: 1.00,",
+            "| posterior over m | 50: 1.00, 100: 1.00,",
         ] {
             assert!(report.contains(part), "{part}\n{report}");
         }
