@@ -30,12 +30,6 @@ const METRICS: [(&str, &str, usize); 6] = [
 struct Trial {
     outcome: String,
     metrics: BTreeMap<String, f64>,
-    planner_ms: PlannerTime,
-}
-
-#[derive(Clone, Debug, serde::Deserialize)]
-struct PlannerTime {
-    p50: f64,
 }
 
 /// One trial to run.
@@ -103,16 +97,15 @@ fn report(names: &[String], trials: &BTreeMap<Job, Trial>, seeds: [u64; 2]) -> a
          Written by `cargo xtask scenarios --seeds {default} --paper-seeds {paper}`: each scenario of `terrains/scenarios/` with the seeds \
          from 1 on, two trials at a time.\n\n\
          Metrics are those of the paper, mean ± standard deviation over the trials that reached the goal. A trial ends \
-         as `tilt_limit` when |roll| passes 0.524 rad or |pitch| 0.785 rad. The planner's time is the mean over all \
-         trials of the median step.\n"
+         as `tilt_limit` when |roll| passes 0.524 rad or |pitch| 0.785 rad.\n"
     );
     for preset in PRESETS {
         let of_preset: Vec<&Trial> = select(trials, |job| job.preset == preset);
         let reached = of_preset.iter().filter(|trial| trial.has_reached()).count();
         writeln!(text, "\n## Preset `{preset}`: {reached} of {} reached\n", of_preset.len())?;
         let headings = METRICS.map(|(_, heading, _)| heading).join(" | ");
-        writeln!(text, "| scenario | reached | other outcomes | {headings} | planner, ms |")?;
-        writeln!(text, "|---|---|---|{}---:|", "---:|".repeat(METRICS.len()))?;
+        writeln!(text, "| scenario | reached | other outcomes | {headings} |")?;
+        writeln!(text, "|---|---|---|{}", "---:|".repeat(METRICS.len()))?;
         for name in names {
             let of_scenario = select(trials, |job| job.preset == preset && &job.scenario == name);
             writeln!(text, "{}", row(name, &of_scenario))?;
@@ -137,10 +130,8 @@ fn row(name: &str, trials: &[&Trial]) -> String {
             reached.iter().filter_map(|trial| trial.metrics.get(metric).copied()).collect();
         mean_and_deviation(&values, decimals)
     });
-    let times: Vec<f64> = trials.iter().map(|trial| trial.planner_ms.p50).collect();
-    let time_ms = times.iter().sum::<f64>() / times.len() as f64;
     format!(
-        "| {name} | {} of {} | {} | {} | {time_ms:.1} |",
+        "| {name} | {} of {} | {} | {} |",
         reached.len(),
         trials.len(),
         outcomes.join(", "),
@@ -170,30 +161,26 @@ impl Trial {
 mod tests {
     use super::*;
 
-    fn trial(outcome: &str, distance_m: f64, p50_ms: f64) -> Trial {
+    fn trial(outcome: &str, distance_m: f64) -> Trial {
         let metrics = METRICS.iter().map(|(name, ..)| (*name).to_owned());
-        Trial {
-            outcome: outcome.to_owned(),
-            metrics: metrics.map(|name| (name, distance_m)).collect(),
-            planner_ms: PlannerTime { p50: p50_ms },
-        }
+        Trial { outcome: outcome.to_owned(), metrics: metrics.map(|name| (name, distance_m)).collect() }
     }
 
     #[test]
     fn a_row_counts_outcomes_and_averages_what_reached() {
         let trials = [
-            trial("reached", 10.0, 20.0),
-            trial("timeout", 99.0, 60.0),
-            trial("reached", 14.0, 30.0),
-            trial("stuck", 99.0, 10.0),
-            trial("timeout", 99.0, 30.0),
+            trial("reached", 10.0),
+            trial("timeout", 99.0),
+            trial("reached", 14.0),
+            trial("stuck", 99.0),
+            trial("timeout", 99.0),
         ];
         let row = row("ml", &trials.iter().collect::<Vec<_>>());
         assert!(
             row.starts_with("| ml | 2 of 5 | 1 stuck, 2 timeout | 12.0 ± 2.8 | 12.000 ± 2.828 |"),
             "{row}"
         );
-        assert!(row.ends_with("| 12.00 ± 2.83 | 30.0 |"), "{row}");
+        assert!(row.ends_with("| 12.00 ± 2.83 |"), "{row}");
     }
 
     #[test]
@@ -208,11 +195,11 @@ mod tests {
         let mut trials = BTreeMap::new();
         for preset in PRESETS {
             for (scenario, outcome) in names.iter().zip(["reached", preset]) {
-                trials.insert(Job { preset, scenario: scenario.clone(), seed: 1 }, trial(outcome, 1.0, 1.0));
+                trials.insert(Job { preset, scenario: scenario.clone(), seed: 1 }, trial(outcome, 1.0));
             }
         }
         let report = report(&names, &trials, [1, 1]).unwrap();
         assert!(report.contains("## Preset `default`: 1 of 2 reached"), "{report}");
-        assert!(report.contains("| b | 0 of 1 | 1 paper |  |  |  |  |  |  | 1.0 |"), "{report}");
+        assert!(report.contains("| b | 0 of 1 | 1 paper |  |  |  |  |  |  |"), "{report}");
     }
 }
