@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
 use glam::{DVec2, DVec3, Vec3};
+use mapless::config::InducingInputs;
 use mapless::pose::Pose;
+use mapless::profile::Column;
 use mapless::segments::Verdict;
 use mapless::{Command, Planner, PlannerConfig, Status, StopReason};
 use proptest::prelude::*;
@@ -150,6 +152,45 @@ proptest! {
                 prop_assert!(surface.relative_variance.iter().all(|v| v.is_finite()));
                 prop_assert!(surface.mean_m.iter().all(|m| m.is_finite()));
             }
+        }
+    }
+
+    #[test]
+    fn extreme_hyperparameters_get_an_answer_too(
+        azimuth in -3.0..0.5_f64, elevation in -3.0..0.5_f64, variance in -3.0..3.0_f64, noise in -6.0..3.0_f64,
+        alpha in prop_oneof![Just(0.1), Just(10.0), 0.5..80.0_f64], spacing in 0.3..3.0_f64, threshold in 0.01..0.99_f64,
+        lattice: bool, gap in 0..16_usize,
+    ) {
+        let power = |exponent: f64| libm::pow(10.0, exponent);
+        let mut config = PlannerConfig::default();
+        let perception = &mut config.perception;
+        perception.kernel.length_scales_rad = [power(azimuth), power(elevation)];
+        perception.kernel.variance = power(variance);
+        perception.kernel.alpha = alpha;
+        perception.noise_variance_m2 = power(noise);
+        perception.inducing_spacing_length_scales = spacing;
+        perception.variance_threshold = threshold;
+        perception.max_inducing_inputs = 60;
+        if !lattice {
+            perception.inducing_inputs = InducingInputs::FarthestPoints;
+        }
+        // A sector of level ground with a wall of some rings behind it.
+        let returns: Vec<Vec3> = scan(walled(5.0))
+            .into_iter()
+            .filter(|p| p.x > 4.0 && f64::from(p.z) < 0.1 * gap as f64)
+            .collect();
+        let mut planner = Planner::new(config).unwrap();
+        let step = planner.step(&returns, &START, AHEAD);
+        prop_assert!(step.command.linear_m_s.is_finite() && step.command.angular_rad_s.is_finite());
+        let named = matches!(step.status, Status::Stopped(StopReason::NoPerception(_) | StopReason::EmptyScan));
+        prop_assert!(named || step.profile.len() == 360);
+        for column in step.profile {
+            if let Column::Ground { elevation_rad } = column {
+                prop_assert!(elevation_rad.abs() <= 0.2618, "{}", elevation_rad);
+            }
+        }
+        if let Ok(surface) = planner.predicted_surface() {
+            prop_assert!(surface.relative_variance.iter().chain(&surface.mean_m).all(|v| v.is_finite()));
         }
     }
 }
