@@ -8,6 +8,8 @@ const LEFT: f64 = 64.0;
 const RIGHT: f64 = 168.0;
 const TOP: f64 = 16.0;
 const BOTTOM: f64 = 52.0;
+/// Labels of neighbouring lines keep this distance.
+const LABEL_HEIGHT: f64 = 15.0;
 /// Okabe and Ito's colours for everybody.
 const COLOURS: [&str; 6] = ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 
@@ -97,14 +99,16 @@ impl Plot {
                 "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2.5\" stroke-linejoin=\"round\"/>",
                 points.join(" ")
             ));
-            if let Some(&(x, y)) = line.points.last() {
-                draw(format!(
-                    "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
-                    x_at(x) + 8.0,
-                    y_at(y) + 4.0,
-                    line.name
-                ));
-            }
+        }
+        let mut labels: Vec<(f64, f64, &str)> = (self.lines.iter())
+            .filter_map(|line| line.points.last().map(|&(x, y)| (y_at(y) + 4.0, x_at(x) + 8.0, line.name)))
+            .collect();
+        labels.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut free_from = f64::NEG_INFINITY;
+        for (y, x, name) in labels {
+            let y = y.max(free_from);
+            free_from = y + LABEL_HEIGHT;
+            draw(format!("<text x=\"{x:.1}\" y=\"{y:.1}\">{name}</text>"));
         }
         draw(format!(
             "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
