@@ -31,7 +31,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let caster = Caster::new(terrain.field);
     let accuracy =
         profile_accuracy(&caster, &scenario.sensor, &scenario.robot, &planner, args.poses, args.seed)
-            .map_err(anyhow::Error::msg)
             .with_context(file)?;
     anyhow::ensure!(
         accuracy.poses == args.poses,

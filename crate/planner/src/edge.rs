@@ -18,8 +18,11 @@ const ROWS_AT_ONCE: usize = 4;
 
 /// Every cell of every column.
 pub(crate) fn all_cells(observed: &OccupancySurface) -> Vec<RingMask> {
-    let mask = |column| observed.column(column).iter().fold(0, |mask, cell| mask | 1 << cell.ring);
-    (0..COLUMNS).map(mask).collect()
+    (0..COLUMNS).map(|column| occupied_rings(observed, column)).collect()
+}
+
+fn occupied_rings(observed: &OccupancySurface, column: usize) -> RingMask {
+    observed.column(column).iter().fold(0, |mask, cell| mask | 1 << cell.ring)
 }
 
 /// Follows the edge around the circle.
@@ -126,8 +129,7 @@ impl EdgeTracer {
             }
         }
         for (column, mask) in self.masks.iter_mut().enumerate() {
-            let occupied = observed.column(column).iter().fold(0, |mask, cell| mask | 1 << cell.ring);
-            *mask &= occupied;
+            *mask &= occupied_rings(observed, column);
         }
     }
 }

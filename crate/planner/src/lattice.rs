@@ -240,7 +240,8 @@ impl LatticeGp {
             self.column_covariances.resize(self.column_covariances.len() + count, 0.0);
         }
         let (first, offsets) = (&self.first, &self.offsets);
-        let place = |input: usize| offsets[input].wrapping_sub(first[input]);
+        let begin = inputs.start;
+        let place = |input: usize| offsets[input] + begin - first[input];
         linalg::add_products(&self.column_covariances, inputs, place, &mut self.products);
     }
 

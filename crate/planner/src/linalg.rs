@@ -114,7 +114,7 @@ pub(crate) fn solve_lower_vector(l: &[f64], n: usize, b: &mut [f64]) {
 }
 
 /// Adds K Kᵀ to the lower triangle of a matrix, between the rows and columns `inputs`. `covariances` is Kᵀ, an even number of rows
-/// over `inputs`; the entry (i, j) of the matrix is at `place(i) + j`, modulo the size of an index.
+/// over `inputs`; `place(i)` is where the matrix has the entry of row i and the first of the columns.
 #[inline(always)]
 pub(crate) fn add_products(
     covariances: &[f64],
@@ -123,7 +123,7 @@ pub(crate) fn add_products(
     matrix: &mut [f64],
 ) {
     for (i, input) in inputs.clone().enumerate() {
-        let begin = place(input).wrapping_add(inputs.start);
+        let begin = place(input);
         add_row(covariances, inputs.len(), i, &mut matrix[begin..=begin + i]);
     }
 }

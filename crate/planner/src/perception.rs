@@ -144,6 +144,13 @@ impl Perception {
         }
     }
 
+    /// Forgets what was learned: back to the configured hyperparameters.
+    pub(crate) fn reset(&mut self, config: PerceptionConfig) {
+        if self.learned.is_some() {
+            *self = Self::new(config);
+        }
+    }
+
     /// What the last profile needed.
     pub(crate) fn effort(&self) -> Effort {
         self.effort
@@ -292,6 +299,22 @@ mod tests {
             assert!(first.bound[1] > first.bound[0] && second.bound[1] >= second.bound[0]);
             assert_ne!(first, second);
         }
+    }
+
+    #[test]
+    fn what_was_learned_is_forgotten_on_a_reset() {
+        let config = with_mode(PlannerConfig::default(), LearningMode::EveryScan);
+        let mut perception = Perception::new(config);
+        let learn = |perception: &mut Perception| {
+            let mut observed = OccupancySurface::new(7.0);
+            observed.project(&undulating_scan(90, 150));
+            perception.profile(&observed, &mut Vec::new()).unwrap();
+            perception.effort().learned
+        };
+        let first = learn(&mut perception);
+        assert_ne!(learn(&mut perception), first);
+        perception.reset(config);
+        assert_eq!(learn(&mut perception), first);
     }
 
     #[test]

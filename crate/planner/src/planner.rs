@@ -123,8 +123,9 @@ impl Planner {
         &self.config
     }
 
-    /// Forgets everything seen and driven, as after a change of the world.
+    /// Forgets everything seen, learned and driven, as after a change of the world.
     pub fn reset(&mut self) {
+        self.perception.reset(self.config.perception);
         self.ground.clear();
         self.visited_m.clear();
         self.goal_m = None;

@@ -183,34 +183,3 @@ fn what_cannot_be_evaluated_is_named() {
         Err(RegressionError::IllConditioned { inputs: 2, .. })
     ));
 }
-
-/// Prints the time of one bound with gradient: `cargo test --release -p mapless --test regression -- --ignored --nocapture`.
-#[test]
-#[ignore = "a measurement"]
-fn time_of_one_bound_with_gradient() {
-    // A full scan on level ground: five rings of 360 columns, and some of a sixth.
-    let inputs: Vec<DVec2> = (0..1823)
-        .map(|k| {
-            let (column, ring) = (k % 360, k / 360);
-            DVec2::new(f64::from(column - 180).to_radians(), f64::from(2 * ring - 15).to_radians())
-        })
-        .collect();
-    let targets: Vec<f64> = inputs.iter().map(|p| 2.5 + libm::sin(3.0 * p.x) + 4.0 * p.y).collect();
-    let hyperparameters = Hyperparameters {
-        kernel: RationalQuadratic { alpha: 9.7, ..RationalQuadratic::default() },
-        noise_variance: 0.1,
-    };
-    for m in [100, 200, 400] {
-        let inducing: Vec<DVec2> = (0..m).map(|k| inputs[k * 1823 / m]).collect();
-        let mut bound = CollapsedBound::new();
-        let mut times: Vec<f64> = (0..30)
-            .map(|_| {
-                let start = std::time::Instant::now();
-                bound.evaluate(&inputs, &targets, &inducing, &hyperparameters).unwrap();
-                start.elapsed().as_secs_f64() * 1e3
-            })
-            .collect();
-        times.sort_by(f64::total_cmp);
-        println!("n = 1823, m = {m}: fastest {:.1} ms, median {:.1} ms", times[0], times[15]);
-    }
-}

@@ -12,6 +12,8 @@ use mapless_world::{
     Caster, HuskyConfig, Scan, SensorConfig, SensorPose, Skyline, Vlp16, attitude_on, true_skyline,
 };
 
+use crate::trial::TrialError;
+
 /// What a column shows, in truth or as perceived; the index of a row or column of the confusion matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
@@ -48,7 +50,7 @@ pub struct ProfileAccuracy {
 /// least r_oc from the border.
 ///
 /// # Errors
-/// The configuration value that makes no sense.
+/// [`TrialError::Config`] names the configuration value that makes no sense.
 pub fn profile_accuracy(
     caster: &Caster,
     sensor: &SensorConfig,
@@ -56,9 +58,10 @@ pub fn profile_accuracy(
     planner: &PlannerConfig,
     poses: usize,
     seed: u64,
-) -> Result<ProfileAccuracy, String> {
-    let lidar = Vlp16::new(sensor.clone()).map_err(|e| e.to_string())?;
-    let mut planner = Planner::new(planner.clone()).map_err(|e| e.to_string())?;
+) -> Result<ProfileAccuracy, TrialError> {
+    let config = |reason: &dyn std::fmt::Display| TrialError::Config(reason.to_string());
+    let lidar = Vlp16::new(sensor.clone()).map_err(|e| config(&e))?;
+    let mut planner = Planner::new(planner.clone()).map_err(|e| config(&e))?;
     let radius_m = planner.config().perception.surface_radius_m;
     let mut scan = Scan::default();
     let mut sums = Sums::default();

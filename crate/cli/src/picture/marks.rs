@@ -46,12 +46,16 @@ pub(crate) fn subgoal(svg: &mut String, at: DVec2) -> fmt::Result {
 
 /// A cross where the robot ended without reaching the goal.
 pub(crate) fn end(svg: &mut String, at: DVec2) -> fmt::Result {
-    for (stroke, width) in [("#fff", 6.0), (INK, 3.0)] {
+    cross(svg, at, 7.0, [6.0, 3.0])
+}
+
+/// A cross that reaches `half` to each side, its strokes as wide as its white rim and its ink.
+pub(crate) fn cross(svg: &mut String, at: DVec2, half: f64, [rim, ink]: [f64; 2]) -> fmt::Result {
+    let (x, y, side) = (at.x - half, at.y - half, 2.0 * half);
+    for (stroke, width) in [("#fff", rim), (INK, ink)] {
         writeln!(
             svg,
-            r#"<path stroke="{stroke}" stroke-width="{width}" stroke-linecap="round" d="M{:.1} {:.1}l14 14m0 -14l-14 14"/>"#,
-            at.x - 7.0,
-            at.y - 7.0
+            r#"<path stroke="{stroke}" stroke-width="{width}" stroke-linecap="round" d="M{x:.1} {y:.1}l{side} {side}m0 -{side}l-{side} {side}"/>"#
         )?;
     }
     Ok(())

@@ -11,6 +11,7 @@ use mapless::segments::{Segment, Verdict};
 use mapless::subgoals::Subgoal;
 
 use super::directions::{LEFT, Panel, SIZE, grey};
+use super::marks;
 use super::page::{self, ColourBar, INK, css};
 
 const PANEL: Panel = Panel { top: 88.0 };
@@ -213,15 +214,7 @@ fn mark(svg: &mut String, at: DVec2, fill: Option<&str>) -> fmt::Result {
             at.x, at.y
         );
     }
-    for (stroke, width) in [("#fff", 4.5), (INK, 2.0)] {
-        writeln!(
-            svg,
-            r#"<path stroke="{stroke}" stroke-width="{width}" stroke-linecap="round" d="M{:.1} {:.1}l8 8m0 -8l-8 8"/>"#,
-            at.x - 4.0,
-            at.y - 4.0
-        )?;
-    }
-    Ok(())
+    marks::cross(svg, at, 4.0, [4.5, 2.0])
 }
 
 fn ring(svg: &mut String, at: DVec2) -> fmt::Result {
