@@ -53,8 +53,9 @@ impl Work for Drive {
     }
 
     fn run(&mut self) -> Result<(), BenchError> {
-        let step = self.trials[self.ticks / STEPS].plan();
-        self.most_cells = self.most_cells.max(step.observed.cells().len());
+        let trial = &mut self.trials[self.ticks / STEPS];
+        trial.plan();
+        self.most_cells = self.most_cells.max(trial.step().observed.cells().len());
         self.ticks += 1;
         Ok(())
     }

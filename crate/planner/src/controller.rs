@@ -38,26 +38,28 @@ impl Pid {
     }
 }
 
-/// The two loops.
+/// The two loops, one for the distance and one for the yaw.
 #[derive(Clone, Debug)]
-pub(crate) struct Controller {
+pub struct Controller {
     config: ControllerConfig,
     distance: Pid,
     yaw: Pid,
 }
 
 impl Controller {
-    pub(crate) fn new(config: ControllerConfig) -> Self {
+    /// A controller at rest; `config` must be valid.
+    pub fn new(config: ControllerConfig) -> Self {
         Self { config, distance: Pid::default(), yaw: Pid::default() }
     }
 
-    pub(crate) fn reset(&mut self) {
+    /// Forgets the errors of the past.
+    pub fn reset(&mut self) {
         self.distance = Pid::default();
         self.yaw = Pid::default();
     }
 
     /// Drives towards a point at `distance_m` and `bearing_rad` in the robot frame; turns first when it is far to a side.
-    pub(crate) fn drive(&mut self, distance_m: f64, bearing_rad: f64, period_s: f64) -> Command {
+    pub fn drive(&mut self, distance_m: f64, bearing_rad: f64, period_s: f64) -> Command {
         let config = &self.config;
         let bearing = wrap_rad(bearing_rad);
         let turning = self.yaw.update(bearing, &config.yaw, period_s, config.max_turn_rate_rad_s);
@@ -67,7 +69,7 @@ impl Controller {
     }
 
     /// Turns in place to look around.
-    pub(crate) fn look_around(&mut self) -> Command {
+    pub fn look_around(&mut self) -> Command {
         self.reset();
         Command { linear_m_s: 0.0, angular_rad_s: self.config.look_turn_rate_rad_s }
     }

@@ -31,6 +31,9 @@ pub enum StopReason {
     /// Looking around found no candidate either.
     #[error("no subgoal found after looking around")]
     NoSubgoal,
+    /// A navigator with a map found no path on it.
+    #[error("no path to the goal on the map")]
+    NoPath,
 }
 
 /// What a step decided.

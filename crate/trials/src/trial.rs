@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use mapless::perception::PredictedSurface;
 use mapless::pose::Pose;
 use mapless::sparse_gp::GpError;
-use mapless::{Planner, PlannerConfig, Status, Step, StopReason};
+use mapless::{Command, Decision, Navigator, Planner, PlannerConfig, Status, Step, StopReason};
 use mapless_world::{
     Brush, Caster, DriveCommand, DriveError, HeightField, Husky, HuskyConfig, HuskyState, SampleRect, Scan,
     SensorConfig, Vlp16,
@@ -34,7 +34,7 @@ pub enum Outcome {
     TiltLimit,
     /// Half a minute without getting anywhere.
     Stuck,
-    /// The planner stopped with a reason.
+    /// The navigator stopped with a reason.
     NoSubgoal,
     /// A wheel would have left the terrain.
     LeftTerrain,
@@ -74,14 +74,15 @@ pub enum TrialError {
     Config(String),
 }
 
-/// A running trial.
+/// A running trial, driven by this planner or by another navigator.
 #[derive(Clone, Debug)]
-pub struct Trial {
+pub struct Trial<N = Planner> {
     caster: Caster,
     sensor: Vlp16,
     scan: Scan,
     husky: Husky,
-    planner: Planner,
+    navigator: N,
+    decision: Decision,
     start: StartPose,
     goal_m: DVec2,
     seed: u64,
@@ -118,10 +119,59 @@ impl Trial {
         planner: PlannerConfig,
         seed: u64,
     ) -> Result<Self, TrialError> {
-        let config = |reason: &dyn std::fmt::Display| TrialError::Config(reason.to_string());
-        let planner = Planner::new(planner).map_err(|e| config(&e))?;
+        let planner = Planner::new(planner).map_err(|e| TrialError::Config(e.to_string()))?;
+        Self::with_navigator(field, scenario, planner, seed)
+    }
+
+    /// Changes the ground under way; the robot settles on it and forgets what it remembers of it. Gives the samples that changed.
+    ///
+    /// # Errors
+    /// [`TrialError::Config`] for a brush that makes no sense.
+    pub fn sculpt(&mut self, brush: &Brush) -> Result<Option<SampleRect>, TrialError> {
+        let changed = self.caster.sculpt(brush).map_err(|e| TrialError::Config(format!("brush.{e}")))?;
+        if changed.is_some() {
+            self.navigator.reset();
+        }
+        if self.husky.settle(self.caster.field()).is_err() {
+            self.outcome = Some(Outcome::LeftTerrain);
+        } else if self.outcome.is_some_and(|outcome| outcome != Outcome::Reached) {
+            self.resume();
+        }
+        Ok(changed)
+    }
+
+    /// What the last planner step saw and decided.
+    pub fn step(&self) -> Step<'_> {
+        self.navigator.last_step()
+    }
+
+    /// The reconstructed occupancy and the variance surface of the last planner step's scan.
+    ///
+    /// # Errors
+    /// [`GpError`] when there is no posterior.
+    pub fn predicted_surface(&mut self) -> Result<&PredictedSurface, GpError> {
+        self.navigator.predicted_surface()
+    }
+
+    /// The planner's configuration.
+    pub fn planner_config(&self) -> &PlannerConfig {
+        self.navigator.config()
+    }
+}
+
+impl<N: Navigator> Trial<N> {
+    /// Puts the scenario's robot on `field`, with `navigator` to drive it; the scenario's `[planner]` section is left unread.
+    ///
+    /// # Errors
+    /// [`TrialError`] for a start or goal off the terrain or a sensor or robot that makes no sense.
+    pub fn with_navigator(
+        field: HeightField,
+        scenario: &Scenario,
+        navigator: N,
+        seed: u64,
+    ) -> Result<Self, TrialError> {
         let sensor: SensorConfig = scenario.sensor.clone();
-        let sensor = Vlp16::new(sensor).map_err(|e| config(&e))?;
+        let sensor = Vlp16::new(sensor).map_err(|e| TrialError::Config(e.to_string()))?;
         let husky = place(&field, scenario.robot.clone(), scenario.start)?;
         on_terrain(&field, "goal", scenario.goal_m)?;
         let mut trial = Self {
@@ -131,7 +181,8 @@ impl Trial {
             scan: Scan::default(),
             anchor: (scenario.start.position_m, 0),
             husky,
-            planner,
+            navigator,
+            decision: Decision { status: Status::Looking, command: Command::STOP },
             start: scenario.start,
             goal_m: scenario.goal_m,
             seed,
@@ -161,15 +212,16 @@ impl Trial {
         self.sensor.scan(&self.caster, &sensor_pose, self.seed, self.tick, &mut self.scan);
     }
 
-    /// Lets the planner decide on the last scan.
-    pub fn plan(&mut self) -> Step<'_> {
+    /// Lets the navigator decide on the last scan.
+    pub fn plan(&mut self) -> Decision {
         let pose = self.pose();
-        self.planner.step(&self.scan.points, &pose, self.goal_m)
+        self.decision = self.navigator.navigate(&self.scan.points, &pose, self.goal_m);
+        self.decision
     }
 
     /// Moves the robot by the last decision until the next scan is due.
     pub fn act(&mut self) -> Option<Outcome> {
-        let Step { status, command, .. } = self.planner.last_step();
+        let Decision { status, command } = self.decision;
         self.outcome = match status {
             Status::Arrived => Some(Outcome::Reached),
             Status::Stopped(_) => Some(Outcome::NoSubgoal),
@@ -180,9 +232,9 @@ impl Trial {
         self.outcome
     }
 
-    fn drive(&mut self, command: mapless::Command) -> Option<Outcome> {
+    fn drive(&mut self, command: Command) -> Option<Outcome> {
         let command = DriveCommand { speed_m_s: command.linear_m_s, turn_rate_rad_s: command.angular_rad_s };
-        let dt_s = self.planner.config().period_s / f64::from(MOTION_STEPS);
+        let dt_s = self.navigator.period_s() / f64::from(MOTION_STEPS);
         for _ in 0..MOTION_STEPS {
             if let Err(error) = self.husky.step(command, dt_s, self.caster.field()) {
                 return Some(match error {
@@ -206,7 +258,7 @@ impl Trial {
     fn lost_patience(&mut self) -> Option<Outcome> {
         let (place, since) = self.anchor;
         let here = self.husky.state().position;
-        let period_s = self.planner.config().period_s;
+        let period_s = self.navigator.period_s();
         if (here - place).length() > STUCK_RADIUS_M {
             self.anchor = (here, self.tick);
         } else if (self.tick - since) as f64 * period_s > STUCK_AFTER_S {
@@ -217,7 +269,7 @@ impl Trial {
 
     fn allow_time(&mut self) {
         let straight = (self.goal_m - self.husky.state().position).length();
-        let speed = self.planner.config().controller.max_speed_m_s.min(self.husky.config().max_speed_m_s);
+        let speed = self.navigator.max_speed_m_s().min(self.husky.config().max_speed_m_s);
         self.time_limit_s = self.time_s() + BASE_TIME_LIMIT_S + STRAIGHT_TIMES * straight / speed;
     }
 
@@ -242,26 +294,9 @@ impl Trial {
         self.tick = 0;
         self.metrics = MetricsRecorder::new(sample_of(&self.husky));
         self.digest = TrajectoryDigest::default();
-        self.planner.reset();
+        self.navigator.reset();
         self.resume();
         Ok(())
-    }
-
-    /// Changes the ground under way; the robot settles on it and forgets what it remembers of it. Gives the samples that changed.
-    ///
-    /// # Errors
-    /// [`TrialError::Config`] for a brush that makes no sense.
-    pub fn sculpt(&mut self, brush: &Brush) -> Result<Option<SampleRect>, TrialError> {
-        let changed = self.caster.sculpt(brush).map_err(|e| TrialError::Config(format!("brush.{e}")))?;
-        if changed.is_some() {
-            self.planner.reset();
-        }
-        if self.husky.settle(self.caster.field()).is_err() {
-            self.outcome = Some(Outcome::LeftTerrain);
-        } else if self.outcome.is_some_and(|outcome| outcome != Outcome::Reached) {
-            self.resume();
-        }
-        Ok(changed)
     }
 
     /// Lets an ended trial go on, after a change.
@@ -276,30 +311,17 @@ impl Trial {
         self.outcome
     }
 
-    /// Why the planner stopped, where it did.
+    /// Why the navigator stopped, where it did.
     pub fn stop_reason(&self) -> Option<StopReason> {
-        match self.planner.last_step().status {
+        match self.decision.status {
             Status::Stopped(reason) => Some(reason),
             Status::Driving | Status::Arrived | Status::Looking => None,
         }
     }
 
-    /// What the last planner step saw and decided.
-    pub fn step(&self) -> Step<'_> {
-        self.planner.last_step()
-    }
-
-    /// The reconstructed occupancy and the variance surface of the last planner step's scan.
-    ///
-    /// # Errors
-    /// [`GpError`] when there is no posterior.
-    pub fn predicted_surface(&mut self) -> Result<&PredictedSurface, GpError> {
-        self.planner.predicted_surface()
-    }
-
-    /// The planner's configuration.
-    pub fn planner_config(&self) -> &PlannerConfig {
-        self.planner.config()
+    /// What drives the robot.
+    pub fn navigator(&self) -> &N {
+        &self.navigator
     }
 
     /// The last scan, in the sensor frame of the pose before the last motion.
@@ -362,7 +384,7 @@ impl Trial {
 
     /// Simulated time.
     pub fn time_s(&self) -> f64 {
-        self.tick as f64 * self.planner.config().period_s
+        self.tick as f64 * self.navigator.period_s()
     }
 
     /// The paper's metrics so far.

@@ -1,0 +1,53 @@
+//! What can drive the robot: the one interface that this planner and those it is compared with share.
+
+use glam::{DVec2, Vec3};
+
+use crate::controller::Command;
+use crate::planner::{Planner, Status};
+use crate::pose::Pose;
+
+/// What a navigator decided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decision {
+    /// Whether it drives, looks, has arrived or has stopped, and why.
+    pub status: Status,
+    /// The velocity command.
+    pub command: Command,
+}
+
+/// Something that drives a robot to a goal, asked once per period.
+///
+/// [`Planner`] knows only what it is given here. A navigator that knows more, as a map, gets it when it is made.
+pub trait Navigator {
+    /// One period: `points_m` are the scan's returns in the sensor frame, `pose` the robot's in the world, `goal_m` the
+    /// goal seen from above, in the world.
+    fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision;
+
+    /// Time between two calls, in seconds.
+    fn period_s(&self) -> f64;
+
+    /// The fastest it drives.
+    fn max_speed_m_s(&self) -> f64;
+
+    /// Forgets everything seen and driven.
+    fn reset(&mut self);
+}
+
+impl Navigator for Planner {
+    fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision {
+        let step = self.step(points_m, pose, goal_m);
+        Decision { status: step.status, command: step.command }
+    }
+
+    fn period_s(&self) -> f64 {
+        self.config().period_s
+    }
+
+    fn max_speed_m_s(&self) -> f64 {
+        self.config().controller.max_speed_m_s
+    }
+
+    fn reset(&mut self) {
+        Planner::reset(self);
+    }
+}
