@@ -8,7 +8,7 @@ use mapless::learning::{Learned, Learner, LearningConfig, Optimiser};
 use crate::gpflow;
 
 /// The digest of what L-BFGS and Adam learn in twenty evaluations, with every inducing input free.
-pub const RECORDED: u64 = 15_962_657_902_025_265_521;
+pub const RECORDED: u64 = 17_714_151_122_878_875_295;
 
 /// Learns with both and gives the digest.
 ///

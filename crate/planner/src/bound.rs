@@ -18,10 +18,11 @@ use core::f64::consts::TAU;
 
 use glam::DVec2;
 
+use crate::cholesky::{NotPositiveDefinite, cholesky};
 use crate::hyperparameters::{Hyperparameters, LogGradient, RegressionError, check_data, check_points};
 use crate::kernel::RationalQuadratic;
 use crate::kernel_panels::KernelSums;
-use crate::linalg::{self, NotPositiveDefinite};
+use crate::linalg;
 use crate::panels::{self, WIDTH, total};
 use crate::projection::Projection;
 use crate::sparse_gp::GpError;
@@ -106,7 +107,8 @@ impl CollapsedBound {
             self.l_b[i * m + i] += 1.0;
         }
         copy(&self.l_b, &mut self.reduction);
-        linalg::cholesky(&mut self.l_b, m).map_err(|NotPositiveDefinite| overflow())?;
+        panels::mirror_lower(&mut self.reduction, m);
+        cholesky(&mut self.l_b, m, &mut self.projection.panel).map_err(|NotPositiveDefinite| overflow())?;
         linalg::solve_lower_vector(&self.l_b, m, &mut self.c);
 
         let half_log_det_b: f64 = (0..m).map(|i| libm::log(self.l_b[i * m + i])).sum();

@@ -9,8 +9,9 @@ use core::f64::consts::TAU;
 
 use glam::DVec2;
 
+use crate::cholesky::{NotPositiveDefinite, cholesky};
 use crate::hyperparameters::{Hyperparameters, LogGradient, RegressionError, check_data};
-use crate::linalg::{self, NotPositiveDefinite};
+use crate::linalg;
 use crate::panels;
 
 /// A fitted exact posterior.
@@ -46,7 +47,7 @@ impl ExactGp {
             l[i * n + i] += noise_variance;
         }
         let ill_conditioned = RegressionError::IllConditioned { inputs: n, noise_variance };
-        linalg::cholesky(&mut l, n).map_err(|NotPositiveDefinite| ill_conditioned.clone())?;
+        cholesky(&mut l, n, &mut Vec::new()).map_err(|NotPositiveDefinite| ill_conditioned.clone())?;
         let mut weights = targets.to_vec();
         linalg::solve_lower_vector(&l, n, &mut weights);
         linalg::solve_lower_transposed_vector(&l, n, &mut weights);

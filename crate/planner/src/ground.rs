@@ -84,27 +84,19 @@ impl Ground {
     }
 
     fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
-        let mut count = 0;
-        let mut centroid = DVec3::ZERO;
-        self.each_cell_near(place_m, radius_m, |mean| {
-            count += 1;
-            centroid += mean;
-        });
-        if count < FEWEST_CELLS {
+        let moments = self.moments_near(place_m, radius_m);
+        if moments.count < FEWEST_CELLS {
             return None;
         }
-        centroid /= count as f64;
-
-        let (mut xx, mut xy, mut yy, mut xz, mut yz, mut zz) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        self.each_cell_near(place_m, radius_m, |mean| {
-            let d = mean - centroid;
-            xx += d.x * d.x;
-            xy += d.x * d.y;
-            yy += d.y * d.y;
-            xz += d.x * d.z;
-            yz += d.y * d.z;
-            zz += d.z * d.z;
-        });
+        let count = moments.count as f64;
+        let centroid = moments.sum / count;
+        let central = |square: f64, a: f64, b: f64| square - a * b * count;
+        let xx = central(moments.xx, centroid.x, centroid.x);
+        let xy = central(moments.xy, centroid.x, centroid.y);
+        let yy = central(moments.yy, centroid.y, centroid.y);
+        let xz = central(moments.xz, centroid.x, centroid.z);
+        let yz = central(moments.yz, centroid.y, centroid.z);
+        let zz = central(moments.zz, centroid.z, centroid.z);
         let spread = Matrix2::new(xx, xy, xy, yy);
         let least_spread = spread.symmetric_eigenvalues().min();
         // Cells in a line, such as those of a single ring, say nothing of the slope across it.
@@ -114,33 +106,75 @@ impl Ground {
         }
         let solved = spread.cholesky()?.solve(&Vector2::new(xz, yz));
         let gradient = DVec2::new(solved.x, solved.y);
-        let residual = (zz - gradient.x * xz - gradient.y * yz).max(0.0) / (count - 2) as f64;
+        let residual = (zz - gradient.x * xz - gradient.y * yz).max(0.0) / (moments.count - 2) as f64;
         Some(Plane {
-            height_m: centroid.z + gradient.dot(place_m - centroid.truncate()),
+            height_m: moments.datum_m + centroid.z - gradient.dot(centroid.truncate()),
             gradient,
             gradient_deviation: (residual.max(least_variance) / least_spread).sqrt(),
         })
     }
 
-    fn each_cell_near(&self, place_m: DVec2, radius_m: f64, mut visit: impl FnMut(DVec3)) {
+    /// Moments of the fresh cells whose mean is within `radius_m` of a place.
+    fn moments_near(&self, place_m: DVec2, radius_m: f64) -> Moments {
         let reach = DVec2::splat(radius_m);
         let (low, high) = (self.index_of(place_m - reach), self.index_of(place_m + reach));
+        let mut moments = Moments::default();
         for y in low.y..=high.y {
+            let row = &self.cells[slot_of(IVec2::new(0, y))..][..SIDE];
             for x in low.x..=high.x {
-                let index = IVec2::new(x, y);
-                let Some(cell) = self.cells[slot_of(index)] else { continue };
+                let Some(cell) = &row[slot_of(IVec2::new(x, 0))] else { continue };
                 let fresh = self.tick - cell.seen_tick <= self.config.memory_ticks;
-                let near = (cell.mean_m.truncate() - place_m).length_squared() <= radius_m * radius_m;
-                if cell.index == index && fresh && near {
-                    visit(cell.mean_m);
+                let from_place = cell.mean_m.truncate() - place_m;
+                let near = from_place.length_squared() <= radius_m * radius_m;
+                if cell.index == IVec2::new(x, y) && fresh && near {
+                    moments.add(from_place, cell.mean_m.z);
                 }
             }
         }
+        moments
     }
 
     fn index_of(&self, place_m: DVec2) -> IVec2 {
-        (place_m / self.config.cell_m).floor().as_ivec2()
+        let cells = place_m / self.config.cell_m;
+        IVec2::new(floor(cells.x), floor(cells.y))
     }
+}
+
+/// Sums over cells, about the place asked for and the height of the first cell.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    count: usize,
+    datum_m: f64,
+    sum: DVec3,
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    xz: f64,
+    yz: f64,
+    zz: f64,
+}
+
+impl Moments {
+    fn add(&mut self, from_place: DVec2, height_m: f64) {
+        if self.count == 0 {
+            self.datum_m = height_m;
+        }
+        self.count += 1;
+        let d = from_place.extend(height_m - self.datum_m);
+        self.sum += d;
+        self.xx += d.x * d.x;
+        self.xy += d.x * d.y;
+        self.yy += d.y * d.y;
+        self.xz += d.x * d.z;
+        self.yz += d.y * d.z;
+        self.zz += d.z * d.z;
+    }
+}
+
+/// The largest whole number not above a finite `value`. (`f64::floor` is a call where the processor's own is not assumed.)
+fn floor(value: f64) -> i32 {
+    let towards_zero = value as i32;
+    towards_zero.saturating_sub(i32::from(value < f64::from(towards_zero)))
 }
 
 fn slot_of(index: IVec2) -> usize {

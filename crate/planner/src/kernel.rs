@@ -43,6 +43,11 @@ impl RationalQuadratic {
         self.variance * libm::pow(base, -self.alpha)
     }
 
+    /// The distance in length-scales beyond which a covariance is less than this share of the variance.
+    pub(crate) fn reach(&self, share: f64) -> f64 {
+        (2.0 * self.alpha * (libm::pow(share, -1.0 / self.alpha) - 1.0)).sqrt()
+    }
+
     /// γ as a whole number, for which no logarithm is needed.
     pub(crate) fn whole_alpha(&self) -> Option<u32> {
         (self.alpha <= 64.0 && self.alpha.fract() == 0.0).then_some(self.alpha as u32)

@@ -41,6 +41,14 @@ impl ScaledPanels {
         WIDTH.min(self.count - panel * WIDTH)
     }
 
+    /// The least and the greatest scaled azimuth of a panel.
+    pub(crate) fn azimuths(&self, panel: usize) -> (f64, f64) {
+        let azimuths = &self.panels[panel][0][..self.columns(panel)];
+        azimuths
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), &x| (x.min(least), x.max(most)))
+    }
+
     /// Writes the covariances of `points` (already scaled) with one panel of inputs; zero beyond the last input.
     pub(crate) fn covariances(
         &self,

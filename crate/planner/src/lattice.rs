@@ -14,8 +14,9 @@
 
 use core::ops::Range;
 
+use crate::cholesky::{NotPositiveDefinite, cholesky};
 use crate::config::PerceptionConfig;
-use crate::linalg::{self, NotPositiveDefinite};
+use crate::linalg;
 use crate::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface, RING_STEP_RAD, RINGS};
 use crate::panels::{self, Row, WIDTH};
 use crate::perception::{REACH_LENGTH_SCALES, ROW_STEP_RAD, ROWS, ROWS_PER_RING, SECTOR_COLUMNS, SECTORS};
@@ -261,7 +262,7 @@ impl LatticeGp {
         }
         self.l.resize(m * m, 0.0);
         self.s.resize(m * m, 0.0);
-        let Self { l, s, window, positions, rows, covariances, stride_columns, .. } = self;
+        let Self { l, s, window, positions, rows, covariances, stride_columns, prior, .. } = self;
         self.jitter = with_rising_jitter(m, |jitter| {
             for (i, row) in l.chunks_exact_mut(m).enumerate() {
                 let here = window.start + i;
@@ -273,7 +274,7 @@ impl LatticeGp {
                 row[i] += jitter;
             }
             s.copy_from_slice(l);
-            linalg::cholesky(l, m)
+            cholesky(l, m, prior)
         })?;
         let inverse_noise = 1.0 / self.noise_variance;
         for (i, row) in self.s.chunks_exact_mut(m).enumerate() {
@@ -285,7 +286,7 @@ impl LatticeGp {
                 *value += product * inverse_noise;
             }
         }
-        linalg::cholesky(&mut self.s, m)
+        cholesky(&mut self.s, m, &mut self.prior)
             .map_err(|NotPositiveDefinite| GpError::IllConditioned { inducing: m, jitter: self.jitter })?;
         Ok(true)
     }
@@ -304,8 +305,8 @@ impl LatticeGp {
             let begin = self.posterior.len();
             self.posterior.extend_from_slice(&self.prior);
             let posterior = &mut self.posterior[begin..];
-            panels::solve_lower(&self.l, &mut self.prior);
-            panels::solve_lower(&self.s, posterior);
+            panels::solve_lower(&self.l, 0, &mut self.prior);
+            panels::solve_lower(&self.s, 0, posterior);
             let mut sums = [self.signal_variance; WIDTH];
             for (t, s) in self.prior.iter().zip(posterior.iter()) {
                 for lane in 0..WIDTH {

@@ -39,6 +39,7 @@
 pub mod angle;
 mod ascent;
 pub mod bound;
+mod cholesky;
 pub mod config;
 pub mod controller;
 pub mod cost;
@@ -63,6 +64,7 @@ mod planner;
 pub mod pose;
 pub mod profile;
 mod projection;
+mod reduction;
 mod sectors;
 pub mod segments;
 pub mod sparse_gp;

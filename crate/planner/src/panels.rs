@@ -19,40 +19,50 @@ pub(crate) fn total(row: &Row) -> f64 {
 }
 
 /// Rows handled together.
-const TALL: usize = 4;
+pub(crate) const TALL: usize = 4;
 
-/// Solves L X = P in place for lower triangular `l` (n × n, row by row) and one panel of n rows.
+/// Solves L X = P in place for lower triangular `l` (n × n, row by row) and one panel of n rows, of which those before
+/// `first` are zero.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
-pub(crate) fn solve_lower(l: &[f64], panel: &mut [Row]) {
+pub(crate) fn solve_lower(l: &[f64], first: usize, panel: &mut [Row]) {
     let n = panel.len();
-    let full = n - n % TALL;
-    for i in (0..full).step_by(TALL) {
-        solve_rows::<TALL>(l, panel, i);
+    let full = n - (n - first) % TALL;
+    for i in (first..full).step_by(TALL) {
+        solve_rows::<TALL>(l, n, first, panel, i);
     }
     for i in full..n {
-        solve_rows::<1>(l, panel, i);
+        solve_rows::<1>(l, n, first, panel, i);
     }
 }
 
+/// Solves L X = P in place for a panel of a multiple of [`TALL`] rows, where L leads the rows of `l`, of length `n`.
 #[inline(always)]
-fn solve_rows<const R: usize>(l: &[f64], panel: &mut [Row], first: usize) {
-    let n = panel.len();
-    let (solved, rest) = panel.split_at_mut(first);
-    let factors: [&[f64]; R] = core::array::from_fn(|r| &l[(first + r) * n..(first + r) * n + first + r + 1]);
+pub(crate) fn solve_leading(l: &[f64], n: usize, panel: &mut [Row]) {
+    for i in (0..panel.len()).step_by(TALL) {
+        solve_rows::<TALL>(l, n, 0, panel, i);
+    }
+}
+
+/// Solves the R rows from `at` on; the rows of `l` have length `n`.
+#[inline(always)]
+fn solve_rows<const R: usize>(l: &[f64], n: usize, first: usize, panel: &mut [Row], at: usize) {
+    let (solved, rest) = panel.split_at_mut(at);
+    let factors: [&[f64]; R] = core::array::from_fn(|r| &l[(at + r) * n + first..(at + r) * n + at + r + 1]);
     let mut sums = [[0.0; WIDTH]; R];
-    accumulate(&factors, solved, &mut sums);
+    accumulate(&factors, &solved[first..], &mut sums);
     for r in 0..R {
         let mut row = rest[r];
         for lane in 0..WIDTH {
             row[lane] -= sums[r][lane];
         }
-        for (above, factor) in rest[..r].iter().zip(&factors[r][first..]) {
+        let (beside, pivot) = factors[r][at - first..].split_at(r);
+        for (above, factor) in rest[..r].iter().zip(beside) {
             for lane in 0..WIDTH {
                 row[lane] -= factor * above[lane];
             }
         }
         for value in &mut row {
-            *value /= factors[r][first + r];
+            *value /= pivot[0];
         }
         rest[r] = row;
     }
@@ -60,7 +70,7 @@ fn solve_rows<const R: usize>(l: &[f64], panel: &mut [Row], first: usize) {
 
 /// Adds the products of R rows of factors with the rows of `panel` to `sums`.
 #[inline(always)]
-fn accumulate<const R: usize>(factors: &[&[f64]; R], panel: &[Row], sums: &mut [Row; R]) {
+pub(crate) fn accumulate<const R: usize>(factors: &[&[f64]; R], panel: &[Row], sums: &mut [Row; R]) {
     let factors: [&[f64]; R] = core::array::from_fn(|r| &factors[r][..panel.len()]);
     let mut local = *sums;
     for (j, row) in panel.iter().enumerate() {
@@ -97,15 +107,16 @@ pub(crate) fn multiply(matrix: &[f64], panel: &[Row], out: &mut [Row]) {
 /// four rows fit the first-level cache, a few hundred rows the second.
 pub(crate) const BLOCK_COLUMNS: usize = 256;
 
-/// Adds B Bᵀ to the lower triangle of `out` (n × n), where B is `block`: n rows of [`BLOCK_COLUMNS`].
+/// Adds B Bᵀ to the lower triangle of `out` (n × n), where B is `block`: n rows of [`BLOCK_COLUMNS`], of which those before
+/// `from`, a multiple of [`WIDTH`], are zero.
 ///
 /// Some values above the diagonal are written too; [`mirror_lower`] puts them right.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
-pub(crate) fn add_outer_product(block: &[f64], n: usize, out: &mut [f64]) {
+pub(crate) fn add_outer_product(block: &[f64], n: usize, from: usize, out: &mut [f64]) {
     let (rows, _) = block.as_chunks::<BLOCK_COLUMNS>();
     let full = n - n % TALL;
     let mut panel = [[0.0; WIDTH]; BLOCK_COLUMNS];
-    for first in (0..n).step_by(WIDTH) {
+    for first in (from..n).step_by(WIDTH) {
         let columns = WIDTH.min(n - first);
         for (lane, row) in rows[first..first + columns].iter().enumerate() {
             for (transposed, value) in panel.iter_mut().zip(row) {
@@ -131,8 +142,9 @@ fn products<const R: usize>(rows: &[[f64; BLOCK_COLUMNS]], first: usize, panel: 
     sums
 }
 
+/// Adds a tile to the rows from `first_row` on and some columns of `out` (n × n).
 #[inline(always)]
-fn add_tile(tile: &[Row], first_row: usize, columns: Range<usize>, n: usize, out: &mut [f64]) {
+pub(crate) fn add_tile(tile: &[Row], first_row: usize, columns: Range<usize>, n: usize, out: &mut [f64]) {
     for (row, out) in tile.iter().zip(out[first_row * n..].chunks_exact_mut(n)) {
         for (value, sum) in out[columns.clone()].iter_mut().zip(row) {
             *value += sum;
@@ -167,7 +179,7 @@ pub(crate) fn solve_transposed(reversed: &[f64], n: usize, matrix: &mut [f64], p
         for (row, values) in panel.iter_mut().rev().zip(matrix.chunks_exact(n)) {
             row[..columns].copy_from_slice(&values[first..first + columns]);
         }
-        solve_lower(reversed, panel);
+        solve_lower(reversed, 0, panel);
         for (row, values) in panel.iter().rev().zip(matrix.chunks_exact_mut(n)) {
             values[first..first + columns].copy_from_slice(&row[..columns]);
         }
@@ -184,9 +196,9 @@ pub(crate) fn invert(l: &[f64], n: usize, inverse: &mut [f64], reversed: &mut [f
         for lane in 0..columns {
             panel[first + lane][lane] = 1.0;
         }
-        solve_lower(l, panel);
+        solve_lower(l, first, panel);
         panel.reverse();
-        solve_lower(reversed, panel);
+        solve_lower(reversed, 0, panel);
         for (row, values) in panel.iter().rev().zip(inverse.chunks_exact_mut(n)) {
             values[first..first + columns].copy_from_slice(&row[..columns]);
         }
@@ -236,7 +248,7 @@ mod tests {
             let na_panel = DMatrix::from_row_slice(n, WIDTH, panel.as_flattened());
 
             let mut solved = panel.clone();
-            solve_lower(&l, &mut solved);
+            solve_lower(&l, 0, &mut solved);
             let na_solved = na_l.solve_lower_triangular(&na_panel).unwrap();
             prop_assert!((DMatrix::from_row_slice(n, WIDTH, solved.as_flattened()) - na_solved).amax() < 1e-10);
 
@@ -263,8 +275,8 @@ mod tests {
             let block: Vec<f64> = (0..n * BLOCK_COLUMNS).map(|k| m[k * 7 % (n * n)]).collect();
             let na_block = DMatrix::from_row_slice(n, BLOCK_COLUMNS, &block);
             let mut outer = vec![0.0; n * n];
-            add_outer_product(&block, n, &mut outer);
-            add_outer_product(&block, n, &mut outer);
+            add_outer_product(&block, n, 0, &mut outer);
+            add_outer_product(&block, n, 0, &mut outer);
             mirror_lower(&mut outer, n);
             let na_outer = 2.0 * &na_block * na_block.transpose();
             prop_assert!((DMatrix::from_row_slice(n, n, &outer) - na_outer).amax() < 1e-11);

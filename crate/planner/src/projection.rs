@@ -4,12 +4,16 @@
 
 use glam::DVec2;
 
+use crate::cholesky::cholesky;
 use crate::hyperparameters::Hyperparameters;
 use crate::kernel::RationalQuadratic;
 use crate::kernel_panels::{ScaledPanels, scale};
 use crate::linalg;
 use crate::panels::{self, BLOCK_COLUMNS, Row, WIDTH};
 use crate::sparse_gp::{GpError, with_rising_jitter};
+
+/// Covariances below this share of the variance are taken for zero.
+pub(crate) const NEGLIGIBLE_SHARE: f64 = 1e-12;
 
 /// The projection with its workspace; a second one of the same size allocates nothing.
 #[derive(Clone, Debug, Default)]
@@ -24,7 +28,7 @@ pub(crate) struct Projection {
     /// K_uu without jitter, m × m, as are the next two.
     pub(crate) k_uu: Vec<f64>,
     pub(crate) l: Vec<f64>,
-    /// A Aᵀ.
+    /// A Aᵀ; above the diagonal only for who mirrors it.
     pub(crate) aat: Vec<f64>,
     /// A in panels, m rows each.
     pub(crate) a: Vec<Row>,
@@ -89,13 +93,13 @@ impl Projection {
                 row[columns.clone()].copy_from_slice(&values[..columns.len()]);
             }
         }
-        let Self { l, k_uu, .. } = self;
+        let Self { l, k_uu, panel, .. } = self;
         self.jitter = with_rising_jitter(m, |jitter| {
             l.copy_from_slice(k_uu);
             for i in 0..m {
                 l[i * m + i] += jitter;
             }
-            linalg::cholesky(l, m)
+            cholesky(l, m, panel)
         })?;
         Ok(())
     }
@@ -107,9 +111,17 @@ impl Projection {
         self.aat.fill(0.0);
         self.c.fill(0.0);
         let block_panels = BLOCK_COLUMNS / WIDTH;
+        let reach = kernel.reach(NEGLIGIBLE_SHARE);
+        // Rows before this are zero in the whole block.
+        let mut block_first = m;
         for (index, rows) in self.a.chunks_exact_mut(m).enumerate() {
-            self.input_panels.covariances(kernel, &self.points, index, rows);
-            panels::solve_lower(&self.l, rows);
+            // Many where both are in ascending order of azimuth, few where they are not.
+            let before = self.input_panels.azimuths(index).0 - reach;
+            let first = self.points.iter().take_while(|point| point.x < before).count() / WIDTH * WIDTH;
+            rows[..first].fill([0.0; WIDTH]);
+            self.input_panels.covariances(kernel, &self.points[first..], index, &mut rows[first..]);
+            panels::solve_lower(&self.l, first, rows);
+            block_first = block_first.min(first);
             let in_block = index % block_panels;
             for (row, line) in rows.iter_mut().zip(self.block.chunks_exact_mut(BLOCK_COLUMNS)) {
                 for value in row.iter_mut() {
@@ -124,7 +136,8 @@ impl Projection {
             for line in self.block.chunks_exact_mut(BLOCK_COLUMNS) {
                 line[(in_block + 1) * WIDTH..].fill(0.0);
             }
-            panels::add_outer_product(&self.block, m, &mut self.aat);
+            panels::add_outer_product(&self.block, m, block_first, &mut self.aat);
+            block_first = m;
             let targets = self.target_panels[index - in_block..=index].as_flattened();
             for (line, c) in self.block.chunks_exact(BLOCK_COLUMNS).zip(&mut self.c) {
                 let mut partial = [0.0];
@@ -132,6 +145,5 @@ impl Projection {
                 *c += inverse_deviation * partial[0];
             }
         }
-        panels::mirror_lower(&mut self.aat, m);
     }
 }

@@ -2,16 +2,20 @@
 //!
 //! With inducing inputs Z (m), training inputs X (n), targets y and noise variance σₙ²:
 //! L Lᵀ = K_uu + jitter I, A = L⁻¹ K_uf / σₙ, L_B L_Bᵀ = I + A Aᵀ, c = L_B⁻¹ A y / σₙ. At a test input with
-//! covariances k_u*: t = L⁻¹ k_u*, s = L_B⁻¹ t, mean = sᵀ c, variance = k_** - tᵀ t + sᵀ s.
-//! Fitting costs O(n m²), a prediction O(m²).
+//! covariances k_u*: t = L⁻¹ k_u*, s = L_B⁻¹ t, mean = sᵀ c, variance = k_** - tᵀ t + sᵀ s. What does not depend on the test
+//! input is computed once: mean = wᵀ k_u* with w = L⁻ᵀ L_B⁻ᵀ c, variance = k_** - k_u*ᵀ W k_u* ([`crate::reduction`]).
+//! Fitting costs O(n m²), a prediction O(m²). Everything is sorted by azimuth, so that what is out of the kernel's reach costs
+//! nothing.
 
 use glam::DVec2;
 
+use crate::cholesky::{NotPositiveDefinite, cholesky};
 use crate::hyperparameters::Hyperparameters;
 use crate::kernel::RationalQuadratic;
-use crate::linalg::{self, NotPositiveDefinite};
-use crate::panels::{self, Row, WIDTH};
-use crate::projection::Projection;
+use crate::linalg;
+use crate::panels::{Row, WIDTH};
+use crate::projection::{NEGLIGIBLE_SHARE, Projection};
+use crate::reduction::Reduction;
 
 /// Why a fit gave no posterior.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -39,6 +43,9 @@ pub enum GpError {
 const FIRST_JITTER: f64 = 1e-6;
 const LAST_JITTER: f64 = 1e-2;
 
+/// Covariances below this share of the variance count as zero in the form kᵀ W k, where they meet factors as small as they are.
+const NEGLIGIBLE_IN_VARIANCE: f64 = 1e-8;
+
 /// Tries to `factor` the covariance of `inducing` inputs with ever more jitter on its diagonal; gives the jitter that did.
 pub(crate) fn with_rising_jitter(
     inducing: usize,
@@ -58,10 +65,18 @@ pub(crate) fn with_rising_jitter(
 #[derive(Clone, Debug)]
 pub struct SparseGp {
     hyperparameters: Hyperparameters,
+    /// The last fit's data, in ascending order of azimuth.
+    data: Vec<(DVec2, f64)>,
+    inputs: Vec<DVec2>,
+    targets: Vec<f64>,
+    inducing: Vec<DVec2>,
     projection: Projection,
     /// L_B, m × m.
     l_b: Vec<f64>,
-    c: Vec<f64>,
+    /// w.
+    weights: Vec<f64>,
+    /// W.
+    reduction: Reduction,
     panel: Vec<Row>,
 }
 
@@ -70,9 +85,14 @@ impl SparseGp {
     pub fn new(kernel: RationalQuadratic, noise_variance: f64) -> Self {
         Self {
             hyperparameters: Hyperparameters { kernel, noise_variance },
+            data: Vec::new(),
+            inputs: Vec::new(),
+            targets: Vec::new(),
+            inducing: Vec::new(),
             projection: Projection::default(),
             l_b: Vec::new(),
-            c: Vec::new(),
+            weights: Vec::new(),
+            reduction: Reduction::default(),
             panel: Vec::new(),
         }
     }
@@ -98,42 +118,68 @@ impl SparseGp {
             return Err(GpError::NoInducingInputs);
         }
         let m = inducing.len();
-        self.projection.project(inputs, targets, inducing, &self.hyperparameters)?;
+        self.sort(inputs, targets, inducing);
+        self.projection.project(&self.inputs, &self.targets, &self.inducing, &self.hyperparameters)?;
         self.l_b.clone_from(&self.projection.aat);
         for i in 0..m {
             self.l_b[i * m + i] += 1.0;
         }
-        linalg::cholesky(&mut self.l_b, m)
+        cholesky(&mut self.l_b, m, &mut self.panel)
             .map_err(|NotPositiveDefinite| GpError::IllConditioned { inducing: m, jitter: self.jitter() })?;
-        self.c.clone_from(&self.projection.c);
-        linalg::solve_lower_vector(&self.l_b, m, &mut self.c);
+        self.weights.clone_from(&self.projection.c);
+        linalg::solve_lower_vector(&self.l_b, m, &mut self.weights);
+        linalg::solve_lower_transposed_vector(&self.l_b, m, &mut self.weights);
+        linalg::solve_lower_transposed_vector(&self.projection.l, m, &mut self.weights);
+        self.reduction.set(&self.projection.l, &self.l_b, m, &mut self.panel);
         Ok(())
+    }
+
+    fn sort(&mut self, inputs: &[DVec2], targets: &[f64], inducing: &[DVec2]) {
+        let in_order = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+        self.data.clear();
+        self.data.extend(inputs.iter().copied().zip(targets.iter().copied()));
+        // What still compares equal has the same bits, so their order has no meaning.
+        self.data.sort_unstable_by(|(a, y), (b, z)| in_order(a, b).then(y.total_cmp(z)));
+        self.inputs.clear();
+        self.inputs.extend(self.data.iter().map(|(input, _)| *input));
+        self.targets.clear();
+        self.targets.extend(self.data.iter().map(|(_, target)| *target));
+        self.inducing.clear();
+        self.inducing.extend_from_slice(inducing);
+        self.inducing.sort_unstable_by(in_order);
     }
 
     /// Predictive mean and variance of the latent function at `inputs`, added to no noise.
     pub fn predict(&mut self, inputs: &[DVec2], mean: &mut [f64], variance: &mut [f64]) {
         let kernel = &self.hyperparameters.kernel;
-        let Projection { points, input_panels, l, .. } = &mut self.projection;
+        let Projection { points, input_panels, .. } = &mut self.projection;
         input_panels.set(inputs, kernel);
-        self.panel.resize(points.len(), [0.0; WIDTH]);
+        let m = points.len();
+        self.panel.resize(m, [0.0; WIDTH]);
+        let distance = kernel.reach(NEGLIGIBLE_SHARE);
+        let near_distance = kernel.reach(NEGLIGIBLE_IN_VARIANCE);
         for (index, (mean, variance)) in mean.chunks_mut(WIDTH).zip(variance.chunks_mut(WIDTH)).enumerate() {
-            input_panels.covariances(kernel, points, index, &mut self.panel);
-            let (mut means, mut variances) = ([0.0; WIDTH], [kernel.variance; WIDTH]);
-            panels::solve_lower(l, &mut self.panel);
-            for t in &self.panel {
+            let (least, most) = input_panels.azimuths(index);
+            let within = |distance: f64| {
+                points.partition_point(|point| point.x < least - distance)
+                    ..points.partition_point(|point| point.x <= most + distance)
+            };
+            let reach = within(distance);
+            let near = within(near_distance);
+            let covariances = &mut self.panel[reach.clone()];
+            input_panels.covariances(kernel, &points[reach.clone()], index, covariances);
+            let mut means = [0.0; WIDTH];
+            for (row, weight) in covariances.iter().zip(&self.weights[reach.clone()]) {
                 for lane in 0..WIDTH {
-                    variances[lane] -= t[lane] * t[lane];
+                    means[lane] += row[lane] * weight;
                 }
             }
-            panels::solve_lower(&self.l_b, &mut self.panel);
-            for (s, c) in self.panel.iter().zip(&self.c) {
-                for lane in 0..WIDTH {
-                    variances[lane] += s[lane] * s[lane];
-                    means[lane] += s[lane] * c;
-                }
-            }
+            let from = near.start - reach.start;
+            let reductions = self.reduction.of(&covariances[from..from + near.len()], near, m);
             mean.copy_from_slice(&means[..mean.len()]);
-            variance.copy_from_slice(&variances[..variance.len()]);
+            for (variance, reduction) in variance.iter_mut().zip(reductions) {
+                *variance = kernel.variance - reduction;
+            }
         }
     }
 }
