@@ -29,14 +29,17 @@ impl<'a> Fan<'a> {
     pub(crate) fn new(caster: &'a Caster, pose: &SensorPose, sin_azimuth: f64, cos_azimuth: f64) -> Self {
         let frame = &pose.world_from_sensor;
         let up = frame.z_axis;
+        let ahead = frame.x_axis * cos_azimuth + frame.y_axis * sin_azimuth;
         let is_gentle = up.z > caster.pyramid.steepest() * up.truncate().length();
+        let is_finite = pose.position.is_finite() && ahead.is_finite() && up.is_finite();
         Self {
             caster,
             origin: pose.position,
-            ahead: frame.x_axis * cos_azimuth + frame.y_axis * sin_azimuth,
+            ahead,
             up,
-            can_skip: is_gentle && caster.field.contains(pose.position.truncate()),
-            free_m: 0.0,
+            can_skip: !is_finite || is_gentle && caster.field.contains(pose.position.truncate()),
+            // Rays that are no rays meet nothing.
+            free_m: if is_finite { 0.0 } else { f64::INFINITY },
         }
     }
 
@@ -45,7 +48,7 @@ impl<'a> Fan<'a> {
     pub(crate) fn cast(&mut self, sin_elevation: f64, cos_elevation: f64, max_range_m: f64) -> Option<f64> {
         let direction = self.ahead * cos_elevation + self.up * sin_elevation;
         let begin_m = if self.can_skip { (self.free_m / cos_elevation - SLACK_M).max(0.0) } else { 0.0 };
-        if begin_m >= max_range_m {
+        if begin_m >= max_range_m || max_range_m.is_nan() {
             return None;
         }
         let (range_m, free_m) = match self.caster.trace(self.origin, direction, begin_m, max_range_m) {

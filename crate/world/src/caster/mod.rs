@@ -1,9 +1,10 @@
 //! Exact ray casting against the bilinear height field.
 //!
-//! A ray walks over the plan view of a pyramid of highest points (Tevs, Ihrke and Seidel, "Maximum mipmaps for fast,
-//! accurate, and scalable dynamic height field rendering", 2008). A node that lies wholly below the ray is skipped in one
-//! step; in a single cell the meeting with the bilinear patch is the first root of a quadratic. A ray starts above
-//! the ground and must cross it from above, so the lowest points of the nodes would decide nothing and are not kept.
+//! A ray walks over the plan view of a pyramid like that of Tevs, Ihrke and Seidel ("Maximum mipmaps for fast, accurate, and
+//! scalable dynamic height field rendering", 2008), but of planes instead of highest points: over a node whose plane lies
+//! wholly below the ray it goes in one step, otherwise down to the plane, and on with a finer node from there. In a single
+//! cell the meeting with the bilinear patch is the first root of a quadratic. A ray starts above the ground and must
+//! cross it from above, so planes below the ground would decide nothing.
 
 mod fan;
 mod patch;
@@ -13,7 +14,7 @@ use crate::config::ConfigError;
 use crate::height_field::HeightField;
 use crate::sculpt::{Brush, SampleRect};
 use glam::DVec3;
-use pyramid::Pyramid;
+use pyramid::{Plane, Pyramid, shift};
 
 pub(crate) use fan::Fan;
 
@@ -40,18 +41,12 @@ struct GridRay {
 enum Trace {
     /// The ground, at this distance in metres.
     Ground(f64),
-    /// Nothing up to this distance in metres, where the stretch, the terrain or all chance of ground ends.
+    /// Nothing up to this distance in metres, where the stretch or the terrain ends; it is infinite for a ray that has risen
+    /// above all ground.
     Nothing(f64),
 }
 
-/// Where a ray stands: parameter, cell, and level of the hierarchy.
-struct Cursor {
-    t: f64,
-    cell: [usize; 2],
-    level: usize,
-}
-
-/// The level at which a walk begins: rays begin close above the ground, where large nodes are never clear.
+/// The level at which a walk begins: rays begin close above the ground, where large nodes are seldom clear.
 const FIRST_LEVEL: usize = 1;
 
 impl Caster {
@@ -93,16 +88,27 @@ impl Caster {
     /// sees it from outside, but not through the cut below its border; a non-finite ray has no return.
     #[must_use]
     pub fn cast(&self, origin: DVec3, direction: DVec3, max_range_m: f64) -> Option<f64> {
+        if !(origin.is_finite() && direction.is_finite() && max_range_m >= 0.0) {
+            return None;
+        }
         match self.trace(origin, direction, 0.0, max_range_m) {
             Trace::Ground(range_m) => Some(range_m),
             Trace::Nothing(_) => None,
         }
     }
 
-    /// The first ground on a ray from `begin_m` to `end_m`; before `begin_m` the ray must be known to be free.
+    /// The first ground on a finite ray from `begin_m` to `end_m`; before `begin_m` the ray must be known to be free.
     fn trace(&self, origin: DVec3, direction: DVec3, begin_m: f64, end_m: f64) -> Trace {
-        if !(origin.is_finite() && direction.is_finite() && end_m >= begin_m) {
-            return Trace::Nothing(begin_m);
+        let (mut begin, mut end) = (begin_m, end_m);
+        // Above the highest point there is nothing to hit.
+        let ceiling = (self.pyramid.highest() - origin.z) / direction.z;
+        if direction.z < 0.0 {
+            begin = begin.max(ceiling);
+        } else if direction.z > 0.0 {
+            if ceiling < begin {
+                return Trace::Nothing(f64::INFINITY);
+            }
+            end = end.min(ceiling);
         }
         let inverse_cell = 1.0 / self.field.cell_m();
         let step = [direction.x * inverse_cell, direction.y * inverse_cell];
@@ -113,110 +119,116 @@ impl Caster {
             z_m: origin.z,
             z_step: direction.z,
         };
-        let cells = [self.field.columns() - 1, self.field.rows() - 1];
-        let Some((mut begin, mut end)) = ray.clip(cells, begin_m, end_m) else {
+        let cells = [self.field.columns() as u32 - 1, self.field.rows() as u32 - 1];
+        for axis in [0, 1] {
+            let (near, far) = if ray.is_forward(axis) { (0, cells[axis]) } else { (cells[axis], 0) };
+            begin = begin.max(ray.reaches(axis, near));
+            end = lesser(ray.reaches(axis, far), end);
+        }
+        if begin > end {
             return Trace::Nothing(begin_m);
-        };
+        }
         let starts_below = || ray.clearance(&self.field, ray.cell_at(begin, cells), begin) < 0.0;
         if begin_m <= 0.0 && starts_below() {
             return Trace::Nothing(begin);
         }
-        // Above the highest point there is nothing to hit.
-        let ceiling = (self.pyramid.highest() - ray.z_m) / ray.z_step;
-        if ray.z_step < 0.0 {
-            begin = begin.max(ceiling);
-        } else if ray.z_step > 0.0 {
-            end = end.min(ceiling);
-        }
-        if begin > end {
-            return Trace::Nothing(end);
-        }
-        let start =
-            Cursor { t: begin, cell: ray.cell_at(begin, cells), level: FIRST_LEVEL.min(self.pyramid.top()) };
-        match self.walk(&ray, start, end, cells) {
+        match self.walk(&ray, begin, end, cells) {
             Some(range_m) => Trace::Ground(range_m),
+            None if direction.z > 0.0 && end >= ceiling => Trace::Nothing(f64::INFINITY),
             None => Trace::Nothing(end),
         }
     }
 
-    fn walk(&self, ray: &GridRay, mut at: Cursor, end: f64, cells: [usize; 2]) -> Option<f64> {
-        let forward = [ray.step[0] >= 0.0, ray.step[1] >= 0.0];
+    fn walk(&self, ray: &GridRay, begin: f64, end: f64, cells: [u32; 2]) -> Option<f64> {
+        let forward = [ray.is_forward(0), ray.is_forward(1)];
         let top = self.pyramid.top();
+        let mut level = FIRST_LEVEL.min(top);
+        let mut t = begin;
+        // Rounding may not carry the ray into other cells than these.
+        let (mut first, mut last) = ([0, 0], cells.map(|count| count - 1));
         loop {
-            let level = at.level;
-            let node = [at.cell[0] >> level, at.cell[1] >> level];
-            let exit_at = |axis: usize| {
-                let edge = (node[axis] + usize::from(forward[axis])) << level;
-                (edge as f64 - ray.origin[axis]) * ray.inverse[axis]
-            };
-            let exits = [exit_at(0), exit_at(1)];
-            // `min` drops the NaN of a ray that runs along an edge.
-            let exit = exits[0].min(exits[1]).min(end);
-            let lowest = ray.z_m + ray.z_step * if ray.z_step < 0.0 { exit } else { at.t };
+            let cell = [0, 1].map(|axis| (ray.position(axis, t) as u32).max(first[axis]).min(last[axis]));
+            let scale = shift(level);
+            let side = 1 << scale;
+            let node = cell.map(|cell| cell >> scale);
+            let corner = node.map(|index| index << scale);
+            let exits =
+                [0, 1].map(|axis| ray.reaches(axis, corner[axis] + if forward[axis] { side } else { 0 }));
+            let exit = lesser(exits[1], lesser(exits[0], end));
+            first = corner;
+            last = [0, 1].map(|axis| (corner[axis] + side).min(cells[axis]) - 1);
             if level > 0 {
-                if lowest <= self.pyramid.max(level, node) {
-                    at.level -= 1;
+                let [at_origin, growth] = ray.clearance_above(self.pyramid.plane(level, node));
+                let here = at_origin + growth * t;
+                if here <= 0.0 || at_origin + growth * exit <= 0.0 {
+                    if here > 0.0 {
+                        t = -at_origin / growth;
+                    }
+                    level -= 1;
                     continue;
                 }
-            } else if let Some(t) = patch::first_meeting(&self.field, ray, at.cell, at.t, exit, lowest) {
+            } else if let Some(t) = patch::first_meeting(&self.field, ray, cell, t, exit) {
                 return Some(t);
             }
             if exit >= end {
                 return None;
             }
-            let through = usize::from(exits[0] > exit || exits[0].is_nan());
-            let along = 1 - through;
-            at.cell[through] = if forward[through] {
-                (node[through] + 1) << level
-            } else {
-                (node[through] << level).checked_sub(1)?
-            };
-            if at.cell[through] >= cells[through] {
+            t = exit;
+            let axis = usize::from(exits[0] > exit || exits[0].is_nan());
+            let next = if forward[axis] { corner[axis] + side } else { corner[axis].wrapping_sub(1) };
+            if next >= cells[axis] {
                 return None;
             }
-            let low = node[along] << level;
-            let high = (((node[along] + 1) << level) - 1).min(cells[along] - 1);
-            let position = ray.origin[along] + ray.step[along] * exit;
-            at.cell[along] = (position as usize).clamp(low, high);
-            at.t = exit;
+            (first[axis], last[axis]) = (next, next);
             // A new parent may be clear as a whole.
-            if at.cell[through] >> (level + 1) != node[through] >> 1 && level < top {
-                at.level += 1;
+            if level < top && (next ^ corner[axis]) >> shift(level + 1) != 0 {
+                level += 1;
             }
         }
     }
 }
 
+/// The lesser of two numbers; `known` where `other` is NaN, as for a ray along an edge.
+fn lesser(other: f64, known: f64) -> f64 {
+    if other < known { other } else { known }
+}
+
 impl GridRay {
-    /// The part of the ray from `begin` to `end` that is over the terrain.
-    fn clip(&self, cells: [usize; 2], mut begin: f64, mut end: f64) -> Option<(f64, f64)> {
-        for (axis, &count) in cells.iter().enumerate() {
-            let side = count as f64;
-            if self.step[axis].abs() > 0.0 {
-                let a = -self.origin[axis] * self.inverse[axis];
-                let b = (side - self.origin[axis]) * self.inverse[axis];
-                begin = begin.max(a.min(b));
-                end = end.min(a.max(b));
-            } else if !(0.0..=side).contains(&self.origin[axis]) {
-                return None;
-            }
-        }
-        (begin <= end).then_some((begin, end))
+    fn is_forward(&self, axis: usize) -> bool {
+        self.step[axis].is_sign_positive()
     }
 
-    fn cell_at(&self, t: f64, cells: [usize; 2]) -> [usize; 2] {
-        // A cast to an integer saturates at 0, so a point a rounding error outside lands in the border cell.
-        [0, 1].map(|axis| ((self.origin[axis] + self.step[axis] * t) as usize).min(cells[axis] - 1))
+    /// Where the ray crosses a grid line; infinite or NaN for a ray along it.
+    fn reaches(&self, axis: usize, line: u32) -> f64 {
+        (f64::from(line) - self.origin[axis]) * self.inverse[axis]
+    }
+
+    fn position(&self, axis: usize, t: f64) -> f64 {
+        self.origin[axis] + self.step[axis] * t
+    }
+
+    /// A point a rounding error outside lands in the border cell.
+    fn cell_at(&self, t: f64, cells: [u32; 2]) -> [u32; 2] {
+        [0, 1].map(|axis| (self.position(axis, t) as u32).min(cells[axis] - 1))
     }
 
     /// Height of the ray above the ground of `cell`, in metres.
-    fn clearance(&self, field: &HeightField, cell: [usize; 2], t: f64) -> f64 {
+    fn clearance(&self, field: &HeightField, cell: [u32; 2], t: f64) -> f64 {
         let [u, v] = self.within(cell, t);
-        self.z_m + self.z_step * t - field.patch(cell[0], cell[1]).height(u, v)
+        self.z_m + self.z_step * t - field.patch(cell[0] as usize, cell[1] as usize).height(u, v)
     }
 
-    fn within(&self, cell: [usize; 2], t: f64) -> [f64; 2] {
-        [0, 1].map(|axis| self.origin[axis] + self.step[axis] * t - cell[axis] as f64)
+    /// Height of the ray above a plane at its origin, in metres, and the growth of that height along the ray.
+    fn clearance_above(&self, plane: &Plane) -> [f64; 2] {
+        let [east_rise, north_rise] = plane.rise.map(f64::from);
+        [
+            self.z_m - plane.origin_m - (east_rise * self.origin[0] + north_rise * self.origin[1]),
+            self.z_step - (east_rise * self.step[0] + north_rise * self.step[1]),
+        ]
+    }
+
+    fn within(&self, cell: [u32; 2], t: f64) -> [f64; 2] {
+        [0, 1].map(|axis| self.position(axis, t) - f64::from(cell[axis]))
     }
 }
 

@@ -3,8 +3,7 @@
 use super::GridRay;
 use crate::height_field::HeightField;
 
-/// The first parameter in `begin..=exit` at which the ray is on or below the patch of `cell`; `lowest` is the ray's
-/// lowest height over that stretch.
+/// The first parameter in `begin..=exit` at which the ray is on or below the patch of `cell`.
 ///
 /// The clearance of the ray above the patch is a quadratic `a s² + b s + c` of the way `s` since `begin`. A
 /// ray that has slipped below the ground by a rounding error at the edge of two cells meets it at `begin`, so the
@@ -12,17 +11,11 @@ use crate::height_field::HeightField;
 pub(super) fn first_meeting(
     field: &HeightField,
     ray: &GridRay,
-    cell: [usize; 2],
+    cell: [u32; 2],
     begin: f64,
     exit: f64,
-    lowest: f64,
 ) -> Option<f64> {
-    let patch = field.patch(cell[0], cell[1]);
-    let highest = patch.h00
-        + patch.along_u.max(0.0).max(patch.along_v).max(patch.along_u + patch.along_v + patch.twist);
-    if lowest > highest {
-        return None;
-    }
+    let patch = field.patch(cell[0] as usize, cell[1] as usize);
     let [u, v] = ray.within(cell, begin);
     let [du, dv] = ray.step;
     let c = ray.z_m + ray.z_step * begin - patch.height(u, v);

@@ -71,6 +71,32 @@ proptest! {
     }
 
     #[test]
+    fn rays_close_above_a_rough_slope_agree_with_brute_force(
+        bumps in prop::collection::vec(0.0..1.0f32, 70 * 60), roughness_m in 0.0..0.1f32,
+        east in -0.5..0.5f32, north in -0.5..0.5f32, x in 0.0..1.0f64, y in 0.0..1.0f64, above_m in 0.01..0.5f64,
+        azimuth in -3.2..3.2f64, steeper in -0.1..0.02f64,
+    ) {
+        let cell_m = 0.2;
+        let height_m = |(index, bump): (usize, &f32)| {
+            let (column, row) = ((index % 70) as f32, (index / 70) as f32);
+            100.0 + cell_m as f32 * (east * column + north * row) + roughness_m * bump
+        };
+        let heights: Vec<f32> = bumps.iter().enumerate().map(height_m).collect();
+        let field = field_of(70, 60, cell_m, &heights);
+        let at = DVec2::new(x, y) * field.extent_m();
+        let origin = at.extend(field.height_m(at).unwrap() + above_m);
+        let (sin, cos) = libm::sincos(azimuth);
+        let slope = f64::from(east) * cos + f64::from(north) * sin;
+        let toward = direction(azimuth, libm::atan(slope) + steeper);
+        let expected = brute_force(&field, origin, toward, 100.0);
+        let found = Caster::new(field).cast(origin, toward, 100.0);
+        match (found, expected) {
+            (Some(found), Some(expected)) => prop_assert!((found - expected).abs() < 1e-6, "{found} {expected}"),
+            _ => prop_assert_eq!(found, expected),
+        }
+    }
+
+    #[test]
     fn agrees_with_fine_marching(
         heights in prop::collection::vec(-0.7f32..0.7, 17 * 13),
         x in 0.0..1.0f64, y in 0.0..1.0f64, above_m in 0.05..1.0f64, azimuth in -3.2..3.2f64, elevation in -0.6..0.3f64,
