@@ -30,24 +30,40 @@ pub use error::{ScanError, ScanFault};
 /// Largest file read, in bytes: a quarter of an hour of a VLP-16.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// Reads one scan: its returns in the sensor frame, metres, in the order of the file. A scan without a return is no
-/// error.
+/// Reads one scan from the bytes of a file: its returns in the sensor frame, metres, in the order of the file. A scan without
+/// a return is no error. The extension of `file` decides the format: `.pcd`, `.csv`, `.txt` and `.xyz` hold a scan, `.pcap` a capture.
 ///
 /// `revolution` counts the whole revolutions of a capture from 0; a file of another format holds revolution 0 alone.
 ///
 /// # Errors
 /// [`ScanError`] names the file, the place in it, the value and what was expected.
+pub fn read_scan_bytes(file: &str, bytes: &[u8], revolution: usize) -> Result<Vec<Vec3>, ScanError> {
+    read_as(file, revolution, || Ok(bytes))
+}
+
+/// Reads one scan from disk; see [`read_scan_bytes`].
+///
+/// # Errors
+/// [`ScanError`] names the file, the place in it, the value and what was expected.
 pub fn read_scan(path: &Path, revolution: usize) -> Result<Vec<Vec3>, ScanError> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    read_as(&path.display().to_string(), revolution, || read_file(path))
+}
+
+fn read_as<Bytes: AsRef<[u8]>>(
+    file: &str,
+    revolution: usize,
+    bytes: impl FnOnce() -> Result<Bytes, ScanFault>,
+) -> Result<Vec<Vec3>, ScanError> {
+    let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let points = match extension.as_str() {
-        "pcap" => read_file(path).and_then(|bytes| capture::read(&bytes, revolution)),
-        "pcd" => read_file(path).and_then(|bytes| pcd::read(&bytes)).and_then(only(revolution)),
+        "pcap" => bytes().and_then(|bytes| capture::read(bytes.as_ref(), revolution)),
+        "pcd" => bytes().and_then(|bytes| pcd::read(bytes.as_ref())).and_then(only(revolution)),
         "csv" | "txt" | "xyz" => {
-            read_file(path).and_then(|bytes| csv::read(&bytes)).and_then(only(revolution))
+            bytes().and_then(|bytes| csv::read(bytes.as_ref())).and_then(only(revolution))
         }
         _ => Err(ScanFault::Extension { extension }),
     };
-    points.map_err(|fault| ScanError { file: path.display().to_string(), fault })
+    points.map_err(|fault| ScanError { file: file.to_owned(), fault })
 }
 
 /// Lets a file that holds one scan answer for revolution 0 alone.

@@ -1,5 +1,5 @@
 //! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build`, and
-//! `cargo xtask scenarios`, `cargo xtask profile` and `cargo xtask bench`, which measure.
+//! `cargo xtask scenarios`, `cargo xtask profile`, `cargo xtask bench` and `cargo xtask fuzz`, which measure.
 //!
 //! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a browser),
 //! so that a fresh clone on a machine with Rust and Node needs nothing by hand.
@@ -7,6 +7,7 @@
 mod bench;
 mod browser;
 mod count;
+mod fuzz;
 mod page;
 mod plot;
 mod profile;
@@ -66,6 +67,12 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
         rounds: u32,
     },
+    /// Run every fuzz target for a while, and write docs/FUZZ.md.
+    Fuzz {
+        /// Time for each target.
+        #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
+        seconds: u32,
+    },
 }
 
 fn main() -> ExitCode {
@@ -89,5 +96,6 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Scenarios { seeds, paper_seeds } => scenarios::run(&sh, [seeds, paper_seeds]),
         Command::Profile { poses } => profile::run(&sh, poses),
         Command::Bench { rounds } => bench::run(&sh, rounds),
+        Command::Fuzz { seconds } => fuzz::run(&sh, seconds),
     }
 }

@@ -66,6 +66,25 @@ pub(crate) fn wasm_bindgen(sh: &Shell) -> anyhow::Result<PathBuf> {
     Ok(root.join("bin"))
 }
 
+/// The version of cargo-fuzz that is built.
+const CARGO_FUZZ: &str = "0.13.2";
+
+/// Builds cargo-fuzz once, and returns the program.
+pub(crate) fn cargo_fuzz(sh: &Shell) -> anyhow::Result<PathBuf> {
+    let tools = sh.current_dir().join("target/tools");
+    let root = tools.join(format!("cargo-fuzz-{CARGO_FUZZ}"));
+    if !sh.path_exists(root.join(".crates2.json")) {
+        let build = tools.join("build");
+        cmd!(
+            sh,
+            "cargo install cargo-fuzz --version {CARGO_FUZZ} --locked --root {root} --target-dir {build}"
+        )
+        .run()?;
+        sh.remove_path(build)?;
+    }
+    Ok(root.join("bin/cargo-fuzz"))
+}
+
 /// Installs the npm packages of `package-lock.json`, unless these very ones are installed.
 pub(crate) fn npm_packages(sh: &Shell) -> anyhow::Result<()> {
     let how_to = "Install Node 20.19 or newer, with npm, from https://nodejs.org/ or a package manager.";

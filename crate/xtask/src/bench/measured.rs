@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use anyhow::{Context as _, ensure};
 
 use super::agreement::Agreement;
+use super::memory::Memory;
 use super::runner::{Side, Values};
 
 /// Everything that the report is made of.
@@ -18,6 +19,7 @@ pub(crate) struct Measured {
     pub(crate) values: BTreeMap<String, Values>,
     pub(crate) agreements: Vec<Agreement>,
     pub(crate) trials: Vec<Trial>,
+    pub(crate) memory: Memory,
 }
 
 /// A whole trial.

@@ -6,6 +6,7 @@
 mod agreement;
 mod environment;
 mod measured;
+mod memory;
 mod report;
 mod runner;
 
@@ -126,6 +127,7 @@ pub(crate) fn run(sh: &Shell, rounds: u32) -> anyhow::Result<()> {
         runner.end()?;
     }
 
+    measured.memory = memory::measure(sh)?;
     let report = report::report(&measured)?;
     println!("\n{report}");
     sh.write_file(REPORT, report)?;

@@ -76,6 +76,7 @@ pub(crate) fn report(measured: &Measured) -> anyhow::Result<String> {
     trials(&mut text, measured)?;
     peak(&mut text, measured)?;
     costs(&mut text, measured)?;
+    text.push_str(&measured.memory.section());
     agreements(&mut text, measured)?;
     Ok(text)
 }

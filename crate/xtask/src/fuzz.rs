@@ -1,0 +1,89 @@
+//! `cargo xtask fuzz`: every fuzz target for a while, and what came of it to `docs/FUZZ.md`.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+use xshell::{Shell, cmd};
+
+use crate::setup;
+
+const FOLDER: &str = "tests/fuzz";
+const REPORT: &str = "docs/FUZZ.md";
+/// Memory that a single input may take; the largest terrain takes a few hundred megabytes.
+const MOST_MEGABYTES: u32 = 4096;
+
+/// Runs every target for `seconds`; what was found before is tried again first.
+pub(crate) fn run(sh: &Shell, seconds: u32) -> anyhow::Result<()> {
+    let cargo_fuzz = setup::cargo_fuzz(sh)?;
+    let root = sh.current_dir();
+    // Its own folder: these builds have flags that the others have not.
+    let _target = sh.push_env("CARGO_TARGET_DIR", setup::target_dir(sh).join("fuzz"));
+    cmd!(sh, "{cargo_fuzz} build --fuzz-dir {FOLDER} --sanitizer none").run()?;
+    let targets = cmd!(sh, "{cargo_fuzz} list --fuzz-dir {FOLDER}").read()?;
+    let mut rows = Vec::new();
+    for target in targets.lines() {
+        let corpus = setup::target_dir(sh).join("fuzz-corpus").join(target);
+        sh.create_dir(&corpus)?;
+        let seeds = root.join(FOLDER).join("seeds").join(target);
+        let seeds = Path::new(&seeds).is_dir().then_some(seeds);
+        let limits = [
+            format!("-max_total_time={seconds}"),
+            format!("-rss_limit_mb={MOST_MEGABYTES}"),
+            "-timeout=30".to_owned(),
+            "-print_final_stats=1".to_owned(),
+        ];
+        let output = cmd!(sh, "{cargo_fuzz} run --fuzz-dir {FOLDER} --sanitizer none {target} {corpus} {seeds...} -- {limits...}")
+            .ignore_status()
+            .output()?;
+        let log = String::from_utf8_lossy(&output.stderr);
+        if !output.status.success() {
+            bail!("{target} found an input that fails; its last words:\n{}", last_lines(&log, 40));
+        }
+        let executions = statistic(&log, "number_of_executed_units")
+            .with_context(|| format!("{target} printed no number of executions"))?;
+        println!("{target}: {executions} executions in {seconds} s");
+        rows.push((target.to_owned(), executions));
+    }
+    sh.write_file(REPORT, report(seconds, &rows))?;
+    println!("Wrote {REPORT}.");
+    Ok(())
+}
+
+fn report(seconds: u32, rows: &[(String, u64)]) -> String {
+    let mut text = format!(
+        "# Fuzzing\n\nWritten by `cargo xtask fuzz --seconds {seconds}`.\n\nEach target in `tests/fuzz` ran for {seconds} s under \
+         [cargo-fuzz](https://github.com/rust-fuzz/cargo-fuzz), with overflow checks and debug assertions, 30 s and {MOST_MEGABYTES} MB for an \
+         input at most. None panicked, hung, or gave a result it must not give.\n\n| target | executions |\n|---|---:|\n"
+    );
+    for (target, executions) in rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "| `{target}` | {executions} |");
+    }
+    text
+}
+
+/// A number that libFuzzer prints at its end.
+fn statistic(log: &str, name: &str) -> Option<u64> {
+    let (_, after) = log.split_once(&format!("stat::{name}:"))?;
+    after.lines().next()?.trim().parse().ok()
+}
+
+fn last_lines(log: &str, count: usize) -> String {
+    let lines: Vec<&str> = log.lines().collect();
+    lines[lines.len().saturating_sub(count)..].join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_of_executions_is_read() {
+        let log = "Done\nstat::number_of_executed_units: 1234\nstat::average_exec_per_sec:     12\n";
+        assert_eq!(statistic(log, "number_of_executed_units"), Some(1234));
+        assert_eq!(statistic(log, "peak_rss_mb"), None);
+        assert_eq!(last_lines("a\nb\nc", 2), "b\nc");
+        assert!(report(5, &[("png".to_owned(), 7)]).contains("| `png` | 7 |"));
+    }
+}

@@ -1,0 +1,63 @@
+//! Steps of the planner on any scans, poses and goals: a finite command within the limits, and no command where it stops.
+
+#![no_main]
+
+use arbitrary::Arbitrary;
+use glam::{DVec2, DVec3, Vec3};
+use libfuzzer_sys::fuzz_target;
+use mapless::pose::Pose;
+use mapless::{Command, Planner, PlannerConfig, Status};
+
+#[derive(Arbitrary, Debug)]
+struct Input {
+    paper: bool,
+    steps: Vec<Step>,
+}
+
+#[derive(Arbitrary, Debug)]
+struct Step {
+    pose: [f64; 6],
+    goal_m: [f64; 2],
+    beams: Vec<Beam>,
+    loose_points_m: Vec<[f32; 3]>,
+}
+
+/// A stretch of one ring with a range in quarters of a decimetre, so that few bytes make a scan.
+#[derive(Arbitrary, Debug)]
+struct Beam {
+    ring: u8,
+    first_degree: u8,
+    degrees: u8,
+    range: u8,
+}
+
+const STEPS: usize = 4;
+
+fuzz_target!(|input: Input| {
+    let config = if input.paper { PlannerConfig::paper() } else { PlannerConfig::default() };
+    let limits = config.controller;
+    let mut planner = Planner::new(config).expect("presets are valid");
+    for step in input.steps.iter().take(STEPS) {
+        let [x, y, z, roll_rad, pitch_rad, yaw_rad] = step.pose;
+        let pose = Pose { position_m: DVec3::new(x, y, z), roll_rad, pitch_rad, yaw_rad };
+        let mut points_m: Vec<Vec3> = step.beams.iter().flat_map(returns_m).collect();
+        points_m.extend(step.loose_points_m.iter().copied().map(Vec3::from_array));
+        let decided = planner.step(&points_m, &pose, DVec2::from_array(step.goal_m));
+        let Command { linear_m_s, angular_rad_s } = decided.command;
+        assert!((0.0..=limits.max_speed_m_s).contains(&linear_m_s), "{linear_m_s} m/s");
+        assert!(angular_rad_s.abs() <= limits.max_turn_rate_rad_s, "{angular_rad_s} rad/s");
+        if matches!(decided.status, Status::Stopped(_) | Status::Arrived) {
+            assert_eq!(decided.command, Command::STOP);
+        }
+    }
+});
+
+fn returns_m(beam: &Beam) -> impl Iterator<Item = Vec3> {
+    let elevation = (2.0 * f32::from(beam.ring % 16) - 15.0).to_radians();
+    let range_m = 0.025 * f32::from(beam.range);
+    let first = 2 * u16::from(beam.first_degree);
+    (first..=first + u16::from(beam.degrees)).map(move |degree| {
+        let (sin, cos) = f32::from(degree).to_radians().sin_cos();
+        range_m * Vec3::new(elevation.cos() * cos, elevation.cos() * sin, elevation.sin())
+    })
+}
