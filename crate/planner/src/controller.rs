@@ -38,26 +38,29 @@ impl Pid {
     }
 }
 
-/// The two loops.
+/// The two loops. Planners that are compared with this one drive through it too.
 #[derive(Clone, Debug)]
-pub(crate) struct Controller {
+pub struct Controller {
     config: ControllerConfig,
     distance: Pid,
     yaw: Pid,
 }
 
 impl Controller {
-    pub(crate) fn new(config: ControllerConfig) -> Self {
+    /// Both loops at rest. The configuration must have been validated.
+    pub fn new(config: ControllerConfig) -> Self {
         Self { config, distance: Pid::default(), yaw: Pid::default() }
     }
 
-    pub(crate) fn reset(&mut self) {
+    /// Forgets the last errors and their integrals, as after a stop.
+    pub fn reset(&mut self) {
         self.distance = Pid::default();
         self.yaw = Pid::default();
     }
 
     /// Drives towards a point at `distance_m` and `bearing_rad` in the robot frame; turns first when it is far to a side.
-    pub(crate) fn drive(&mut self, distance_m: f64, bearing_rad: f64, period_s: f64) -> Command {
+    /// `period_s` is the time since the last call.
+    pub fn drive(&mut self, distance_m: f64, bearing_rad: f64, period_s: f64) -> Command {
         let config = &self.config;
         let bearing = wrap_rad(bearing_rad);
         let turning = self.yaw.update(bearing, &config.yaw, period_s, config.max_turn_rate_rad_s);
