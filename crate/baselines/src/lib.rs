@@ -6,5 +6,7 @@
 #![cfg_attr(test, allow(clippy::float_cmp))]
 
 mod follower;
+mod oracle;
 
 pub use follower::PathFollower;
+pub use oracle::{OracleConfig, OracleDriver, OracleError, OraclePath, PlanPose, shortest_path};
