@@ -7,6 +7,8 @@
 
 mod follower;
 mod oracle;
+mod tasks;
 
 pub use follower::PathFollower;
 pub use oracle::{OracleConfig, OracleDriver, OracleError, OraclePath, PlanPose, shortest_path};
+pub use tasks::{Task, TaskError};

@@ -17,7 +17,7 @@ mod tests;
 
 pub use driver::OracleDriver;
 use lattice::{Lattice, Node};
-use standing::Standing;
+pub(crate) use standing::Standing;
 
 use glam::DVec2;
 use mapless_world::{ConfigError, HeightField, HuskyConfig};
@@ -128,7 +128,13 @@ pub fn shortest_path(
 }
 
 impl Standing<'_> {
-    fn search(&self, start: PlanPose, goal_m: DVec2, cell_m: f64) -> Result<OraclePath, OracleError> {
+    /// As [`shortest_path`], on ground that may be searched again.
+    pub(crate) fn search(
+        &self,
+        start: PlanPose,
+        goal_m: DVec2,
+        cell_m: f64,
+    ) -> Result<OraclePath, OracleError> {
         self.check_start(start)?;
         self.check_goal(goal_m)?;
         if start.position_m.distance(goal_m) < cell_m / 2.0 {

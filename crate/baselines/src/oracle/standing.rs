@@ -5,11 +5,13 @@ use glam::DVec2;
 use mapless_world::{ConfigError, HeightField, HuskyConfig, attitude_on};
 use std::f64::consts::TAU;
 
-/// Headings tried before a goal is called too steep.
-const GOAL_HEADINGS: u32 = 16;
+/// Headings tried before a place is called too steep, or safe for every heading.
+const HEADINGS: u32 = 16;
+/// The robot is stood on the ground this often along the straight way, metres.
+const STRAIGHT_STEP_M: f64 = 0.125;
 
 /// The ground, and how far the robot may tilt on it.
-pub(super) struct Standing<'a> {
+pub(crate) struct Standing<'a> {
     field: &'a HeightField,
     robot: &'a HuskyConfig,
     max_roll_rad: f64,
@@ -20,7 +22,7 @@ pub(super) struct Standing<'a> {
 }
 
 impl<'a> Standing<'a> {
-    pub(super) fn new(
+    pub(crate) fn new(
         field: &'a HeightField,
         robot: &'a HuskyConfig,
         config: &OracleConfig,
@@ -41,7 +43,7 @@ impl<'a> Standing<'a> {
         Ok(Self { field, robot, max_roll_rad, max_pitch_rad, gentle })
     }
 
-    pub(super) fn extent_m(&self) -> DVec2 {
+    pub(crate) fn extent_m(&self) -> DVec2 {
         self.field.extent_m()
     }
 
@@ -77,9 +79,24 @@ impl<'a> Standing<'a> {
         if !self.field.contains(goal_m) {
             return Err(self.off_terrain("goal", goal_m));
         }
-        let heading_rad = |index| f64::from(index) * (TAU / f64::from(GOAL_HEADINGS));
-        let safe = (0..GOAL_HEADINGS).any(|index| self.is_safe(goal_m, heading_rad(index)));
-        if safe { Ok(()) } else { Err(self.too_steep("goal", goal_m)) }
+        if headings_rad().any(|yaw_rad| self.is_safe(goal_m, yaw_rad)) {
+            Ok(())
+        } else {
+            Err(self.too_steep("goal", goal_m))
+        }
+    }
+
+    /// Whether the robot may stand here and turn.
+    pub(crate) fn every_heading_is_safe(&self, position_m: DVec2) -> bool {
+        headings_rad().all(|yaw_rad| self.is_safe(position_m, yaw_rad))
+    }
+
+    /// Whether the straight way is safe for a robot that looks along it.
+    pub(crate) fn straight_is_safe(&self, start_m: DVec2, goal_m: DVec2) -> bool {
+        let way = goal_m - start_m;
+        let yaw_rad = libm::atan2(way.y, way.x);
+        let pieces = (way.length() / STRAIGHT_STEP_M).ceil().max(1.0);
+        (0..=pieces as u32).all(|i| self.is_safe(start_m + way * (f64::from(i) / pieces), yaw_rad))
     }
 
     fn off_terrain(&self, what: &'static str, place_m: DVec2) -> OracleError {
@@ -90,6 +107,10 @@ impl<'a> Standing<'a> {
         let (roll_rad, pitch_rad) = (self.max_roll_rad, self.max_pitch_rad);
         OracleError::NotStandable { what, place_m, roll_rad, pitch_rad }
     }
+}
+
+fn headings_rad() -> impl Iterator<Item = f64> {
+    (0..HEADINGS).map(|index| f64::from(index) * (TAU / f64::from(HEADINGS)))
 }
 
 /// A gradient g such that a robot on ground nowhere steeper stays within the limits with every heading.
