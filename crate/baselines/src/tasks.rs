@@ -15,8 +15,10 @@ use std::f64::consts::TAU;
 const APART_M: [f64; 2] = [35.0, 75.0];
 /// Start and goal stay this far inside the terrain, metres.
 const BORDER_M: f64 = 4.0;
-/// Places tried for start and goal before the terrain is given up.
-const PLACES: u32 = 300;
+/// The least distance asked for is at most this share of the terrain's side.
+const MOST_SHARE: f64 = 0.95;
+/// Pairs of start and goal tried before the terrain is given up.
+const PLACES: u32 = 1000;
 /// Terrains tried before a task is given up.
 const MOST_DRAWN: u32 = 100;
 
@@ -126,12 +128,17 @@ fn start_and_goal(standing: &Standing, draw: &mut Sequence) -> Option<(PlanPose,
     let inside_m = standing.extent_m() - DVec2::splat(2.0 * BORDER_M);
     let place = |draw: &mut Sequence| {
         let position_m = DVec2::splat(BORDER_M) + inside_m * DVec2::new(draw.share(), draw.share());
-        let position_m = (position_m * 100.0).round() / 100.0;
-        standing.every_heading_is_safe(position_m).then_some(position_m)
+        (position_m * 100.0).round() / 100.0
     };
-    let start_m = (0..PLACES).find_map(|_| place(draw))?;
-    let apart = |goal_m: &DVec2| (APART_M[0]..=APART_M[1]).contains(&start_m.distance(*goal_m));
-    let goal_m = (0..PLACES).find_map(|_| place(draw).filter(apart))?;
+    // Pairs drawn evenly are mostly near each other.
+    let least_m = draw.between([APART_M[0], MOST_SHARE * standing.extent_m().min_element()]);
+    let apart_m = least_m.min(APART_M[1])..=APART_M[1];
+    let (start_m, goal_m) = (0..PLACES).find_map(|_| {
+        let (start_m, goal_m) = (place(draw), place(draw));
+        let fits = apart_m.contains(&start_m.distance(goal_m));
+        let safe = || [start_m, goal_m].into_iter().all(|at_m| standing.every_heading_is_safe(at_m));
+        (fits && safe()).then_some((start_m, goal_m))
+    })?;
     let way = goal_m - start_m;
     let heading_rad = if draw.happens(0.5) {
         libm::atan2(way.y, way.x) + draw.between([-0.3, 0.3])

@@ -41,22 +41,22 @@ struct Level {
 /// The levels, easy first. What they come to is measured: `mapless generate` prints it.
 const LEVELS: [Level; 3] = [
     Level {
-        flank: [0.15, 0.60],
-        density: 0.7,
+        flank: [0.25, 0.75],
+        density: 0.8,
         kinds: [1, 2],
         swell_m: [0.3, 1.2],
-        roughness_m: [0.01, 0.04],
+        roughness_m: [0.01, 0.05],
     },
     Level {
-        flank: [0.35, 1.00],
-        density: 1.0,
+        flank: [0.45, 1.10],
+        density: 1.2,
         kinds: [1, 3],
         swell_m: [0.5, 2.0],
         roughness_m: [0.03, 0.08],
     },
     Level {
-        flank: [0.60, 1.40],
-        density: 1.3,
+        flank: [0.70, 1.50],
+        density: 1.6,
         kinds: [2, 3],
         swell_m: [0.8, 3.0],
         roughness_m: [0.05, 0.13],
