@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 /// Distance between start and goal, metres.
 const APART_M: [f64; 2] = [35.0, 75.0];
 /// Start and goal stay this far inside the terrain, metres.
-const BORDER_M: f64 = 4.0;
+const BORDER_M: f64 = 5.0;
 /// The least distance asked for is at most this share of the terrain's side.
 const MOST_SHARE: f64 = 0.95;
 /// Pairs of start and goal tried before the terrain is given up.

@@ -2,16 +2,24 @@
 //!
 //! A terrain is a square of 50 to 80 m. One to three kinds of landform share it: hills and basins, ridges with passes, valleys
 //! with fords, terraces with ramps, craters and ditches, rough ground. A difficulty says how steep their flanks are, how many
-//! there are and how rough everything is. The same seed and difficulty give the same recipe, to the byte.
+//! there are and how rough everything is. A bank too steep to climb closes the terrain, because no planner can see that a
+//! world ends. The same seed and difficulty give the same recipe, to the byte.
 
 mod landforms;
 mod writer;
 
 use crate::random::{Sequence, key};
+use glam::DVec2;
 use landforms::{LANDFORMS, Site};
 use std::fmt::{self, Write as _};
 use std::str::FromStr;
 use writer::Writer;
+
+/// The bank along the border: Gaussian, half of it inside.
+const BANK_HEIGHT_M: f64 = 2.5;
+const BANK_WIDTH_M: f64 = 0.6;
+/// Within this distance of the border the ground belongs to the bank, metres.
+pub const BANK_REACH_M: f64 = 2.0;
 
 /// How hard a generated terrain is to cross.
 #[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd)]
@@ -128,6 +136,11 @@ pub fn terrain_recipe(name: &str, difficulty: Difficulty, seed: u64) -> String {
     }
     tables.noise(draw.between(level.swell_m), draw.between([25.0, 40.0]), 2);
     tables.noise(draw.between(level.roughness_m), draw.between([2.5, 4.0]), 2);
+
+    let corners = [[0.0, 0.0], [side_m, 0.0], [side_m, side_m], [0.0, side_m]].map(DVec2::from_array);
+    for index in 0..4 {
+        tables.ridge(&[corners[index], corners[(index + 1) % 4]], &[BANK_HEIGHT_M; 2], BANK_WIDTH_M);
+    }
 
     let kinds: Vec<&str> = chosen.iter().map(|&index| LANDFORMS[index].name).collect();
     let mut recipe = String::new();

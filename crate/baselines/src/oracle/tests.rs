@@ -1,7 +1,9 @@
 use super::*;
+use crate::Task;
 use glam::DVec3;
 use mapless::config::ControllerConfig;
 use mapless::pose::Pose;
+use mapless_world::generate::Difficulty;
 use mapless_world::{DriveCommand, Husky, attitude_on};
 use proptest::prelude::*;
 
@@ -33,13 +35,13 @@ fn within_limits(field: &HeightField, path: &OraclePath) -> bool {
 }
 
 /// Drives the path with the kinematic Husky; gives the place where it ended and the most of a limit that a tilt took.
-fn drive(field: &HeightField) -> (DVec2, f64) {
+fn drive(field: &HeightField, start: PlanPose, goal_m: DVec2) -> (DVec2, f64) {
     let robot = HuskyConfig::default();
     let (controller, config) = (ControllerConfig::default(), OracleConfig::default());
-    let mut driver = OracleDriver::new(field, &robot, START, GOAL_M, &config, controller, 0.1).unwrap();
-    let mut husky = Husky::new(robot.clone(), field, START.position_m, START.yaw_rad).unwrap();
+    let mut driver = OracleDriver::new(field, &robot, start, goal_m, &config, controller, 0.1).unwrap();
+    let mut husky = Husky::new(robot.clone(), field, start.position_m, start.yaw_rad).unwrap();
     let mut worst: f64 = 0.0;
-    for _ in 0..2000 {
+    for _ in 0..3000 {
         let state = *husky.state();
         let pose = Pose {
             position_m: husky.position(),
@@ -179,9 +181,18 @@ fn a_goal_at_the_start_is_reached() {
 
 #[test]
 fn its_path_can_be_driven() {
-    let (end_m, worst) = drive(&wall_with_a_gap());
+    let (end_m, worst) = drive(&wall_with_a_gap(), START, GOAL_M);
     assert!(end_m.distance(GOAL_M) < 0.1, "{end_m}");
     assert!(worst < 1.0, "{worst}");
+    for index in 1..=2 {
+        for difficulty in Difficulty::ALL {
+            let task = Task::generate(difficulty, 9, index).unwrap();
+            let (end_m, worst) = drive(&task.terrain.field, task.start, task.goal_m);
+            println!("{}: at most {worst:.2} of a limit", task.name);
+            assert!(end_m.distance(task.goal_m) < 0.1, "{}: {end_m}", task.name);
+            assert!(worst < 1.0, "{}: {worst}", task.name);
+        }
+    }
 }
 
 prop_compose! {

@@ -2,6 +2,7 @@
 
 use comfy_table::{CellAlignment, Table, presets};
 use mapless_baselines::Task;
+use mapless_world::generate::BANK_REACH_M;
 use mapless_world::{HuskyConfig, SlopeDistribution};
 
 /// A measure of a task: its name, its unit and its decimals in the table.
@@ -26,8 +27,9 @@ pub(super) struct Summary {
 }
 
 impl Summary {
+    /// Measures a task, without the bank around its terrain.
     pub(super) fn add(&mut self, task: &Task) {
-        let slopes = SlopeDistribution::of(&task.terrain.field);
+        let Some(slopes) = SlopeDistribution::of(&task.terrain.field, BANK_REACH_M) else { return };
         let robot = HuskyConfig::default();
         let (straight_m, path_m) = (task.straight_m(), task.path.length_m);
         let measured = [
