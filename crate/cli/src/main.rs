@@ -3,6 +3,7 @@
 //! Exit code of a trial: 0 when the goal was reached, 2 for any other outcome, 1 for an error. Exit code of a scan: 0 when
 //! it was read, 1 for an error.
 
+mod generate;
 mod log;
 mod perceive;
 mod picture;
@@ -18,6 +19,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use mapless::learning::LearningMode;
 use mapless_trials::{Outcome, Preset};
+use mapless_world::generate::Difficulty;
 
 /// Mapless navigation on uneven terrain: a simulated Husky with a VLP-16 drives to a goal.
 #[derive(Parser)]
@@ -33,6 +35,8 @@ enum Command {
     Run(run::Args),
     /// Compare the elevation profile with the true skyline at random poses.
     Profile(profile::Args),
+    /// Write tasks on generated terrains, each of which the oracle has solved, as scenario files.
+    Generate(generate::Args),
     /// Show what the planner perceives in one recorded scan. Exit code: 0 = perceived or stopped with a reason, 1 = error.
     Perceive(perceive::Args),
 }
@@ -48,6 +52,7 @@ fn main() -> ExitCode {
             _ => ExitCode::from(2),
         }),
         Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Generate(args) => generate::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Perceive(args) => perceive::run(&args).map(|()| ExitCode::SUCCESS),
     };
     result.unwrap_or_else(|error| {
@@ -70,4 +75,10 @@ fn preset_parser() -> impl TypedValueParser<Value = Preset> {
 /// Reads the name of a mode of learning, for `--learning`.
 fn learning_parser() -> impl TypedValueParser<Value = LearningMode> {
     PossibleValuesParser::new(["fixed", "once", "every_scan"]).try_map(|name| name.parse::<LearningMode>())
+}
+
+/// Reads the name of a difficulty, for `--difficulty`.
+fn difficulty_parser() -> impl TypedValueParser<Value = Difficulty> {
+    PossibleValuesParser::new(Difficulty::ALL.map(Difficulty::name))
+        .try_map(|name| name.parse::<Difficulty>())
 }

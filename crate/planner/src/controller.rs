@@ -38,7 +38,7 @@ impl Pid {
     }
 }
 
-/// The two loops, one for the distance and one for the yaw.
+/// The two loops. Planners that are compared with this one drive through it too.
 #[derive(Clone, Debug)]
 pub struct Controller {
     config: ControllerConfig,
@@ -47,18 +47,19 @@ pub struct Controller {
 }
 
 impl Controller {
-    /// A controller at rest; `config` must be valid.
+    /// Both loops at rest. The configuration must have been validated.
     pub fn new(config: ControllerConfig) -> Self {
         Self { config, distance: Pid::default(), yaw: Pid::default() }
     }
 
-    /// Forgets the errors of the past.
+    /// Forgets the last errors and their integrals, as after a stop.
     pub fn reset(&mut self) {
         self.distance = Pid::default();
         self.yaw = Pid::default();
     }
 
     /// Drives towards a point at `distance_m` and `bearing_rad` in the robot frame; turns first when it is far to a side.
+    /// `period_s` is the time since the last call.
     pub fn drive(&mut self, distance_m: f64, bearing_rad: f64, period_s: f64) -> Command {
         let config = &self.config;
         let bearing = wrap_rad(bearing_rad);

@@ -13,6 +13,7 @@
 mod attitude;
 mod caster;
 mod config;
+pub mod generate;
 mod height_field;
 mod husky;
 mod import;
@@ -20,6 +21,7 @@ pub mod random;
 pub mod recipe;
 mod sculpt;
 mod skyline;
+mod slopes;
 mod terrain;
 mod vlp16;
 
@@ -30,6 +32,7 @@ pub use height_field::{FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_
 pub use husky::{DriveCommand, DriveError, Husky, HuskyConfig, HuskyState};
 pub use sculpt::{Brush, BrushKind, SampleRect};
 pub use skyline::{Skyline, true_skyline};
+pub use slopes::SlopeDistribution;
 #[cfg(not(target_arch = "wasm32"))]
 pub use terrain::load_terrain;
 pub use terrain::{Terrain, TerrainError, TerrainFault, load_terrain_bytes};

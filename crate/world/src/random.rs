@@ -80,6 +80,43 @@ pub fn gaussian(key: u64) -> f64 {
     }
 }
 
+/// Numbers in order, where what is drawn decides what is drawn next.
+#[derive(Clone, Debug)]
+pub struct Sequence {
+    key: u64,
+    drawn: u64,
+}
+
+impl Sequence {
+    /// The sequence of a key.
+    pub fn new(key: u64) -> Self {
+        Self { key, drawn: 0 }
+    }
+
+    /// The next number in (0, 1].
+    pub fn share(&mut self) -> f64 {
+        self.drawn += 1;
+        uniform(key(self.key, self.drawn))
+    }
+
+    /// The next number between `low` and `high`.
+    pub fn between(&mut self, [low, high]: [f64; 2]) -> f64 {
+        low + (high - low) * self.share()
+    }
+
+    /// The next whole number from `low` to `high`, both included; `low` when `high` is less.
+    pub fn whole(&mut self, [low, high]: [u32; 2]) -> u32 {
+        let count = f64::from(high.saturating_sub(low)) + 1.0;
+        // The share may be 1.
+        low + ((self.share() * count) as u32).min(high.saturating_sub(low))
+    }
+
+    /// Whether something of this probability happens.
+    pub fn happens(&mut self, probability: f64) -> bool {
+        self.share() <= probability
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,5 +171,23 @@ mod tests {
             assert!((10..=54).contains(&agreeing(key(i, 0), key(i + 1, 0))));
             assert!((10..=54).contains(&agreeing(key(0, i), key(0, i + 1))));
         }
+    }
+
+    #[test]
+    fn sequences_cover_their_ranges_and_repeat() {
+        let draw = |key| {
+            let mut sequence = Sequence::new(key);
+            (0..1000).map(|_| sequence.whole([3, 6])).collect::<Vec<_>>()
+        };
+        let numbers = draw(5);
+        for number in 3..=6 {
+            assert!((200..300).contains(&numbers.iter().filter(|&&n| n == number).count()), "{number}");
+        }
+        assert_eq!(numbers, draw(5));
+        assert_ne!(numbers, draw(6));
+        let mut sequence = Sequence::new(1);
+        assert!((0..1000).all(|_| (-2.0..=5.0).contains(&sequence.between([-2.0, 5.0]))));
+        assert!((200..300).contains(&(0..1000).filter(|_| sequence.happens(0.25)).count()));
+        assert_eq!(sequence.whole([4, 2]), 4);
     }
 }

@@ -1,0 +1,156 @@
+//! The oracle: the shortest path for a planner that knows the whole ground.
+//!
+//! It searches a lattice over position and heading with A*. Sixteen headings leave each place of a square grid; a robot goes
+//! straight along one, bends into one of the next two to either side, or turns in place to the next. Along every motion the
+//! Husky is stood on the true ground every 0.125 m and 0.1 rad, and its roll and pitch must stay inside the limits less a
+//! margin. The grid's first axis runs from start to goal, so that both are among its places and the straight way is too.
+//!
+//! The cost is the length seen from above, and 0.1 m for each heading turned in place, so that the path does not turn
+//! without need. Between its headings the lattice goes in zigzags: up to 2.8 % longer than a path over all headings.
+
+mod driver;
+mod lattice;
+mod motions;
+mod standing;
+#[cfg(test)]
+mod tests;
+
+pub use driver::OracleDriver;
+use lattice::{Lattice, Node};
+pub(crate) use standing::Standing;
+
+use glam::DVec2;
+use mapless_world::{ConfigError, HeightField, HuskyConfig};
+use pathfinding::directed::astar::astar;
+
+/// What the oracle allows itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OracleConfig {
+    /// Spacing of the places, metres; changed by a few per cent so that the goal is one of them.
+    pub cell_m: f64,
+    /// Roll and pitch stay this much inside the robot's limits, radians.
+    pub margin_rad: f64,
+}
+
+impl Default for OracleConfig {
+    fn default() -> Self {
+        Self { cell_m: 0.5, margin_rad: 0.08 }
+    }
+}
+
+/// Where a robot stands, seen from above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanPose {
+    /// Position of the middle of the wheelbase in the world frame, metres.
+    pub position_m: DVec2,
+    /// Heading, anticlockwise from east, radians.
+    pub yaw_rad: f64,
+}
+
+/// A path whose poses are all safe.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OraclePath {
+    /// From the start to the goal, at most 0.125 m and 0.1 rad apart.
+    pub poses: Vec<PlanPose>,
+    /// Length seen from above, metres.
+    pub length_m: f64,
+}
+
+impl OraclePath {
+    /// The positions, once each where the robot turns in place.
+    pub fn points_m(&self) -> impl Iterator<Item = DVec2> {
+        let mut last = None;
+        self.poses.iter().map(|pose| pose.position_m).filter(move |&point| last.replace(point) != Some(point))
+    }
+}
+
+/// Why there is no path.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OracleError {
+    /// A value of the configuration makes no sense.
+    #[error("oracle.{0}")]
+    Config(#[from] ConfigError),
+    /// Start or goal is not a place on the terrain, with all wheels for the start.
+    #[error("{what} = ({:.3}, {:.3}) m: expected a place on the terrain, which spans (0, 0) to ({:.3}, {:.3}) m", place_m.x, place_m.y, extent_m.x, extent_m.y)]
+    OffTerrain {
+        /// `start` or `goal`.
+        what: &'static str,
+        /// The place.
+        place_m: DVec2,
+        /// North-east corner of the terrain.
+        extent_m: DVec2,
+    },
+    /// The robot would be tilted too far at the start, or with every heading at the goal.
+    #[error("{what} = ({:.3}, {:.3}) m is too steep: expected at most {roll_rad:.3} rad of roll and {pitch_rad:.3} rad of pitch", place_m.x, place_m.y)]
+    NotStandable {
+        /// `start` or `goal`.
+        what: &'static str,
+        /// The place.
+        place_m: DVec2,
+        /// The most roll allowed.
+        roll_rad: f64,
+        /// The most pitch allowed.
+        pitch_rad: f64,
+    },
+    /// The terrain has more places than the search can hold.
+    #[error("{places} places on the terrain at {cell_m} m: expected at most {most}")]
+    TooLarge {
+        /// Places of the grid.
+        places: f64,
+        /// Their spacing.
+        cell_m: f64,
+        /// The most allowed.
+        most: usize,
+    },
+    /// Every way leads over ground that is too steep or off the terrain.
+    #[error("no safe path from ({:.3}, {:.3}) to ({:.3}, {:.3}) m", start_m.x, start_m.y, goal_m.x, goal_m.y)]
+    NoPath {
+        /// The start.
+        start_m: DVec2,
+        /// The goal.
+        goal_m: DVec2,
+    },
+}
+
+/// The shortest safe path over `field` from a pose to a place. A goal nearer than half a cell counts as reached.
+///
+/// # Errors
+/// [`OracleError`]: no path, start or goal off the terrain or too steep, or a bad configuration.
+pub fn shortest_path(
+    field: &HeightField,
+    robot: &HuskyConfig,
+    start: PlanPose,
+    goal_m: DVec2,
+    config: &OracleConfig,
+) -> Result<OraclePath, OracleError> {
+    let standing = Standing::new(field, robot, config)?;
+    standing.search(start, goal_m, config.cell_m)
+}
+
+impl Standing<'_> {
+    /// As [`shortest_path`], on ground that may be searched again.
+    pub(crate) fn search(
+        &self,
+        start: PlanPose,
+        goal_m: DVec2,
+        cell_m: f64,
+    ) -> Result<OraclePath, OracleError> {
+        self.check_start(start)?;
+        self.check_goal(goal_m)?;
+        if start.position_m.distance(goal_m) < cell_m / 2.0 {
+            return Ok(OraclePath { poses: vec![start], length_m: 0.0 });
+        }
+        let mut lattice = Lattice::new(self, start, goal_m, cell_m)?;
+        let goal = lattice.goal();
+        let found = astar(
+            &Node::START,
+            |&node| lattice.successors(node),
+            |&node| goal.estimate(node),
+            |&node| goal.is_at(node),
+        );
+        let (nodes, _) = found.ok_or(OracleError::NoPath { start_m: start.position_m, goal_m })?;
+        let poses = lattice.poses(&nodes);
+        let length_m = poses.windows(2).map(|pair| pair[0].position_m.distance(pair[1].position_m)).sum();
+        Ok(OraclePath { poses, length_m })
+    }
+}

@@ -1,0 +1,185 @@
+//! Generated tasks: a terrain, a start and a goal by seed, which the oracle has solved.
+//!
+//! Start and goal lie 35 to 75 m apart on ground where the robot may stand with every heading. Half of the starts look about
+//! towards the goal, the others anywhere. What the oracle cannot solve is drawn anew, so every task has a safe path. Task K of
+//! a seed is the same however many tasks there are.
+
+use crate::oracle::{OracleConfig, OracleError, OraclePath, PlanPose, Standing};
+use glam::DVec2;
+use mapless_world::generate::{Difficulty, terrain_recipe};
+use mapless_world::random::{Sequence, key};
+use mapless_world::{HuskyConfig, Terrain, TerrainError, load_terrain_bytes};
+use std::f64::consts::TAU;
+
+/// Distance between start and goal, metres.
+const APART_M: [f64; 2] = [35.0, 75.0];
+/// Start and goal stay this far inside the terrain, metres.
+const BORDER_M: f64 = 5.0;
+/// The least distance asked for is at most this share of the terrain's side.
+const MOST_SHARE: f64 = 0.95;
+/// Pairs of start and goal tried before the terrain is given up.
+const PLACES: u32 = 1000;
+/// Terrains tried before a task is given up.
+const MOST_DRAWN: u32 = 100;
+
+/// A task that the oracle has solved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Task {
+    /// `hard-1-0007` for task 7 of seed 1.
+    pub name: String,
+    /// Its recipe, as text.
+    pub recipe: String,
+    /// The terrain of the recipe.
+    pub terrain: Terrain,
+    /// Where the robot starts.
+    pub start: PlanPose,
+    /// Where it should go, metres.
+    pub goal_m: DVec2,
+    /// Seed of the sensor's noise: the number of the task.
+    pub seed: u32,
+    /// The oracle's path.
+    pub path: OraclePath,
+    /// Whether driving straight from start to goal is safe too.
+    pub straight_is_safe: bool,
+    /// Terrains drawn until the oracle solved one, this one included.
+    pub drawn: u32,
+}
+
+/// Why there is no task.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TaskError {
+    /// The oracle solved none of those drawn.
+    #[error("{name}: none of {MOST_DRAWN} tasks drawn has a safe path")]
+    Unsolved {
+        /// The task's name.
+        name: String,
+    },
+    /// A generated recipe that makes no terrain.
+    #[error(transparent)]
+    Terrain(#[from] TerrainError),
+    /// A configuration of robot or oracle that makes no sense.
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
+}
+
+impl Task {
+    /// Task `index` of `seed`, for a Husky.
+    ///
+    /// # Errors
+    /// [`TaskError::Unsolved`] when a hundred draws bring none with a safe path.
+    pub fn generate(difficulty: Difficulty, seed: u64, index: u32) -> Result<Self, TaskError> {
+        let name = format!("{difficulty}-{seed}-{index:04}");
+        let (robot, config) = (HuskyConfig::default(), OracleConfig::default());
+        for drawn in 1..=MOST_DRAWN {
+            let place = key(key(seed, difficulty as u64), u64::from(index));
+            let terrain_seed = key(place, u64::from(drawn));
+            let recipe = terrain_recipe(&name, difficulty, terrain_seed);
+            let no_import = &mut |file: &str| Err(format!("{file}: expected no import"));
+            let terrain = load_terrain_bytes(&format!("{name}.toml"), recipe.as_bytes(), no_import)?;
+            let standing = Standing::new(&terrain.field, &robot, &config)?;
+            let mut draw = Sequence::new(key(terrain_seed, 1));
+            let Some((start, goal_m)) = start_and_goal(&standing, &mut draw) else { continue };
+            let Ok(path) = standing.search(start, goal_m, config.cell_m) else { continue };
+            let straight_is_safe = standing.straight_is_safe(start.position_m, goal_m);
+            return Ok(Self {
+                name,
+                recipe,
+                terrain,
+                start,
+                goal_m,
+                seed: index,
+                path,
+                straight_is_safe,
+                drawn,
+            });
+        }
+        Err(TaskError::Unsolved { name })
+    }
+
+    /// Straight distance from start to goal, metres.
+    #[must_use]
+    pub fn straight_m(&self) -> f64 {
+        self.start.position_m.distance(self.goal_m)
+    }
+
+    /// The task as a scenario file whose terrain is at `terrain`, a path relative to it.
+    #[must_use]
+    pub fn scenario(&self, terrain: &str) -> String {
+        let (PlanPose { position_m: start, yaw_rad }, goal) = (self.start, self.goal_m);
+        format!(
+            "# Generated. The oracle's path is {:.1} m long, the straight way {:.1} m.\n\
+             terrain = {terrain:?}\n\
+             start = [{:.2}, {:.2}, {yaw_rad:.3}]\n\
+             goal = [{:.2}, {:.2}]\n\
+             seed = {}\n",
+            self.path.length_m,
+            self.straight_m(),
+            start.x,
+            start.y,
+            goal.x,
+            goal.y,
+            self.seed
+        )
+    }
+}
+
+/// Numbers as a scenario file has them: two decimals of a metre, three of a radian.
+fn start_and_goal(standing: &Standing, draw: &mut Sequence) -> Option<(PlanPose, DVec2)> {
+    let inside_m = standing.extent_m() - DVec2::splat(2.0 * BORDER_M);
+    let place = |draw: &mut Sequence| {
+        let position_m = DVec2::splat(BORDER_M) + inside_m * DVec2::new(draw.share(), draw.share());
+        (position_m * 100.0).round() / 100.0
+    };
+    // Pairs drawn evenly are mostly near each other.
+    let least_m = draw.between([APART_M[0], MOST_SHARE * standing.extent_m().min_element()]);
+    let apart_m = least_m.min(APART_M[1])..=APART_M[1];
+    let (start_m, goal_m) = (0..PLACES).find_map(|_| {
+        let (start_m, goal_m) = (place(draw), place(draw));
+        let fits = apart_m.contains(&start_m.distance(goal_m));
+        let safe = || [start_m, goal_m].into_iter().all(|at_m| standing.every_heading_is_safe(at_m));
+        (fits && safe()).then_some((start_m, goal_m))
+    })?;
+    let way = goal_m - start_m;
+    let heading_rad = if draw.happens(0.5) {
+        libm::atan2(way.y, way.x) + draw.between([-0.3, 0.3])
+    } else {
+        draw.between([-TAU / 2.0, TAU / 2.0])
+    };
+    let yaw_rad = (heading_rad * 1000.0).round() / 1000.0;
+    Some((PlanPose { position_m: start_m, yaw_rad }, goal_m))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shortest_path;
+
+    #[test]
+    fn a_task_is_the_same_twice_and_its_path_is_safe() {
+        for difficulty in Difficulty::ALL {
+            let task = Task::generate(difficulty, 3, 2).unwrap();
+            assert_eq!(task, Task::generate(difficulty, 3, 2).unwrap());
+            assert_ne!(task.recipe, Task::generate(difficulty, 3, 1).unwrap().recipe);
+            assert_eq!(task.name, format!("{difficulty}-3-0002"));
+            assert!((APART_M[0]..=APART_M[1]).contains(&task.straight_m()));
+            let (robot, config) = (HuskyConfig::default(), OracleConfig::default());
+            let path = shortest_path(&task.terrain.field, &robot, task.start, task.goal_m, &config);
+            assert_eq!(path, Ok(task.path));
+        }
+    }
+
+    #[test]
+    fn a_scenario_has_the_task_s_numbers() {
+        let task = Task::generate(Difficulty::Easy, 1, 1).unwrap();
+        let text = task.scenario("terrain/a.toml");
+        let numbers = |key: &str| -> Vec<f64> {
+            let line = text.lines().find_map(|line| line.strip_prefix(key)).unwrap();
+            let list = line.trim_matches(|c: char| " =[]".contains(c));
+            list.split(", ").map(|number| number.parse().unwrap()).collect()
+        };
+        let PlanPose { position_m, yaw_rad } = task.start;
+        assert_eq!(numbers("start"), [position_m.x, position_m.y, yaw_rad]);
+        assert_eq!(numbers("goal"), task.goal_m.to_array());
+        assert!(text.contains("terrain = \"terrain/a.toml\"\n") && text.ends_with("seed = 1\n"), "{text}");
+    }
+}

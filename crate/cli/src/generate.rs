@@ -1,0 +1,175 @@
+//! `mapless generate`: tasks on generated terrains as scenario files, and what their difficulty comes to.
+//!
+//! The folder gets `hard-1-0007.toml`, a scenario, and `terrain/hard-1-0007.toml`, its recipe. Running again writes nothing
+//! new; a folder with anything else in it, or a file with other contents, is refused.
+
+mod summary;
+
+use std::fs;
+use std::io::{ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use indicatif::ProgressIterator as _;
+use mapless_baselines::Task;
+use mapless_world::generate::Difficulty;
+use summary::Summary;
+
+/// The folder of the recipes, within that of the scenarios.
+const TERRAIN: &str = "terrain";
+/// Numbers of tasks have four digits.
+const MOST_TASKS: u32 = 9999;
+
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Seed of the tasks. Task K of a seed is the same whatever the count.
+    #[arg(long)]
+    seed: u64,
+    /// How steep and rough the terrains are.
+    #[arg(long, value_parser = crate::difficulty_parser())]
+    difficulty: Difficulty,
+    /// Number of tasks.
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_TASKS)))]
+    count: u32,
+    /// Write the scenarios to this folder, which is made when missing, and their recipes to terrain/ in it.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Generates, writes and prints the table.
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let terrains = args.out.join(TERRAIN);
+    fs::create_dir_all(&terrains).with_context(|| format!("--out: {}", terrains.display()))?;
+    refuse_other_files(&args.out)?;
+    refuse_other_files(&terrains)?;
+    let mut summary = Summary::default();
+    // Indicatif shows nothing where standard error is no terminal.
+    for index in (1..=args.count).progress_count(args.count.into()) {
+        let task = Task::generate(args.difficulty, args.seed, index)?;
+        let file = format!("{}.toml", task.name);
+        write(&terrains.join(&file), &task.recipe)?;
+        write(&args.out.join(&file), &task.scenario(&format!("{TERRAIN}/{file}")))?;
+        summary.add(&task);
+    }
+    writeln!(std::io::stdout(), "{}", summary.table()).context("standard output")
+}
+
+/// Fails when a folder holds anything but tasks, so that none is mixed with what somebody else keeps there.
+fn refuse_other_files(folder: &Path) -> anyhow::Result<()> {
+    for entry in fs::read_dir(folder).with_context(|| format!("--out: {}", folder.display()))? {
+        let name = entry.with_context(|| format!("--out: {}", folder.display()))?.file_name();
+        let name = name.to_string_lossy();
+        anyhow::ensure!(
+            name == TERRAIN || is_task_file(&name),
+            "--out: {}: expected an empty or new folder, or one with generated tasks alone",
+            folder.join(&*name).display()
+        );
+    }
+    Ok(())
+}
+
+/// Whether a name is like `hard-1-0007.toml`.
+fn is_task_file(name: &str) -> bool {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let parts: Option<Vec<&str>> = name.strip_suffix(".toml").map(|stem| stem.split('-').collect());
+    matches!(parts.as_deref(), Some(&[difficulty, seed, index])
+        if difficulty.parse::<Difficulty>().is_ok() && digits(seed) && index.len() == 4 && digits(index))
+}
+
+/// Writes a file, unless it is there already; other contents are somebody's work.
+fn write(path: &Path, text: &str) -> anyhow::Result<()> {
+    let context = || format!("--out: {}", path.display());
+    match fs::read(path) {
+        Ok(bytes) if bytes == text.as_bytes() => Ok(()),
+        Ok(_) => {
+            anyhow::bail!(
+                "{}: expected no file, or the generated one: this one has other contents",
+                context()
+            )
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => fs::write(path, text).with_context(context),
+        Err(error) => Err(error).with_context(context),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mapless_baselines::{OracleConfig, PlanPose, shortest_path};
+    use mapless_trials::LoadedScenario;
+
+    fn args(out: &Path, count: u32) -> Args {
+        Args { seed: 5, difficulty: Difficulty::Moderate, count, out: out.to_owned() }
+    }
+
+    /// Every file below a folder with its contents, in order of name.
+    fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+        let mut found = Vec::new();
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                found.extend(contents(&path));
+            } else {
+                found.push((path.strip_prefix(folder).unwrap().to_owned(), fs::read(&path).unwrap()));
+            }
+        }
+        found.sort();
+        found
+    }
+
+    #[test]
+    fn scenarios_load_have_a_path_and_do_not_depend_on_the_count() {
+        let (one, three) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        run(&args(one.path(), 1)).unwrap();
+        run(&args(three.path(), 3)).unwrap();
+        for (index, scenario_file) in
+            ["moderate-5-0001.toml", "moderate-5-0002.toml", "moderate-5-0003.toml"].into_iter().enumerate()
+        {
+            let LoadedScenario { scenario, terrain } =
+                LoadedScenario::read(&three.path().join(scenario_file)).unwrap();
+            assert_eq!(scenario.seed, index as u64 + 1);
+            let start =
+                PlanPose { position_m: scenario.start.position_m, yaw_rad: scenario.start.heading_rad };
+            let config = OracleConfig::default();
+            let path =
+                shortest_path(&terrain.field, &scenario.robot, start, scenario.goal_m, &config).unwrap();
+            assert!(path.length_m >= start.position_m.distance(scenario.goal_m) - 1e-9);
+        }
+        let same = ["moderate-5-0001.toml", "terrain/moderate-5-0001.toml"];
+        for file in same {
+            assert_eq!(fs::read(one.path().join(file)).unwrap(), fs::read(three.path().join(file)).unwrap());
+        }
+        // Once more, and on from one to three.
+        let before = contents(three.path());
+        run(&args(three.path(), 2)).unwrap();
+        run(&args(one.path(), 3)).unwrap();
+        assert_eq!(contents(three.path()), before);
+        assert_eq!(contents(one.path()), before);
+    }
+
+    #[test]
+    fn other_files_are_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+        let error = run(&args(folder.path(), 1)).unwrap_err().to_string();
+        assert!(error.contains("notes.txt: expected an empty or new folder"), "{error}");
+        assert_eq!(contents(folder.path()).len(), 1);
+
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("moderate-5-0001.toml");
+        fs::write(&file, "mine").unwrap();
+        let error = run(&args(folder.path(), 1)).unwrap_err().to_string();
+        assert!(error.contains("moderate-5-0001.toml: expected no file, or the generated one"), "{error}");
+        assert_eq!(fs::read(&file).unwrap(), b"mine");
+    }
+
+    #[test]
+    fn names_of_tasks_are_known() {
+        for name in ["easy-1-0001.toml", "hard-18446744073709551615-9999.toml"] {
+            assert!(is_task_file(name), "{name}");
+        }
+        for name in ["harsh-1-0001.toml", "easy-1-1.toml", "easy-x-0001.toml", "easy-1-0001", "easy.toml"] {
+            assert!(!is_task_file(name), "{name}");
+        }
+    }
+}
