@@ -113,7 +113,7 @@ fn json_has_every_name_and_the_same_seed_gives_the_same_digest() {
     let digest = first["digest"].as_str().unwrap();
     assert!(digest.len() == 32 && digest.bytes().all(|byte| byte.is_ascii_hexdigit()), "{digest}");
 
-    let second = folder.json(&["--seed", "1", "--preset", "default"]);
+    let second = folder.json(&["--seed", "1", "--planner", "default"]);
     for name in ["digest", "metrics", "ticks", "outcome"] {
         assert_eq!(first[name], second[name], "{name}");
     }
@@ -123,7 +123,7 @@ fn json_has_every_name_and_the_same_seed_gives_the_same_digest() {
 #[test]
 fn the_paper_preset_drives_another_way_to_a_named_outcome() {
     let folder = Folder::new();
-    let output = folder.run("meadow-drive.toml", &["--json", "--preset", "paper"]);
+    let output = folder.run("meadow-drive.toml", &["--json", "--planner", "paper"]);
     let result: Value = serde_json::from_slice(&output.stdout).unwrap();
     let code = if result["outcome"] == "reached" { 0 } else { 2 };
     assert_eq!(output.status.code(), Some(code), "{output:?}");
@@ -176,7 +176,7 @@ fn the_table_names_units_and_limits() {
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let table = String::from_utf8(output.stdout).unwrap();
     for needle in [
-        "meadow-drive on Meadow, preset default, seed 1",
+        "meadow-drive on Meadow, planner default, seed 1",
         "reached",
         "limit 30.0°",
         "limit 45.0°",
@@ -265,7 +265,7 @@ fn bad_arguments_are_refused_with_code_1() {
     refused(&folder.run("none.toml", &[]), "error: none.toml: cannot be read", &[]);
     refused(&folder.run(".", &[]), "error: .: cannot be read", &["irectory"]);
     refused(&run(&["--seed", "one"]), "error: ", &["--seed", "one"]);
-    refused(&run(&["--preset", "best"]), "error: ", &["--preset", "best", "paper"]);
+    refused(&run(&["--planner", "best"]), "error: ", &["--planner", "best", "paper"]);
     refused(&run(&["--fast"]), "error: ", &["--fast"]);
     refused(&mapless(folder.0.path(), &[]), "", &["Usage"]);
     // A folder cannot be made below a file.
@@ -279,7 +279,7 @@ fn bad_arguments_are_refused_with_code_1() {
 fn help_is_no_error() {
     let output = mapless(Path::new("."), &["run", "--help"]);
     assert_eq!(output.status.code(), Some(0));
-    assert!(String::from_utf8(output.stdout).unwrap().contains("--preset"));
+    assert!(String::from_utf8(output.stdout).unwrap().contains("--planner"));
 }
 
 /// Real ground, sampled every metre: from one corner, down a scarp of five metres, to the opposite one.

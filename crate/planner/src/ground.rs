@@ -32,13 +32,89 @@ struct GroundCell {
 
 /// The plane through the ground around a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Plane {
-    /// Height at the place asked for.
-    pub(crate) height_m: f64,
+pub struct Plane {
+    /// Height at the place asked for, metres.
+    pub height_m: f64,
     /// (dz/dx, dz/dy).
-    pub(crate) gradient: DVec2,
+    pub gradient: DVec2,
     /// Standard deviation of the gradient in its least certain direction.
-    pub(crate) gradient_deviation: f64,
+    pub gradient_deviation: f64,
+}
+
+impl Plane {
+    /// The least-squares plane through `points_m`, with its height at `place_m`; `None` where they say too little of a
+    /// slope.
+    pub fn fit(place_m: DVec2, points_m: &[DVec3]) -> Option<Self> {
+        let mut centroid = Centroid::default();
+        points_m.iter().for_each(|&point| centroid.add(point));
+        let mut moments = centroid.moments()?;
+        points_m.iter().for_each(|&point| moments.add(point));
+        moments.plane(place_m)
+    }
+}
+
+/// The first pass of a least-squares plane.
+#[derive(Default)]
+struct Centroid {
+    count: usize,
+    sum_m: DVec3,
+}
+
+impl Centroid {
+    fn add(&mut self, point_m: DVec3) {
+        self.count += 1;
+        self.sum_m += point_m;
+    }
+
+    fn moments(self) -> Option<Moments> {
+        let Self { count, sum_m } = self;
+        let centroid_m = sum_m / count as f64;
+        (count >= FEWEST_CELLS).then(|| Moments { count, centroid_m, ..Moments::default() })
+    }
+}
+
+/// The second pass: sums of products about the centroid.
+#[derive(Default)]
+struct Moments {
+    count: usize,
+    centroid_m: DVec3,
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    xz: f64,
+    yz: f64,
+    zz: f64,
+}
+
+impl Moments {
+    fn add(&mut self, point_m: DVec3) {
+        let d = point_m - self.centroid_m;
+        self.xx += d.x * d.x;
+        self.xy += d.x * d.y;
+        self.yy += d.y * d.y;
+        self.xz += d.x * d.z;
+        self.yz += d.y * d.z;
+        self.zz += d.z * d.z;
+    }
+
+    fn plane(&self, place_m: DVec2) -> Option<Plane> {
+        let spread = Matrix2::new(self.xx, self.xy, self.xy, self.yy);
+        let least_spread = spread.symmetric_eigenvalues().min();
+        // Cells in a line, such as those of a single ring, say nothing of the slope across it.
+        let least_variance = LEAST_ROUGHNESS_M * LEAST_ROUGHNESS_M;
+        if least_spread * LARGEST_SLOPE_DEVIATION * LARGEST_SLOPE_DEVIATION < least_variance {
+            return None;
+        }
+        let solved = spread.cholesky()?.solve(&Vector2::new(self.xz, self.yz));
+        let gradient = DVec2::new(solved.x, solved.y);
+        let unexplained = self.zz - gradient.x * self.xz - gradient.y * self.yz;
+        let residual = unexplained.max(0.0) / (self.count - 2) as f64;
+        Some(Plane {
+            height_m: self.centroid_m.z + gradient.dot(place_m - self.centroid_m.truncate()),
+            gradient,
+            gradient_deviation: (residual.max(least_variance) / least_spread).sqrt(),
+        })
+    }
 }
 
 /// The moving window.
@@ -84,42 +160,11 @@ impl Ground {
     }
 
     fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
-        let mut count = 0;
-        let mut centroid = DVec3::ZERO;
-        self.each_cell_near(place_m, radius_m, |mean| {
-            count += 1;
-            centroid += mean;
-        });
-        if count < FEWEST_CELLS {
-            return None;
-        }
-        centroid /= count as f64;
-
-        let (mut xx, mut xy, mut yy, mut xz, mut yz, mut zz) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        self.each_cell_near(place_m, radius_m, |mean| {
-            let d = mean - centroid;
-            xx += d.x * d.x;
-            xy += d.x * d.y;
-            yy += d.y * d.y;
-            xz += d.x * d.z;
-            yz += d.y * d.z;
-            zz += d.z * d.z;
-        });
-        let spread = Matrix2::new(xx, xy, xy, yy);
-        let least_spread = spread.symmetric_eigenvalues().min();
-        // Cells in a line, such as those of a single ring, say nothing of the slope across it.
-        let least_variance = LEAST_ROUGHNESS_M * LEAST_ROUGHNESS_M;
-        if least_spread * LARGEST_SLOPE_DEVIATION * LARGEST_SLOPE_DEVIATION < least_variance {
-            return None;
-        }
-        let solved = spread.cholesky()?.solve(&Vector2::new(xz, yz));
-        let gradient = DVec2::new(solved.x, solved.y);
-        let residual = (zz - gradient.x * xz - gradient.y * yz).max(0.0) / (count - 2) as f64;
-        Some(Plane {
-            height_m: centroid.z + gradient.dot(place_m - centroid.truncate()),
-            gradient,
-            gradient_deviation: (residual.max(least_variance) / least_spread).sqrt(),
-        })
+        let mut centroid = Centroid::default();
+        self.each_cell_near(place_m, radius_m, |mean| centroid.add(mean));
+        let mut moments = centroid.moments()?;
+        self.each_cell_near(place_m, radius_m, |mean| moments.add(mean));
+        moments.plane(place_m)
     }
 
     fn each_cell_near(&self, place_m: DVec2, radius_m: f64, mut visit: impl FnMut(DVec3)) {
