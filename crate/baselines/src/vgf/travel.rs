@@ -114,7 +114,7 @@ mod tests {
             costs[node]
         };
         let most = (0..40).map(on_top).fold(0.0, f64::max);
-        let source = (0..40).rposition(|column| on_top(column as i64) == most).unwrap() as i64;
+        let source = (0..40).rposition(|column| on_top(i64::from(column)) == most).unwrap() as i64;
         assert!(most > 100.0);
         for away in 0..=12 {
             let expected = most * (1.0 - 0.3 * away as f64 / 2.5).max(0.0);
