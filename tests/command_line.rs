@@ -131,6 +131,52 @@ fn the_paper_preset_drives_another_way_to_a_named_outcome() {
 }
 
 #[test]
+fn any_planner_drives_with_the_same_report_and_log() {
+    let folder = Folder::new();
+    let route = |planner: &str| folder.json(&["--planner", planner, "--out", planner]);
+    let vgf = route("vgf");
+    assert_eq!(names("", &vgf), names("", &folder.json(&[])));
+    assert_ne!(vgf["digest"], route("direct")["digest"]);
+    let trajectory = fs::read_to_string(folder.path("vgf/trajectory.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = trajectory.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows.len() as u64, vgf["ticks"].as_u64().unwrap() + 1);
+    // A route has no subgoals.
+    assert!(rows.iter().all(|row| row.len() == 14 && row[11].is_empty()));
+    assert!(fs::read_to_string(folder.path("vgf/path.svg")).unwrap().contains("planner vgf"));
+    refused(
+        &folder.run("meadow-drive.toml", &["--planner", "vgf", "--learning", "once"]),
+        "error: --learning: planner vgf learns nothing",
+        &[],
+    );
+}
+
+#[test]
+fn truth_stands_in_for_perception() {
+    let folder = Folder::new();
+    let perceived = folder.json(&[]);
+    let told = folder.json(&["--truth", "both"]);
+    assert_ne!(told["digest"], perceived["digest"]);
+    assert_eq!(folder.json(&["--truth", "none"])["digest"], perceived["digest"]);
+    refused(
+        &folder.run("meadow-drive.toml", &["--planner", "putn", "--truth", "ground"]),
+        "error: meadow-drive.toml: planner putn perceives nothing",
+        &["default"],
+    );
+}
+
+#[test]
+fn a_map_without_a_path_is_an_outcome_with_its_reason() {
+    let folder = Folder::new();
+    let wall = "[[ridge]]\npoints = [[10.0, -5.0], [10.0, 15.0]]\nheight_m = 4.0\nwidth_m = 1.5\n";
+    folder.write("walled.toml", format!("{RECIPE}\n{wall}"));
+    folder.write("walled-drive.toml", SCENARIO.replace("meadow.toml", "walled.toml"));
+    let output = folder.run("walled-drive.toml", &["--json", "--planner", "vgf"]);
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((output.status.code(), result["outcome"].as_str().unwrap()), (Some(2), "no_subgoal"));
+    assert_eq!(result["reason"], "no path to the goal on the map");
+}
+
+#[test]
 fn out_writes_the_trajectory_a_picture_and_the_result() {
     let folder = Folder::new();
     let result = folder.json(&["--out", "new/trial"]);
