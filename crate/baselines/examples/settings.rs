@@ -46,8 +46,8 @@ fn run(file: &Path) -> Result<(), Box<dyn std::error::Error>> {
         };
         let metrics = trial.metrics();
         println!(
-            "{:24} {name:24} {outcome:11} {:6.1} m, |roll| {:.3} rad, |pitch| {:.3} rad, {:.3} rad/s, {:5.2} cm/s, {:.2} rad/m",
-            terrain.name,
+            "{:8} {name:24} {outcome:11} {:6.1} m, |roll| {:.3} rad, |pitch| {:.3} rad, {:.3} rad/s, {:5.2} cm/s, {:.2} rad/m",
+            file.file_stem().unwrap_or_default().to_string_lossy(),
             metrics.distance_m,
             metrics.max_abs_roll_rad,
             metrics.max_abs_pitch_rad,
