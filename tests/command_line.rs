@@ -113,7 +113,7 @@ fn json_has_every_name_and_the_same_seed_gives_the_same_digest() {
     let digest = first["digest"].as_str().unwrap();
     assert!(digest.len() == 32 && digest.bytes().all(|byte| byte.is_ascii_hexdigit()), "{digest}");
 
-    let second = folder.json(&["--seed", "1", "--preset", "default"]);
+    let second = folder.json(&["--seed", "1", "--planner", "default"]);
     for name in ["digest", "metrics", "ticks", "outcome"] {
         assert_eq!(first[name], second[name], "{name}");
     }
@@ -123,11 +123,57 @@ fn json_has_every_name_and_the_same_seed_gives_the_same_digest() {
 #[test]
 fn the_paper_preset_drives_another_way_to_a_named_outcome() {
     let folder = Folder::new();
-    let output = folder.run("meadow-drive.toml", &["--json", "--preset", "paper"]);
+    let output = folder.run("meadow-drive.toml", &["--json", "--planner", "paper"]);
     let result: Value = serde_json::from_slice(&output.stdout).unwrap();
     let code = if result["outcome"] == "reached" { 0 } else { 2 };
     assert_eq!(output.status.code(), Some(code), "{output:?}");
     assert_ne!(result["digest"], folder.json(&[])["digest"]);
+}
+
+#[test]
+fn any_planner_drives_with_the_same_report_and_log() {
+    let folder = Folder::new();
+    let route = |planner: &str| folder.json(&["--planner", planner, "--out", planner]);
+    let vgf = route("vgf");
+    assert_eq!(names("", &vgf), names("", &folder.json(&[])));
+    assert_ne!(vgf["digest"], route("direct")["digest"]);
+    let trajectory = fs::read_to_string(folder.path("vgf/trajectory.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = trajectory.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows.len() as u64, vgf["ticks"].as_u64().unwrap() + 1);
+    // A route has no subgoals.
+    assert!(rows.iter().all(|row| row.len() == 14 && row[11].is_empty()));
+    assert!(fs::read_to_string(folder.path("vgf/path.svg")).unwrap().contains("planner vgf"));
+    refused(
+        &folder.run("meadow-drive.toml", &["--planner", "vgf", "--learning", "once"]),
+        "error: --learning: planner vgf learns nothing",
+        &[],
+    );
+}
+
+#[test]
+fn truth_stands_in_for_perception() {
+    let folder = Folder::new();
+    let perceived = folder.json(&[]);
+    let told = folder.json(&["--truth", "both"]);
+    assert_ne!(told["digest"], perceived["digest"]);
+    assert_eq!(folder.json(&["--truth", "none"])["digest"], perceived["digest"]);
+    refused(
+        &folder.run("meadow-drive.toml", &["--planner", "putn", "--truth", "ground"]),
+        "error: meadow-drive.toml: planner putn perceives nothing",
+        &["default"],
+    );
+}
+
+#[test]
+fn a_map_without_a_path_is_an_outcome_with_its_reason() {
+    let folder = Folder::new();
+    let wall = "[[ridge]]\npoints = [[10.0, -5.0], [10.0, 15.0]]\nheight_m = 4.0\nwidth_m = 1.5\n";
+    folder.write("walled.toml", format!("{RECIPE}\n{wall}"));
+    folder.write("walled-drive.toml", SCENARIO.replace("meadow.toml", "walled.toml"));
+    let output = folder.run("walled-drive.toml", &["--json", "--planner", "vgf"]);
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((output.status.code(), result["outcome"].as_str().unwrap()), (Some(2), "no_subgoal"));
+    assert_eq!(result["reason"], "no path to the goal on the map");
 }
 
 #[test]
@@ -176,7 +222,7 @@ fn the_table_names_units_and_limits() {
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let table = String::from_utf8(output.stdout).unwrap();
     for needle in [
-        "meadow-drive on Meadow, preset default, seed 1",
+        "meadow-drive on Meadow, planner default, seed 1",
         "reached",
         "limit 30.0°",
         "limit 45.0°",
@@ -265,7 +311,7 @@ fn bad_arguments_are_refused_with_code_1() {
     refused(&folder.run("none.toml", &[]), "error: none.toml: cannot be read", &[]);
     refused(&folder.run(".", &[]), "error: .: cannot be read", &["irectory"]);
     refused(&run(&["--seed", "one"]), "error: ", &["--seed", "one"]);
-    refused(&run(&["--preset", "best"]), "error: ", &["--preset", "best", "paper"]);
+    refused(&run(&["--planner", "best"]), "error: ", &["--planner", "best", "paper"]);
     refused(&run(&["--fast"]), "error: ", &["--fast"]);
     refused(&mapless(folder.0.path(), &[]), "", &["Usage"]);
     // A folder cannot be made below a file.
@@ -279,7 +325,7 @@ fn bad_arguments_are_refused_with_code_1() {
 fn help_is_no_error() {
     let output = mapless(Path::new("."), &["run", "--help"]);
     assert_eq!(output.status.code(), Some(0));
-    assert!(String::from_utf8(output.stdout).unwrap().contains("--preset"));
+    assert!(String::from_utf8(output.stdout).unwrap().contains("--planner"));
 }
 
 /// Real ground, sampled every metre: from one corner, down a scarp of five metres, to the opposite one.

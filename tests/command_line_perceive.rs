@@ -150,7 +150,7 @@ fn a_wall_on_the_left_is_a_wall_on_the_left() {
     let folder = Folder::new();
     folder.write("yard.csv", walled());
     for preset in ["default", "paper"] {
-        let result = folder.json("yard.csv", &["--preset", preset]);
+        let result = folder.json("yard.csv", &["--planner", preset]);
         assert_sound(&result);
         assert_eq!((result["status"].as_str(), result["reason"].as_str()), (Some("driving"), None));
         for (column, entry) in result["profile"].as_array().unwrap().iter().enumerate() {
@@ -220,9 +220,9 @@ fn a_scan_without_returns_has_a_named_result() {
 fn the_tables_name_units_segments_and_subgoals() {
     let folder = Folder::new();
     folder.write("yard.csv", walled());
-    let text = String::from_utf8(folder.perceive("yard.csv", &["--preset", "paper"]).stdout).unwrap();
+    let text = String::from_utf8(folder.perceive("yard.csv", &["--planner", "paper"]).stdout).unwrap();
     for needle in [
-        "yard.csv, preset paper\ndriving to the subgoal at ",
+        "yard.csv, planner paper\ndriving to the subgoal at ",
         "within 7 m",
         "columns of 1°",
         "width m",
@@ -243,7 +243,7 @@ fn out_draws_segments_subgoals_and_the_three_surfaces() {
     let file = |name: &str| fs::read_to_string(folder.path("new/pictures").join(name)).unwrap();
     let image = file("variance_image.svg");
     assert!(image.starts_with("<svg ") && image.ends_with("</svg>\n"));
-    assert!(image.contains("a&amp;b.csv, preset default"));
+    assert!(image.contains("a&amp;b.csv, planner default"));
     let candidates =
         result["subgoals"].as_array().unwrap().iter().filter(|subgoal| subgoal["refusal"].is_null()).count();
     // One more in the legend.
@@ -266,7 +266,7 @@ fn what_cannot_be_read_is_refused_by_file_and_place() {
     folder.write("good.csv", "1 2 3\n");
     folder.refuses("good.csv", &["--revolution", "1"], "good.csv: revolution = 1: expected 0");
     folder.refuses("good.csv", &["--revolution", "-1"], "unexpected argument");
-    folder.refuses("good.csv", &["--preset", "best"], "invalid value 'best'");
+    folder.refuses("good.csv", &["--planner", "best"], "invalid value 'best'");
     folder.refuses("good.csv", &["--out", "good.csv/below"], "--out: good.csv/below: ");
 }
 
@@ -279,7 +279,7 @@ fn real_captures_go_through_perception_on_every_revolution() {
             continue;
         }
         for (revolution, preset) in (0..whole).flat_map(|k: usize| [(k, "default"), (k, "paper")]) {
-            let options = ["--json", "--revolution", &revolution.to_string(), "--preset", preset];
+            let options = ["--json", "--revolution", &revolution.to_string(), "--planner", preset];
             let output = perceive(&captures, name, &options);
             assert_eq!(output.status.code(), Some(0), "{name}, {revolution}, {preset}: {output:?}");
             let result: Value = serde_json::from_slice(&output.stdout).unwrap();

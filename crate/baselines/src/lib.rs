@@ -1,14 +1,30 @@
 //! What the mapless planner is compared with.
 //!
+//! [`NavigatorKind`] names every planner and builds it: this project's own in its configurations, and planners that have
+//! the whole map: the paper's baseline ([`vgf`]), plane-fitting RRT* ([`putn`]), driving straight at the goal
+//! ([`Straight`]) and the shortest safe path ([`Oracle`]). Generated tasks ([`Task`]) are those that the last one can solve. [`TrueSight`] gives the mapless planner the truth in place of what it perceives.
+//!
 //! Everything here is a pure function of its arguments and gives the same bits natively and on wasm.
 
 // Tests state exact values where the arithmetic is exact.
 #![cfg_attr(test, allow(clippy::float_cmp))]
 
+mod cloud;
 mod follower;
+mod kind;
 mod oracle;
+pub mod putn;
+mod route;
 mod tasks;
+#[cfg(test)]
+mod testing;
+mod true_sight;
+pub mod vgf;
 
+pub use cloud::{Cloud, MapError};
 pub use follower::PathFollower;
-pub use oracle::{OracleConfig, OracleDriver, OracleError, OraclePath, PlanPose, shortest_path};
+pub use kind::{BuildError, NavigatorKind, UnknownName};
+pub use oracle::{Oracle, OracleConfig, OracleError, OraclePath, PlanPose, shortest_path};
+pub use route::{RouteNavigator, RoutePlanner, Straight};
 pub use tasks::{Task, TaskError};
+pub use true_sight::{TrueSight, Truth};

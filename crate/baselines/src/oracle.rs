@@ -8,15 +8,15 @@
 //! The cost is the length seen from above, and 0.1 m for each heading turned in place, so that the path does not turn
 //! without need. Between its headings the lattice goes in zigzags: up to 2.8 % longer than a path over all headings.
 
-mod driver;
 mod lattice;
 mod motions;
+mod planner;
 mod standing;
 #[cfg(test)]
 mod tests;
 
-pub use driver::OracleDriver;
 use lattice::{Lattice, Node};
+pub use planner::Oracle;
 pub(crate) use standing::Standing;
 
 use glam::DVec2;

@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use glam::DVec2;
-use mapless::Status;
-use mapless_trials::Trial;
+use mapless::{Decision, Navigator as _, Status};
 
 use crate::picture::Picture;
 use crate::report::Report;
+use crate::run::AnyTrial;
 
 const HEADER: &str = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,speed_m_s,turn_rate_rad_s,\
     command_speed_m_s,command_turn_rate_rad_s,subgoal_x_m,subgoal_y_m,status";
@@ -23,11 +23,13 @@ pub(crate) struct Log {
     trajectory: BufWriter<File>,
     path_m: Vec<DVec2>,
     subgoals_m: Vec<DVec2>,
+    goal_tolerance_m: f64,
 }
 
 impl Log {
-    /// Makes the folder and begins its trajectory, so that what cannot be written shows before the long run.
-    pub(crate) fn create(folder: &Path) -> anyhow::Result<Self> {
+    /// Makes the folder and begins its trajectory, so that what cannot be written shows before the long run. The picture
+    /// will show how near the goal counts as reached.
+    pub(crate) fn create(folder: &Path, goal_tolerance_m: f64) -> anyhow::Result<Self> {
         fs::create_dir_all(folder).with_context(|| format!("--out: {}", folder.display()))?;
         let path = folder.join("trajectory.csv");
         let file = File::create(&path).with_context(|| format!("--out: {}", path.display()))?;
@@ -36,21 +38,20 @@ impl Log {
             trajectory: BufWriter::new(file),
             path_m: Vec::new(),
             subgoals_m: Vec::new(),
+            goal_tolerance_m,
         };
         log.row(HEADER)?;
         Ok(log)
     }
 
     /// Adds the state and the decision of one planning period, before the robot moves.
-    pub(crate) fn decided(&mut self, trial: &Trial) -> anyhow::Result<()> {
-        let step = trial.step();
-        let command = step.command;
-        let chosen = step.chosen.and_then(|index| step.subgoals.get(index));
-        let subgoal_m = chosen.map(|subgoal| subgoal.position_m.truncate());
+    pub(crate) fn decided(&mut self, trial: &AnyTrial, decision: &Decision) -> anyhow::Result<()> {
+        let Decision { status, command } = decision;
+        let subgoal_m = trial.navigator().subgoal_m();
         self.path_m.push(trial.robot().position);
         self.subgoals_m.extend(subgoal_m);
         let subgoal = subgoal_m.map_or(",".to_owned(), |place| format!("{:.6},{:.6}", place.x, place.y));
-        let status = match step.status {
+        let status = match status {
             Status::Driving => "driving",
             Status::Arrived => "arrived",
             Status::Looking => "looking",
@@ -61,7 +62,7 @@ impl Log {
     }
 
     /// Adds the last row and writes the other files.
-    pub(crate) fn finish(mut self, trial: &Trial, report: &Report) -> anyhow::Result<()> {
+    pub(crate) fn finish(mut self, trial: &AnyTrial, report: &Report) -> anyhow::Result<()> {
         self.path_m.push(trial.robot().position);
         self.row(&format!("{},,,,,{}", state(trial), report.outcome.name()))?;
         self.trajectory.flush().with_context(|| self.folder.join("trajectory.csv").display().to_string())?;
@@ -70,14 +71,14 @@ impl Log {
         self.write("path.svg", &self.picture(trial, report).svg()?)
     }
 
-    fn picture<'a>(&'a self, trial: &'a Trial, report: &Report) -> Picture<'a> {
+    fn picture<'a>(&'a self, trial: &'a AnyTrial, report: &Report) -> Picture<'a> {
         Picture {
             title: report.headline(),
             subtitle: format!("{} · {}", report.subject, report.tilts()),
             field: trial.field(),
             start: trial.start(),
             goal_m: trial.goal_m(),
-            goal_tolerance_m: trial.planner_config().goal_tolerance_m,
+            goal_tolerance_m: self.goal_tolerance_m,
             path_m: &self.path_m,
             subgoals_m: &self.subgoals_m,
             outcome: report.outcome,
@@ -95,7 +96,7 @@ impl Log {
     }
 }
 
-fn state(trial: &Trial) -> String {
+fn state(trial: &AnyTrial) -> String {
     let values: String = trial.motion().iter().map(|value| format!(",{value:.6}")).collect();
     format!("{:.3}{values}", trial.time_s())
 }

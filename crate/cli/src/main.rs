@@ -18,6 +18,7 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use mapless::learning::LearningMode;
+use mapless_baselines::{NavigatorKind, Truth};
 use mapless_trials::{Outcome, Preset};
 use mapless_world::generate::Difficulty;
 
@@ -67,9 +68,20 @@ fn usage(message: &clap::Error) -> ExitCode {
     if message.use_stderr() || shown.is_err() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-/// Reads the name of a preset, for `--preset`.
+/// Reads the name of a configuration of this project's planner, for `--planner` where nothing else can be meant.
 fn preset_parser() -> impl TypedValueParser<Value = Preset> {
-    PossibleValuesParser::new(["default", "paper"]).try_map(|name| name.parse::<Preset>())
+    PossibleValuesParser::new(Preset::ALL.map(Preset::name)).try_map(|name| name.parse::<Preset>())
+}
+
+/// Reads the name of a navigator, for `--planner`.
+fn planner_parser() -> impl TypedValueParser<Value = NavigatorKind> {
+    PossibleValuesParser::new(NavigatorKind::ALL.map(NavigatorKind::name))
+        .try_map(|name| name.parse::<NavigatorKind>())
+}
+
+/// Reads what is true in place of perceived, for `--truth`.
+fn truth_parser() -> impl TypedValueParser<Value = Truth> {
+    PossibleValuesParser::new(Truth::NAMES).try_map(|name| name.parse::<Truth>())
 }
 
 /// Reads the name of a mode of learning, for `--learning`.

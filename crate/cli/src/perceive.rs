@@ -45,7 +45,7 @@ pub(crate) struct Args {
 /// Perceives the scan and shows what was seen and decided.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let points_m = read_scan(&args.file, args.revolution)?;
-    let config = args.planner.apply(args.planner.preset.planner_config());
+    let config = args.planner.apply(args.planner.planner.planner_config());
     let mut planner = Planner::new(config)?;
     let variance_threshold = planner.config().perception.variance_threshold;
     let report =
@@ -63,7 +63,7 @@ fn subject(args: &Args) -> String {
     let file = args.file.file_name().unwrap_or_default().to_string_lossy();
     let is_capture = args.file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pcap"));
     let revolution = if is_capture { format!(", revolution {}", args.revolution) } else { String::new() };
-    format!("{file}{revolution}, preset {}", args.planner.preset.name())
+    format!("{file}{revolution}, planner {}", args.planner.planner.name())
 }
 
 fn draw(

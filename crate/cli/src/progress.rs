@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
+use crate::run::AnyTrial;
 use indicatif::{ProgressBar, ProgressStyle};
-use mapless_trials::Trial;
 
 /// The bar fills as the goal comes closer.
 pub(crate) struct Progress {
@@ -13,7 +13,7 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    pub(crate) fn new(trial: &Trial) -> Self {
+    pub(crate) fn new(trial: &AnyTrial) -> Self {
         let straight_m = to_goal_m(trial);
         // The bar counts centimetres. Indicatif shows nothing where standard error is no terminal.
         let bar = ProgressBar::new((100.0 * straight_m) as u64);
@@ -23,7 +23,7 @@ impl Progress {
         Self { bar, begun: Instant::now(), straight_m }
     }
 
-    pub(crate) fn show(&self, trial: &Trial) {
+    pub(crate) fn show(&self, trial: &AnyTrial) {
         let left_m = to_goal_m(trial);
         let factor = trial.time_s() / self.begun.elapsed().as_secs_f64();
         self.bar.set_position((100.0 * (self.straight_m - left_m).max(0.0)) as u64);
@@ -40,6 +40,6 @@ impl Drop for Progress {
     }
 }
 
-fn to_goal_m(trial: &Trial) -> f64 {
+fn to_goal_m(trial: &AnyTrial) -> f64 {
     (trial.goal_m() - trial.robot().position).length()
 }

@@ -4,14 +4,17 @@ use std::fmt;
 use std::time::Duration;
 
 use comfy_table::{CellAlignment, Table, presets};
-use mapless_trials::{Metrics, Outcome, Preset, Trial};
+use mapless_trials::{Metrics, Outcome};
+
+use crate::run::AnyTrial;
 
 /// What was run; stands above the table and the picture.
 pub(crate) struct Subject {
     /// Name of the scenario file, without extension.
     pub(crate) scenario: String,
     pub(crate) terrain: String,
-    pub(crate) preset: Preset,
+    /// Name of the planner, and of what was true in place of perceived.
+    pub(crate) planner: String,
     pub(crate) seed: u64,
     pub(crate) roll_limit_rad: f64,
     pub(crate) pitch_limit_rad: f64,
@@ -19,8 +22,7 @@ pub(crate) struct Subject {
 
 impl fmt::Display for Subject {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let preset = self.preset.name();
-        write!(f, "{} on {}, preset {preset}, seed {}", self.scenario, self.terrain, self.seed)
+        write!(f, "{} on {}, planner {}, seed {}", self.scenario, self.terrain, self.planner, self.seed)
     }
 }
 
@@ -49,7 +51,7 @@ pub(crate) struct PlannerTime {
 impl Report {
     pub(crate) fn new(
         subject: Subject,
-        trial: &Trial,
+        trial: &AnyTrial,
         outcome: Outcome,
         planner_times: Vec<Duration>,
     ) -> Self {

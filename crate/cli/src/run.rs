@@ -4,19 +4,34 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, ensure};
+use mapless::Navigator;
+use mapless::learning::LearningMode;
+use mapless_baselines::{NavigatorKind, Truth};
 use mapless_trials::{LoadedScenario, Outcome, Trial};
 
 use crate::log::Log;
 use crate::progress::Progress;
 use crate::report::{Report, Subject};
-use crate::setup::Setup;
+
+/// A trial driven by whatever was asked for.
+pub(crate) type AnyTrial = Trial<Box<dyn Navigator>>;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    #[command(flatten)]
-    setup: Setup,
-    /// Seed of the sensor's noise, instead of the scenario's own.
+    /// Scenario file (TOML): terrain, start, goal, seed and what differs from the defaults.
+    scenario: PathBuf,
+    /// What drives: default, paper and flat are configurations of the mapless planner, from which a scenario's [planner]
+    /// section starts; the others know the map.
+    #[arg(long, default_value = "default", value_parser = crate::planner_parser(), value_name = "NAME")]
+    planner: NavigatorKind,
+    /// When the mapless planner learns hyperparameters, instead of what the configuration says.
+    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
+    learning: Option<LearningMode>,
+    /// What the mapless planner is told in place of what it perceives.
+    #[arg(long, default_value = "none", value_parser = crate::truth_parser(), value_name = "WHAT")]
+    truth: Truth,
+    /// Seed of the sensor's noise and of what a planner draws, instead of the scenario's own.
     #[arg(long)]
     seed: Option<u64>,
     /// Write trajectory.csv, path.svg and result.json to this folder, which is made when missing.
@@ -29,17 +44,26 @@ pub(crate) struct Args {
 
 /// Runs the trial and shows how it ended.
 pub(crate) fn run(args: &Args) -> anyhow::Result<Outcome> {
-    let (LoadedScenario { scenario, terrain }, planner) = args.setup.load()?;
+    let LoadedScenario { scenario, terrain } = LoadedScenario::read(&args.scenario)?;
+    let file = || args.scenario.display().to_string();
     let seed = args.seed.unwrap_or(scenario.seed);
-    let mut trial =
-        Trial::with_planner(terrain.field, &scenario, planner, seed).with_context(|| args.setup.file())?;
-    let mut log = args.out.as_deref().map(Log::create).transpose()?;
+    let mut config = args.planner.planner_config(&scenario).with_context(file)?;
+    if let Some(mode) = args.learning {
+        let learns = matches!(args.planner, NavigatorKind::Mapless(_));
+        ensure!(learns, "--learning: planner {} learns nothing: expected a mapless one", args.planner);
+        config.perception.learning.mode = mode;
+    }
+    let goal_tolerance_m = config.goal_tolerance_m;
+    let navigator =
+        args.planner.build_with(config, args.truth, &terrain.field, &scenario, seed).with_context(file)?;
+    let mut trial = Trial::with_navigator(terrain.field, &scenario, navigator, seed).with_context(file)?;
+    let mut log = args.out.as_deref().map(|out| Log::create(out, goal_tolerance_m)).transpose()?;
 
     let (outcome, planner_times) = drive(&mut trial, &mut log)?;
     let subject = Subject {
-        scenario: args.setup.scenario.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        scenario: args.scenario.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         terrain: terrain.name,
-        preset: args.setup.planner.preset,
+        planner: args.planner_name(),
         seed,
         roll_limit_rad: scenario.robot.roll_limit_rad,
         pitch_limit_rad: scenario.robot.pitch_limit_rad,
@@ -54,17 +78,26 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Outcome> {
     Ok(outcome)
 }
 
+impl Args {
+    fn planner_name(&self) -> String {
+        match self.truth {
+            Truth::None => self.planner.name().to_owned(),
+            truth => format!("{}, truth {truth}", self.planner),
+        }
+    }
+}
+
 /// Drives until the trial ends, and says how long each planner step took.
-fn drive(trial: &mut Trial, log: &mut Option<Log>) -> anyhow::Result<(Outcome, Vec<Duration>)> {
+fn drive(trial: &mut AnyTrial, log: &mut Option<Log>) -> anyhow::Result<(Outcome, Vec<Duration>)> {
     let progress = Progress::new(trial);
     let mut planner_times = Vec::new();
     loop {
         trial.look();
         let start = Instant::now();
-        trial.plan();
+        let decision = trial.plan();
         planner_times.push(start.elapsed());
         if let Some(log) = log {
-            log.decided(trial)?;
+            log.decided(trial, &decision)?;
         }
         let outcome = trial.act();
         progress.show(trial);

@@ -1,4 +1,4 @@
-//! What `run` and `profile` begin with: a scenario and a planner for it.
+//! What `profile` and `perceive` begin with: a configuration of the planner.
 
 use std::path::PathBuf;
 
@@ -19,8 +19,8 @@ pub(crate) struct Setup {
 #[derive(clap::Args)]
 pub(crate) struct PlannerChoice {
     /// Planner configuration; a scenario's [planner] section starts from it.
-    #[arg(long, default_value = "default", value_parser = crate::preset_parser())]
-    pub(crate) preset: Preset,
+    #[arg(long, default_value = "default", value_parser = crate::preset_parser(), value_name = "NAME")]
+    pub(crate) planner: Preset,
     /// When hyperparameters are learned, instead of what the configuration says.
     #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
     learning: Option<LearningMode>,
@@ -30,7 +30,7 @@ impl Setup {
     /// The scenario with its terrain, and the planner's configuration.
     pub(crate) fn load(&self) -> anyhow::Result<(LoadedScenario, PlannerConfig)> {
         let loaded = LoadedScenario::read(&self.scenario)?;
-        let config = loaded.scenario.planner_config(self.planner.preset).with_context(|| self.file())?;
+        let config = loaded.scenario.planner_config(self.planner.planner).with_context(|| self.file())?;
         Ok((loaded, self.planner.apply(config)))
     }
 

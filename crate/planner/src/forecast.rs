@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use crate::config::{ForecastConfig, TiltLimits};
-use crate::ground::Ground;
+use crate::plane::Plane;
 use crate::pose::Pose;
 
 /// What a straight path promises.
@@ -58,9 +58,9 @@ struct Station {
     slope_deviation: f64,
 }
 
-/// Follows the straight path from where the robot stands for `length_m`.
+/// Follows the straight path from where the robot stands for `length_m`, over the ground that `plane_at` knows.
 pub(crate) fn forecast(
-    ground: &Ground,
+    plane_at: &dyn Fn(DVec2) -> Option<Plane>,
     config: &ForecastConfig,
     limits: &TiltLimits,
     standing: &Standing<'_>,
@@ -77,7 +77,7 @@ pub(crate) fn forecast(
     for step in 1..=steps {
         let distance_m = (config.step_m * step as f64).min(length_m);
         let place = standing.pose.plan_m() + standing.direction * distance_m;
-        let Some(plane) = ground.plane_at(place) else { continue };
+        let Some(plane) = plane_at(place) else { continue };
         let gap_m = distance_m - last.distance_m;
         // No beam reaches the ground that begins at the wheels; until it has driven on, that is bridged.
         let at_the_wheels = last.distance_m <= config.max_gap_m;

@@ -4,9 +4,9 @@
 //! under the wheels, and forgets the rest. It answers one question: what would the robot's roll and pitch be there?
 
 use glam::{DVec2, DVec3, IVec2};
-use nalgebra::{Matrix2, Vector2};
 
 use crate::config::GroundConfig;
+use crate::plane::{Moments, Plane};
 
 /// Cells per side of the window.
 pub(crate) const SIDE: usize = 96;
@@ -15,30 +15,12 @@ const MOST_RETURNS: f64 = 30.0;
 /// Ground around a place that carries the robot: its four wheels are within the first distance. Where the rings of a
 /// scan lie further apart than that, a wider plane stands in.
 const FOOTPRINT_RADII_M: [f64; 3] = [0.5, 0.8, 1.2];
-/// A plane whose slope the cells leave more uncertain than this says nothing.
-const LARGEST_SLOPE_DEVIATION: f64 = 0.08;
-/// Cells a plane needs at least.
-const FEWEST_CELLS: usize = 5;
-/// Roughness that is always allowed for: sensor noise and what a cell averages away.
-const LEAST_ROUGHNESS_M: f64 = 0.02;
-
 #[derive(Clone, Copy, Debug)]
 struct GroundCell {
     index: IVec2,
     seen_tick: u64,
     returns: f64,
     mean_m: DVec3,
-}
-
-/// The plane through the ground around a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Plane {
-    /// Height at the place asked for.
-    pub(crate) height_m: f64,
-    /// (dz/dx, dz/dy).
-    pub(crate) gradient: DVec2,
-    /// Standard deviation of the gradient in its least certain direction.
-    pub(crate) gradient_deviation: f64,
 }
 
 /// The moving window.
@@ -84,34 +66,7 @@ impl Ground {
     }
 
     fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
-        let moments = self.moments_near(place_m, radius_m);
-        if moments.count < FEWEST_CELLS {
-            return None;
-        }
-        let count = moments.count as f64;
-        let centroid = moments.sum / count;
-        let central = |square: f64, a: f64, b: f64| square - a * b * count;
-        let xx = central(moments.xx, centroid.x, centroid.x);
-        let xy = central(moments.xy, centroid.x, centroid.y);
-        let yy = central(moments.yy, centroid.y, centroid.y);
-        let xz = central(moments.xz, centroid.x, centroid.z);
-        let yz = central(moments.yz, centroid.y, centroid.z);
-        let zz = central(moments.zz, centroid.z, centroid.z);
-        let spread = Matrix2::new(xx, xy, xy, yy);
-        let least_spread = spread.symmetric_eigenvalues().min();
-        // Cells in a line, such as those of a single ring, say nothing of the slope across it.
-        let least_variance = LEAST_ROUGHNESS_M * LEAST_ROUGHNESS_M;
-        if least_spread * LARGEST_SLOPE_DEVIATION * LARGEST_SLOPE_DEVIATION < least_variance {
-            return None;
-        }
-        let solved = spread.cholesky()?.solve(&Vector2::new(xz, yz));
-        let gradient = DVec2::new(solved.x, solved.y);
-        let residual = (zz - gradient.x * xz - gradient.y * yz).max(0.0) / (moments.count - 2) as f64;
-        Some(Plane {
-            height_m: moments.datum_m + centroid.z - gradient.dot(centroid.truncate()),
-            gradient,
-            gradient_deviation: (residual.max(least_variance) / least_spread).sqrt(),
-        })
+        self.moments_near(place_m, radius_m).plane()
     }
 
     /// Moments of the fresh cells whose mean is within `radius_m` of a place.
@@ -137,37 +92,6 @@ impl Ground {
     fn index_of(&self, place_m: DVec2) -> IVec2 {
         let cells = place_m / self.config.cell_m;
         IVec2::new(floor(cells.x), floor(cells.y))
-    }
-}
-
-/// Sums over cells, about the place asked for and the height of the first cell.
-#[derive(Clone, Copy, Debug, Default)]
-struct Moments {
-    count: usize,
-    datum_m: f64,
-    sum: DVec3,
-    xx: f64,
-    xy: f64,
-    yy: f64,
-    xz: f64,
-    yz: f64,
-    zz: f64,
-}
-
-impl Moments {
-    fn add(&mut self, from_place: DVec2, height_m: f64) {
-        if self.count == 0 {
-            self.datum_m = height_m;
-        }
-        self.count += 1;
-        let d = from_place.extend(height_m - self.datum_m);
-        self.sum += d;
-        self.xx += d.x * d.x;
-        self.xy += d.x * d.y;
-        self.yy += d.y * d.y;
-        self.xz += d.x * d.z;
-        self.yz += d.y * d.z;
-        self.zz += d.z * d.z;
     }
 }
 

@@ -31,6 +31,33 @@ pub trait Navigator {
 
     /// Forgets everything seen and driven.
     fn reset(&mut self);
+
+    /// The subgoal it last chose, seen from above, in the world; `None` when there is none.
+    fn subgoal_m(&self) -> Option<DVec2> {
+        None
+    }
+}
+
+impl<N: Navigator + ?Sized> Navigator for Box<N> {
+    fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision {
+        (**self).navigate(points_m, pose, goal_m)
+    }
+
+    fn period_s(&self) -> f64 {
+        (**self).period_s()
+    }
+
+    fn max_speed_m_s(&self) -> f64 {
+        (**self).max_speed_m_s()
+    }
+
+    fn reset(&mut self) {
+        (**self).reset();
+    }
+
+    fn subgoal_m(&self) -> Option<DVec2> {
+        (**self).subgoal_m()
+    }
 }
 
 impl Navigator for Planner {
@@ -49,5 +76,10 @@ impl Navigator for Planner {
 
     fn reset(&mut self) {
         Planner::reset(self);
+    }
+
+    fn subgoal_m(&self) -> Option<DVec2> {
+        let step = self.last_step();
+        step.chosen.and_then(|index| step.subgoals.get(index)).map(|subgoal| subgoal.position_m.truncate())
     }
 }

@@ -8,8 +8,9 @@ use crate::cost::{self, Situation};
 use crate::error::ConfigError;
 use crate::forecast::{ReachEnd, Standing, forecast};
 use crate::ground::Ground;
-use crate::occupancy::{LOWEST_ELEVATION_RAD, OccupancySurface, column_of};
+use crate::occupancy::{COLUMNS, LOWEST_ELEVATION_RAD, OccupancySurface, column_azimuth_rad, column_of};
 use crate::perception::{Effort, Perception, PredictedSurface};
+use crate::plane::Plane;
 use crate::pose::Pose;
 use crate::profile::{Column, ElevationProfile};
 use crate::segments::{Segment, cut_segments};
@@ -68,6 +69,16 @@ pub struct Step<'a> {
     pub subgoals: &'a [Subgoal],
     /// Index of the chosen subgoal.
     pub chosen: Option<usize>,
+}
+
+/// What a step is told instead of finding it out from scans; nothing by default. With the truth it tells a fault of
+/// perception from one of decision.
+#[derive(Clone, Copy, Default)]
+pub struct Insight<'a> {
+    /// The elevation profile at an azimuth in the sensor frame.
+    pub profile: Option<&'a dyn Fn(f64) -> Column>,
+    /// The ground around a place seen from above, in the world; `None` where it is unknown.
+    pub ground: Option<&'a dyn Fn(DVec2) -> Option<Plane>>,
 }
 
 /// Places driven over that are kept, one every half metre.
@@ -139,6 +150,17 @@ impl Planner {
     ///
     /// The answer to anything that makes no sense is a stop with its reason.
     pub fn step(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Step<'_> {
+        self.step_with(points_m, pose, goal_m, Insight::default())
+    }
+
+    /// As [`Planner::step`], with what `insight` tells in place of what the scans say.
+    pub fn step_with(
+        &mut self,
+        points_m: &[Vec3],
+        pose: &Pose,
+        goal_m: DVec2,
+        insight: Insight<'_>,
+    ) -> Step<'_> {
         self.chosen = None;
         self.subgoals.clear();
         self.segments.clear();
@@ -149,7 +171,7 @@ impl Planner {
             self.looked_ticks = 0;
             self.controller.reset();
         }
-        self.status = self.decide(points_m, pose, goal_m);
+        self.status = self.decide(points_m, pose, goal_m, insight);
         self.command = match self.status {
             Status::Driving => self.command,
             Status::Looking => self.controller.look_around(),
@@ -184,14 +206,14 @@ impl Planner {
         self.perception.surface(&self.observed)
     }
 
-    fn decide(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Status {
+    fn decide(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2, insight: Insight<'_>) -> Status {
         if !(pose.is_finite() && goal_m.is_finite()) {
             return Status::Stopped(StopReason::InvalidInput);
         }
-        if points_m.is_empty() {
+        if points_m.is_empty() && insight.profile.is_none() {
             return Status::Stopped(StopReason::EmptyScan);
         }
-        if let Err(error) = self.perceive(points_m) {
+        if let Err(error) = self.perceive(points_m, insight) {
             return Status::Stopped(StopReason::NoPerception(error));
         }
         self.remember(points_m, pose);
@@ -199,8 +221,8 @@ impl Planner {
             return Status::Arrived;
         }
 
-        self.place_subgoals(pose);
-        let chosen = match self.goal_in_sight(pose, goal_m) {
+        self.place_subgoals(pose, insight);
+        let chosen = match self.goal_in_sight(pose, goal_m, insight) {
             Some(goal) => {
                 self.subgoals.push(goal);
                 Some(self.subgoals.len() - 1)
@@ -235,9 +257,15 @@ impl Planner {
         Status::Driving
     }
 
-    fn perceive(&mut self, points_m: &[Vec3]) -> Result<(), GpError> {
+    fn perceive(&mut self, points_m: &[Vec3], insight: Insight<'_>) -> Result<(), GpError> {
         self.observed.project(points_m);
-        self.perception.profile(&self.observed, &mut self.profile)?;
+        match insight.profile {
+            None => self.perception.profile(&self.observed, &mut self.profile)?,
+            Some(told) => {
+                self.profile.clear();
+                self.profile.extend((0..COLUMNS).map(|column| told(column_azimuth_rad(column))));
+            }
+        }
         cut_segments(
             &self.profile,
             &self.config.segments,
@@ -277,8 +305,9 @@ impl Planner {
         }
     }
 
-    fn place_subgoals(&mut self, pose: &Pose) {
+    fn place_subgoals(&mut self, pose: &Pose, insight: Insight<'_>) {
         let config = &self.config;
+        let seen = |place_m| self.ground.plane_at(place_m);
         let radius = config.perception.surface_radius_m;
         for (index, segment) in self.segments.iter().enumerate() {
             if !carries_subgoals(segment, config.robot_width_m, &config.segments) {
@@ -298,7 +327,7 @@ impl Planner {
                     cost: None,
                 };
                 if config.decision.cost_model == CostModel::Forecast {
-                    look_along(&mut subgoal, &self.ground, config, pose, radius);
+                    look_along(&mut subgoal, insight.ground.unwrap_or(&seen), config, pose, radius);
                 }
                 self.subgoals.push(subgoal);
             }
@@ -306,8 +335,9 @@ impl Planner {
     }
 
     /// The goal itself, when it is nearer than what was seen in its direction.
-    fn goal_in_sight(&self, pose: &Pose, goal_m: DVec2) -> Option<Subgoal> {
+    fn goal_in_sight(&self, pose: &Pose, goal_m: DVec2, insight: Insight<'_>) -> Option<Subgoal> {
         let config = &self.config;
+        let seen = |place_m| self.ground.plane_at(place_m);
         let distance = (goal_m - pose.plan_m()).length();
         let radius = config.perception.surface_radius_m;
         let bearing = bearing_rad(pose, goal_m);
@@ -329,7 +359,7 @@ impl Planner {
                 Column::Unknown | Column::Wall => None,
             },
             CostModel::Forecast if distance < radius => {
-                look_along(&mut goal, &self.ground, config, pose, distance);
+                look_along(&mut goal, insight.ground.unwrap_or(&seen), config, pose, distance);
                 let whole = goal.forecast.is_some_and(|f| f.end == ReachEnd::Whole);
                 goal.position_m = goal_m.extend(goal.position_m.z);
                 whole.then_some(goal)
@@ -340,11 +370,17 @@ impl Planner {
 }
 
 /// Moves a subgoal to where the forecast towards it reaches, and refuses it when that is too near.
-fn look_along(subgoal: &mut Subgoal, ground: &Ground, config: &PlannerConfig, pose: &Pose, length_m: f64) {
+fn look_along(
+    subgoal: &mut Subgoal,
+    plane_at: &dyn Fn(DVec2) -> Option<Plane>,
+    config: &PlannerConfig,
+    pose: &Pose,
+    length_m: f64,
+) {
     let (sin, cos) = libm::sincos(pose.yaw_rad + subgoal.bearing_rad);
     let direction = DVec2::new(cos, sin);
     let standing = Standing { pose, direction };
-    let found = forecast(ground, &config.forecast, &config.limits, &standing, length_m);
+    let found = forecast(plane_at, &config.forecast, &config.limits, &standing, length_m);
     subgoal.position_m = (pose.plan_m() + direction * found.reach_m).extend(found.reach_height_m);
     subgoal.refusal = match found.end {
         _ if found.reach_m >= config.forecast.min_reach_m => None,

@@ -25,14 +25,20 @@ pub enum Preset {
     Default,
     /// The paper read literally.
     Paper,
+    /// The paper without its steepness cost, as the same authors drove on flat ground.
+    Flat,
 }
 
 impl Preset {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Default, Self::Paper, Self::Flat];
+
     /// The name as on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Default => "default",
             Self::Paper => "paper",
+            Self::Flat => "flat",
         }
     }
 
@@ -41,6 +47,11 @@ impl Preset {
         match self {
             Self::Default => PlannerConfig::default(),
             Self::Paper => PlannerConfig::paper(),
+            Self::Flat => {
+                let mut config = PlannerConfig::paper();
+                config.decision.steepness_weight = 0.0;
+                config
+            }
         }
     }
 }
@@ -49,11 +60,8 @@ impl std::str::FromStr for Preset {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, String> {
-        match name {
-            "default" => Ok(Self::Default),
-            "paper" => Ok(Self::Paper),
-            _ => Err(format!("preset \"{name}\": expected default or paper")),
-        }
+        let preset = Self::ALL.into_iter().find(|preset| preset.name() == name);
+        preset.ok_or_else(|| format!("preset \"{name}\": expected default, paper or flat"))
     }
 }
 
@@ -242,6 +250,21 @@ mod tests {
         assert!((paper.perception.surface_radius_m - 6.0).abs() < 1e-12);
         assert_eq!(paper.perception.kernel, expected.perception.kernel);
         assert_eq!(paper.decision, expected.decision);
+    }
+
+    #[test]
+    fn flat_is_the_paper_without_steepness() {
+        let mut paper = Preset::Paper.planner_config();
+        assert!(paper.decision.steepness_weight > 0.0);
+        paper.decision.steepness_weight = 0.0;
+        assert_eq!(Preset::Flat.planner_config(), paper);
+        for preset in Preset::ALL {
+            assert_eq!(preset.name().parse(), Ok(preset));
+        }
+        assert_eq!(
+            "best".parse::<Preset>(),
+            Err("preset \"best\": expected default, paper or flat".to_owned())
+        );
     }
 
     #[test]

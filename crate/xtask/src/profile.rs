@@ -156,7 +156,7 @@ fn measure(
     let output = Command::new(program)
         .arg("profile")
         .arg(&scenario)
-        .args(["--json", "--preset", setting.preset, "--poses", &poses.to_string()])
+        .args(["--json", "--planner", setting.preset, "--poses", &poses.to_string()])
         .output()
         .with_context(|| program.display().to_string())?;
     ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -79,7 +79,7 @@ fn run_one(program: &Path, folder: &Path, job: &Job) -> anyhow::Result<Trial> {
     let output = Command::new(program)
         .arg("run")
         .arg(scenario)
-        .args(["--json", "--preset", job.preset, "--seed", &job.seed.to_string()])
+        .args(["--json", "--planner", job.preset, "--seed", &job.seed.to_string()])
         .output()
         .with_context(|| program.display().to_string())?;
     ensure!(

@@ -104,7 +104,8 @@ fn clippy(sh: &Shell) -> anyhow::Result<Count> {
 
 fn clippy_wasm(sh: &Shell) -> anyhow::Result<Count> {
     let target = "wasm32-unknown-unknown";
-    let libraries = ["-p", "mapless", "-p", "mapless-world", "-p", "mapless-trials", "-p", "mapless-bench"];
+    let libraries = ["mapless", "mapless-world", "mapless-trials", "mapless-baselines", "mapless-bench"]
+        .map(|library| format!("--package={library}"));
     check(cmd!(sh, "cargo clippy --target {target} {libraries...} -- --deny warnings"))?;
     check(cmd!(sh, "cargo clippy --target {target} -p mapless-wasm --all-targets -- --deny warnings"))
 }

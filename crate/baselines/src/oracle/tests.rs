@@ -1,8 +1,8 @@
 use super::*;
-use crate::Task;
+use crate::{RouteNavigator, Task};
 use glam::DVec3;
-use mapless::config::ControllerConfig;
 use mapless::pose::Pose;
+use mapless::{Navigator as _, PlannerConfig};
 use mapless_world::generate::Difficulty;
 use mapless_world::{DriveCommand, Husky, attitude_on};
 use proptest::prelude::*;
@@ -37,8 +37,8 @@ fn within_limits(field: &HeightField, path: &OraclePath) -> bool {
 /// Drives the path with the kinematic Husky; gives the place where it ended and the most of a limit that a tilt took.
 fn drive(field: &HeightField, start: PlanPose, goal_m: DVec2) -> (DVec2, f64) {
     let robot = HuskyConfig::default();
-    let (controller, config) = (ControllerConfig::default(), OracleConfig::default());
-    let mut driver = OracleDriver::new(field, &robot, start, goal_m, &config, controller, 0.1).unwrap();
+    let oracle = Oracle { field: field.clone(), robot: robot.clone(), config: OracleConfig::default() };
+    let mut driver = RouteNavigator::new(oracle, &PlannerConfig::default());
     let mut husky = Husky::new(robot.clone(), field, start.position_m, start.yaw_rad).unwrap();
     let mut worst: f64 = 0.0;
     for _ in 0..3000 {
@@ -49,7 +49,7 @@ fn drive(field: &HeightField, start: PlanPose, goal_m: DVec2) -> (DVec2, f64) {
             pitch_rad: state.attitude.pitch_rad,
             yaw_rad: state.yaw_rad,
         };
-        let command = driver.step(&pose);
+        let command = driver.navigate(&[], &pose, goal_m).command;
         let command = DriveCommand { speed_m_s: command.linear_m_s, turn_rate_rad_s: command.angular_rad_s };
         for _ in 0..10 {
             husky.step(command, 0.01, field).unwrap();

@@ -62,7 +62,7 @@ impl PerceptionReport {
         }
     }
 
-    /// File, revolution and preset.
+    /// File, revolution and planner.
     pub(crate) fn subject(&self) -> &str {
         &self.subject
     }

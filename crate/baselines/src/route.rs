@@ -1,0 +1,128 @@
+//! Planners that plan a whole route, and what drives along it.
+
+use glam::{DVec2, Vec3};
+use mapless::pose::Pose;
+use mapless::{Command, Decision, Navigator, PlannerConfig, Status, StopReason};
+
+use crate::follower::PathFollower;
+
+/// Finds a whole route on a map.
+pub trait RoutePlanner {
+    /// A way from a pose to a place, seen from above, in metres; `None` where the map has none.
+    fn route(&self, from: &Pose, to_m: DVec2) -> Option<Vec<DVec2>>;
+}
+
+/// The straight way to the goal, whatever the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Straight;
+
+impl RoutePlanner for Straight {
+    fn route(&self, from: &Pose, to_m: DVec2) -> Option<Vec<DVec2>> {
+        Some(vec![from.plan_m(), to_m])
+    }
+}
+
+/// Drives along a planned route with the paper's PID controller. It plans when it gets a new goal, and on the first step
+/// after a reset; it does not look at the scans.
+#[derive(Clone, Debug)]
+pub struct RouteNavigator<R> {
+    planner: R,
+    follower: PathFollower,
+    period_s: f64,
+    max_speed_m_s: f64,
+    goal_tolerance_m: f64,
+    goal_m: Option<DVec2>,
+}
+
+impl<R: RoutePlanner> RouteNavigator<R> {
+    /// Takes period, tolerance and controller from `config`, which must be valid.
+    #[must_use]
+    pub fn new(planner: R, config: &PlannerConfig) -> Self {
+        Self {
+            planner,
+            follower: PathFollower::new(config.controller, config.period_s),
+            period_s: config.period_s,
+            max_speed_m_s: config.controller.max_speed_m_s,
+            goal_tolerance_m: config.goal_tolerance_m,
+            goal_m: None,
+        }
+    }
+
+    /// The route being driven, seen from above, in metres; empty where there is none.
+    #[must_use]
+    pub fn route_m(&self) -> &[DVec2] {
+        self.follower.path_m()
+    }
+
+    fn status(&mut self, pose: &Pose, goal_m: DVec2) -> Status {
+        if !(pose.is_finite() && goal_m.is_finite()) {
+            return Status::Stopped(StopReason::InvalidInput);
+        }
+        let here_m = pose.plan_m();
+        if here_m.distance(goal_m) <= self.goal_tolerance_m {
+            return Status::Arrived;
+        }
+        if self.goal_m != Some(goal_m) {
+            self.goal_m = Some(goal_m);
+            self.follower.set_path(self.planner.route(pose, goal_m).unwrap_or_default());
+        }
+        if self.route_m().is_empty() { Status::Stopped(StopReason::NoPath) } else { Status::Driving }
+    }
+}
+
+impl<R: RoutePlanner> Navigator for RouteNavigator<R> {
+    fn navigate(&mut self, _points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision {
+        let status = self.status(pose, goal_m);
+        let command = match status {
+            Status::Driving => self.follower.step(pose, goal_m),
+            _ => Command::STOP,
+        };
+        Decision { status, command }
+    }
+
+    fn period_s(&self) -> f64 {
+        self.period_s
+    }
+
+    fn max_speed_m_s(&self) -> f64 {
+        self.max_speed_m_s
+    }
+
+    fn reset(&mut self) {
+        self.goal_m = None;
+        self.follower.set_path([]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn pose(x: f64, y: f64) -> Pose {
+        Pose { position_m: DVec3::new(x, y, 0.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 }
+    }
+
+    #[test]
+    fn a_new_goal_and_a_reset_plan_anew() {
+        let mut navigator = RouteNavigator::new(Straight, &PlannerConfig::default());
+        let [first, second] = [DVec2::new(9.0, 0.0), DVec2::new(0.0, 9.0)];
+        assert_eq!(navigator.navigate(&[], &pose(0.0, 0.0), first).status, Status::Driving);
+        navigator.navigate(&[], &pose(1.0, 0.0), first);
+        assert_eq!(navigator.route_m(), [DVec2::ZERO, first]);
+        navigator.navigate(&[], &pose(2.0, 0.0), second);
+        assert_eq!(navigator.route_m(), [DVec2::new(2.0, 0.0), second]);
+        navigator.reset();
+        navigator.navigate(&[], &pose(3.0, 0.0), second);
+        assert_eq!(navigator.route_m(), [DVec2::new(3.0, 0.0), second]);
+    }
+
+    #[test]
+    fn it_stops_with_a_reason() {
+        let mut navigator = RouteNavigator::new(Straight, &PlannerConfig::default());
+        let decision = navigator.navigate(&[], &pose(0.0, 0.0), DVec2::NAN);
+        assert_eq!(decision.status, Status::Stopped(StopReason::InvalidInput));
+        assert_eq!(decision.command, Command::STOP);
+        assert_eq!(navigator.navigate(&[], &pose(1.0, 1.0), DVec2::new(1.2, 1.3)).status, Status::Arrived);
+    }
+}

@@ -1,0 +1,96 @@
+//! The plane through the ground around a place, by least squares.
+
+use glam::{DVec2, DVec3};
+use nalgebra::{Matrix2, Vector2};
+
+/// A plane whose slope the points leave more uncertain than this says nothing.
+const LARGEST_SLOPE_DEVIATION: f64 = 0.08;
+/// Points a plane needs at least.
+const FEWEST_POINTS: usize = 5;
+/// Roughness that is always allowed for: sensor noise and what a cell averages away.
+const LEAST_ROUGHNESS_M: f64 = 0.02;
+
+/// A plane through ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// Height at the place asked for, metres.
+    pub height_m: f64,
+    /// (dz/dx, dz/dy).
+    pub gradient: DVec2,
+    /// Standard deviation of the gradient in its least certain direction.
+    pub gradient_deviation: f64,
+}
+
+impl Plane {
+    /// The least-squares plane through `points_m`, with its height at `place_m`; `None` where they say too little of a
+    /// slope.
+    pub fn fit(place_m: DVec2, points_m: &[DVec3]) -> Option<Self> {
+        let mut moments = Moments::default();
+        for point_m in points_m {
+            moments.add(point_m.truncate() - place_m, point_m.z);
+        }
+        moments.plane()
+    }
+}
+
+/// Sums over points, about the place asked for and the height of the first of them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Moments {
+    count: usize,
+    datum_m: f64,
+    sum: DVec3,
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    xz: f64,
+    yz: f64,
+    zz: f64,
+}
+
+impl Moments {
+    pub(crate) fn add(&mut self, from_place_m: DVec2, height_m: f64) {
+        if self.count == 0 {
+            self.datum_m = height_m;
+        }
+        self.count += 1;
+        let d = from_place_m.extend(height_m - self.datum_m);
+        self.sum += d;
+        self.xx += d.x * d.x;
+        self.xy += d.x * d.y;
+        self.yy += d.y * d.y;
+        self.xz += d.x * d.z;
+        self.yz += d.y * d.z;
+        self.zz += d.z * d.z;
+    }
+
+    /// The plane with its height at the place.
+    pub(crate) fn plane(&self) -> Option<Plane> {
+        if self.count < FEWEST_POINTS {
+            return None;
+        }
+        let count = self.count as f64;
+        let centroid = self.sum / count;
+        let about_centroid = |sum: f64, a: f64, b: f64| sum - a * b * count;
+        let xx = about_centroid(self.xx, centroid.x, centroid.x);
+        let xy = about_centroid(self.xy, centroid.x, centroid.y);
+        let yy = about_centroid(self.yy, centroid.y, centroid.y);
+        let xz = about_centroid(self.xz, centroid.x, centroid.z);
+        let yz = about_centroid(self.yz, centroid.y, centroid.z);
+        let zz = about_centroid(self.zz, centroid.z, centroid.z);
+        let spread = Matrix2::new(xx, xy, xy, yy);
+        let least_spread = spread.symmetric_eigenvalues().min();
+        // Points in a line, such as those of a single ring, say nothing of the slope across it.
+        let least_variance = LEAST_ROUGHNESS_M * LEAST_ROUGHNESS_M;
+        if least_spread * LARGEST_SLOPE_DEVIATION * LARGEST_SLOPE_DEVIATION < least_variance {
+            return None;
+        }
+        let solved = spread.cholesky()?.solve(&Vector2::new(xz, yz));
+        let gradient = DVec2::new(solved.x, solved.y);
+        let unexplained = (zz - gradient.x * xz - gradient.y * yz).max(0.0) / (count - 2.0);
+        Some(Plane {
+            height_m: self.datum_m + centroid.z - gradient.dot(centroid.truncate()),
+            gradient,
+            gradient_deviation: (unexplained.max(least_variance) / least_spread).sqrt(),
+        })
+    }
+}
