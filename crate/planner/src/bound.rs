@@ -90,7 +90,8 @@ impl CollapsedBound {
         }
         let Hyperparameters { kernel, noise_variance } = *hyperparameters;
         let (n, m) = (inputs.len() as f64, inducing.len());
-        self.projection.project(inputs, targets, inducing, hyperparameters)?;
+        // All of them: the gradient is that of a smooth function.
+        self.projection.project(inputs, targets, inducing, hyperparameters, f64::INFINITY)?;
         for square in [&mut self.l_b, &mut self.reduction, &mut self.reversed] {
             square.resize(m * m, 0.0);
         }

@@ -12,9 +12,6 @@ use crate::linalg;
 use crate::panels::{self, BLOCK_COLUMNS, Row, WIDTH};
 use crate::sparse_gp::{GpError, with_rising_jitter};
 
-/// Covariances below this share of the variance are taken for zero.
-pub(crate) const NEGLIGIBLE_SHARE: f64 = 1e-12;
-
 /// The projection with its workspace; a second one of the same size allocates nothing.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Projection {
@@ -41,18 +38,20 @@ pub(crate) struct Projection {
 }
 
 impl Projection {
-    /// Projects `targets` at `inputs` on the inducing inputs.
+    /// Projects `targets` at `inputs` on the inducing inputs. Covariances over more than `reach` length-scales of azimuth may be taken
+    /// for zero, and are where inputs and inducing inputs are in ascending order of it.
     pub(crate) fn project(
         &mut self,
         inputs: &[DVec2],
         targets: &[f64],
         inducing: &[DVec2],
         hyperparameters: &Hyperparameters,
+        reach: f64,
     ) -> Result<(), GpError> {
         let Hyperparameters { kernel, noise_variance } = hyperparameters;
         self.set_data(inputs, targets, inducing, kernel);
         self.factor_inducing_covariance(kernel)?;
-        self.fill_a(kernel, *noise_variance);
+        self.fill_a(kernel, *noise_variance, reach);
         Ok(())
     }
 
@@ -105,17 +104,15 @@ impl Projection {
     }
 
     /// A into `a`, A Aᵀ into `aat` and A y / σₙ into `c`.
-    fn fill_a(&mut self, kernel: &RationalQuadratic, noise_variance: f64) {
+    fn fill_a(&mut self, kernel: &RationalQuadratic, noise_variance: f64, reach: f64) {
         let m = self.points.len();
         let inverse_deviation = 1.0 / noise_variance.sqrt();
         self.aat.fill(0.0);
         self.c.fill(0.0);
         let block_panels = BLOCK_COLUMNS / WIDTH;
-        let reach = kernel.reach(NEGLIGIBLE_SHARE);
         // Rows before this are zero in the whole block.
         let mut block_first = m;
         for (index, rows) in self.a.chunks_exact_mut(m).enumerate() {
-            // Many where both are in ascending order of azimuth, few where they are not.
             let before = self.input_panels.azimuths(index).0 - reach;
             let first = self.points.iter().take_while(|point| point.x < before).count() / WIDTH * WIDTH;
             rows[..first].fill([0.0; WIDTH]);

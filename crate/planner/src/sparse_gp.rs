@@ -14,7 +14,7 @@ use crate::hyperparameters::Hyperparameters;
 use crate::kernel::RationalQuadratic;
 use crate::linalg;
 use crate::panels::{Row, WIDTH};
-use crate::projection::{NEGLIGIBLE_SHARE, Projection};
+use crate::projection::Projection;
 use crate::reduction::Reduction;
 
 /// Why a fit gave no posterior.
@@ -43,6 +43,8 @@ pub enum GpError {
 const FIRST_JITTER: f64 = 1e-6;
 const LAST_JITTER: f64 = 1e-2;
 
+/// Covariances below this share of the variance count as zero.
+const NEGLIGIBLE: f64 = 1e-12;
 /// Covariances below this share of the variance count as zero in the form kᵀ W k, where they meet factors as small as they are.
 const NEGLIGIBLE_IN_VARIANCE: f64 = 1e-8;
 
@@ -119,7 +121,8 @@ impl SparseGp {
         }
         let m = inducing.len();
         self.sort(inputs, targets, inducing);
-        self.projection.project(&self.inputs, &self.targets, &self.inducing, &self.hyperparameters)?;
+        let reach = self.kernel().reach(NEGLIGIBLE);
+        self.projection.project(&self.inputs, &self.targets, &self.inducing, &self.hyperparameters, reach)?;
         self.l_b.clone_from(&self.projection.aat);
         for i in 0..m {
             self.l_b[i * m + i] += 1.0;
@@ -156,7 +159,7 @@ impl SparseGp {
         input_panels.set(inputs, kernel);
         let m = points.len();
         self.panel.resize(m, [0.0; WIDTH]);
-        let distance = kernel.reach(NEGLIGIBLE_SHARE);
+        let distance = kernel.reach(NEGLIGIBLE);
         let near_distance = kernel.reach(NEGLIGIBLE_IN_VARIANCE);
         for (index, (mean, variance)) in mean.chunks_mut(WIDTH).zip(variance.chunks_mut(WIDTH)).enumerate() {
             let (least, most) = input_panels.azimuths(index);

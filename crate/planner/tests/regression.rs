@@ -61,16 +61,23 @@ fn close(ours: f64, difference: f64, scale: f64) -> Result<(), TestCaseError> {
     Ok(())
 }
 
+/// Whether all inputs are a tenth of a length-scale from each other.
+fn are_apart(inputs: &[DVec2], hyperparameters: &Hyperparameters) -> bool {
+    let scales = DVec2::from_array(hyperparameters.kernel.length_scales_rad);
+    let near = |(i, a): (usize, &DVec2)| inputs[..i].iter().any(|b| ((*a - *b) / scales).length() < 0.1);
+    !inputs.iter().enumerate().any(near)
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { max_global_rejects: 10_000, ..ProptestConfig::with_cases(64) })]
 
     #[test]
     fn the_gradients_of_the_bound_are_its_slopes(problem in problems(300)) {
         let Problem { inputs, targets, inducing, logs } = problem;
         let mut bound = CollapsedBound::new();
         let base = bound.evaluate(&inputs, &targets, &inducing, &hyperparameters(logs)).unwrap();
-        // Another jitter is another function.
-        prop_assume!(bound.jitter() < 2e-6);
+        // Another jitter is another function, and so near to a singular covariance that the jitter matters, differences say little.
+        prop_assume!(bound.jitter() < 2e-6 && are_apart(&inducing, &hyperparameters(logs)));
         let evaluate = |inducing: &[DVec2], logs: [f64; 5]| {
             CollapsedBound::new().evaluate(&inputs, &targets, inducing, &hyperparameters(logs)).unwrap()
         };
@@ -130,7 +137,10 @@ proptest! {
         let (mut mean, mut variance) = ([0.0], [0.0]);
         gp.predict(&inducing[..1], &mut mean, &mut variance);
         let (exact_mean, exact_variance) = exact.predict(inducing[0]);
-        prop_assert!((mean[0] - exact_mean).abs() < 1e-3 && (variance[0] - exact_variance).abs() < 1e-3);
+        // The jitter again, which weighs the more the less noise there is.
+        let tolerance = 1e-3 + 1e-4 * hyperparameters.kernel.variance / hyperparameters.noise_variance;
+        prop_assert!((mean[0] - exact_mean).abs() < tolerance, "{mean:?} {exact_mean}");
+        prop_assert!((variance[0] - exact_variance).abs() < tolerance, "{variance:?} {exact_variance}");
     }
 
     #[test]
