@@ -51,3 +51,21 @@ impl Navigator for Planner {
         Planner::reset(self);
     }
 }
+
+impl<N: Navigator + ?Sized> Navigator for Box<N> {
+    fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision {
+        (**self).navigate(points_m, pose, goal_m)
+    }
+
+    fn period_s(&self) -> f64 {
+        (**self).period_s()
+    }
+
+    fn max_speed_m_s(&self) -> f64 {
+        (**self).max_speed_m_s()
+    }
+
+    fn reset(&mut self) {
+        (**self).reset();
+    }
+}
