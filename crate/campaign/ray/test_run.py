@@ -30,6 +30,12 @@ SCENARIO = """terrain = "meadow.toml"
 start = [4.0, 5.0, 0.3]
 goal = [11.0, 5.0]
 seed = 1
+
+[sensor]
+columns = 450
+
+[planner.perception]
+surface_radius_m = 4.0
 """
 CAMPAIGN = """planners = ["default", "paper"]
 routes = ["east.toml"]

@@ -120,6 +120,9 @@ fn remark(planner: &str, values: &[(Value, Vec<&TrialRow>)]) -> Option<String> {
         let worst =
             values.iter().min_by(|(_, a), (_, b)| success_percent(a).total_cmp(&success_percent(b)))?;
         let lost = own_percent - success_percent(&worst.1);
+        if lost <= 0.0 {
+            return Some(format!("With `{planner}` every value reaches equally often."));
+        }
         return Some(format!(
             "No value reaches more often with `{planner}` than its own, {}; {} loses {lost:.0} percentage points.",
             own.text, worst.0.text

@@ -6,11 +6,15 @@ use super::published::PublishedRow;
 use super::{METRICS, Results, failures, rate, stats, values};
 use crate::results::TrialRow;
 
+/// Means that differ by less than this share are even.
+const EVEN: f64 = 0.005;
+
 /// One metric of two methods over several routes.
 struct Contest {
     metric: &'static str,
-    /// Routes on which the first is lower.
+    /// Routes on which the first is lower, and on which it is higher; on the others they are even.
     lower: usize,
+    higher: usize,
     routes: usize,
     /// Mean over the routes of first / second - 1.
     change: f64,
@@ -61,7 +65,8 @@ fn contests(pairs: impl Iterator<Item = ([Option<f64>; 6], [Option<f64>; 6])>) -
             .collect();
         Some(Contest {
             metric: metric.heading.split(',').next().unwrap_or_default(),
-            lower: ratios.iter().filter(|ratio| **ratio < 1.0).count(),
+            lower: ratios.iter().filter(|ratio| **ratio < 1.0 - EVEN).count(),
+            higher: ratios.iter().filter(|ratio| **ratio > 1.0 + EVEN).count(),
             routes: ratios.len(),
             change: stats::mean(&ratios)? - 1.0,
         })
@@ -74,21 +79,24 @@ fn against(planner: &str, other: &str, contests: &[Contest]) -> String {
     let Some(first) = contests.first() else {
         return format!("- `{planner}` against {other}: no route to compare on.");
     };
-    let (won, lost): (Vec<&Contest>, Vec<&Contest>) =
-        contests.iter().partition(|contest| 2 * contest.lower > contest.routes);
-    let list = |contests: &[&Contest]| {
-        let words = contests.iter().map(|Contest { metric, lower, routes, change }| {
-            format!("{metric} (lower on {lower} of {routes}, {:+.0} % on average)", 100.0 * change)
-        });
-        words.collect::<Vec<_>>().join(", ")
+    let list = |verb: &str, of: &dyn Fn(&Contest) -> bool| {
+        let words = contests.iter().filter(|contest| of(contest)).map(
+            |Contest { metric, lower, higher, routes, change }| {
+                let (count, side) = if higher > lower { (higher, "higher") } else { (lower, "lower") };
+                format!("{metric} ({side} on {count} of {routes}, {:+.0} % on average)", 100.0 * change)
+            },
+        );
+        let words: Vec<String> = words.collect();
+        (!words.is_empty()).then(|| format!("{verb} {}", words.join(", ")))
     };
-    let (wins, losses) = match (won.is_empty(), lost.is_empty()) {
-        (false, false) => (format!("wins in {}; ", list(&won)), format!("loses in {}", list(&lost))),
-        (false, true) => (format!("wins in all: {}", list(&won)), String::new()),
-        _ => (String::new(), format!("loses in all: {}", list(&lost))),
-    };
+    let verdicts = [
+        list("wins in", &|contest| 2 * contest.lower > contest.routes),
+        list("loses in", &|contest| 2 * contest.higher > contest.routes),
+        list("even in", &|contest| 2 * contest.lower.max(contest.higher) <= contest.routes),
+    ];
+    let verdicts: Vec<String> = verdicts.into_iter().flatten().collect();
     let routes = if first.routes == 1 { "route" } else { "routes" };
-    format!("- `{planner}` against {other}, on {} {routes}: {wins}{losses}.", first.routes)
+    format!("- `{planner}` against {other}, on {} {routes}: {}.", first.routes, verdicts.join("; "))
 }
 
 fn successes([one, other]: [&str; 2], [ones, others]: [&[&TrialRow]; 2]) -> String {
@@ -142,7 +150,10 @@ mod tests {
         assert!(sentence.starts_with(
             "- `default` against them, on 1 route: wins in distance (lower on 1 of 1, -20 % on average)"
         ));
-        assert!(sentence.contains("loses in elevation rate (lower on 0 of 1, +0 % on average), curvature change (lower on 0 of 1, +500 %"), "{sentence}");
+        assert!(
+            sentence.contains("; loses in curvature change (higher on 1 of 1, +500 % on average); even in elevation rate (lower on 0 of 1, +0 %"),
+            "{sentence}"
+        );
         let none = against("default", "them", &contests([(ours, [None; 6])].into_iter()));
         assert!(none.ends_with("no route to compare on."));
         assert!(against("a", "b", &contests([(theirs, ours)].into_iter())).contains("loses in distance"));
