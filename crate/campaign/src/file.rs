@@ -300,6 +300,21 @@ mod tests {
     }
 
     #[test]
+    fn the_campaigns_of_the_repository_are_read() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../terrains/campaigns");
+        for (name, routes, seeds, variations) in
+            [("quick", 10, 10, 1), ("paper", 10, 100, 1), ("ablation", 10, 10, 1 + 5 * 4 + 4 + 4)]
+        {
+            let campaign = Campaign::read(&folder.join(name).with_extension("toml")).unwrap();
+            let counts = (campaign.routes.len(), campaign.seeds.len(), campaign.variations.len());
+            assert_eq!(counts, (routes, seeds, variations), "{name}");
+        }
+        // Generated tasks are not part of the repository.
+        let error = Campaign::read(&folder.join("generated.toml")).map_err(|error| error.to_string());
+        assert!(error.is_ok() || error.unwrap_err().contains("expected at least one scenario file"));
+    }
+
+    #[test]
     fn a_campaign_is_read() {
         let campaign = parse(GOOD).unwrap();
         assert_eq!((campaign.name.as_str(), campaign.seeds), ("quick", vec![3, 4, 5]));
