@@ -123,32 +123,11 @@ mod tests {
     use parquet::file::reader::{FileReader as _, SerializedFileReader};
 
     use super::*;
+    use crate::testing;
 
     fn row(seed: u64, distance_m: Option<f64>) -> TrialRow {
-        TrialRow {
-            id: format!("id{seed}"),
-            campaign: "c".to_owned(),
-            planner: "default".to_owned(),
-            route: "cht-ab".to_owned(),
-            truth: "none".to_owned(),
-            parameters: String::new(),
-            seed,
-            outcome: "reached".to_owned(),
-            stop_reason: None,
-            error: distance_m.is_none().then(|| "panic: \"comma, quote\"\nline".to_owned()),
-            distance_m,
-            max_abs_roll_rad: None,
-            max_abs_pitch_rad: None,
-            mean_vibration_rad_s: None,
-            mean_elevation_rate_cm_s: None,
-            curvature_change_rad_m: None,
-            sim_time_s: Some(1.5),
-            ticks: Some(15),
-            straight_m: 2.0,
-            oracle_length_m: None,
-            digest: Some("0f".to_owned()),
-            configuration: "{\"a\":1}".to_owned(),
-        }
+        let error = distance_m.is_none().then(|| "panic: \"comma, quote\"\nline".to_owned());
+        TrialRow { distance_m, error, ..testing::row("default", "cht-ab", "none", seed, "reached") }
     }
 
     #[test]

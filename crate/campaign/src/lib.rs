@@ -25,6 +25,8 @@ mod plan;
 pub mod report;
 mod results;
 mod runner;
+#[cfg(test)]
+mod testing;
 mod trial;
 
 pub use error::{CampaignError, CampaignFault};

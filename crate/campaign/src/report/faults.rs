@@ -72,3 +72,45 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{results, row};
+
+    #[test]
+    fn every_failure_has_one_blame() {
+        let mut rows = Vec::new();
+        // Seeds by what they reach with: nothing told, the profile, the ground, both.
+        for (seed, reached) in [
+            (1, [true; 4]),
+            (2, [false, true, false, true]),
+            (3, [false, false, true, true]),
+            (4, [false; 4]),
+            (5, [true, true, false, true]),
+        ] {
+            for (truth, reached) in ["none", "profile", "ground", "both"].into_iter().zip(reached) {
+                rows.push(row("default", "a", truth, seed, if reached { "reached" } else { "stuck" }));
+            }
+        }
+        rows.push(row("paper", "a", "none", 1, "stuck"));
+        let table = |rows| {
+            let mut text = String::new();
+            section(&mut text, &results(&["default", "paper", "oracle"], &["a"], rows)).unwrap();
+            text
+        };
+        assert!(
+            table(rows.clone()).ends_with("| `default` | 5 | 3 | 1 | 1 | 0 | 0 | 1 | 1 |\n"),
+            "{}",
+            table(rows)
+        );
+        rows.push(row("oracle", "a", "none", 1, "reached"));
+        assert!(
+            table(rows.clone()).ends_with("| `default` | 5 | 3 | 1 | 1 | 0 | 1 | 0 | 1 |\n"),
+            "{}",
+            table(rows)
+        );
+        rows.retain(|row| row.truth == "none");
+        assert_eq!(table(rows), "");
+    }
+}

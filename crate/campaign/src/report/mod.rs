@@ -42,10 +42,10 @@ const METRICS: [Metric; 6] = [
 ];
 
 /// A finished campaign.
-struct Results {
-    folder: PathBuf,
-    manifest: Manifest,
-    rows: Vec<TrialRow>,
+pub(crate) struct Results {
+    pub(crate) folder: PathBuf,
+    pub(crate) manifest: Manifest,
+    pub(crate) rows: Vec<TrialRow>,
 }
 
 impl Results {
@@ -178,4 +178,50 @@ fn rate(rows: &[&TrialRow]) -> String {
 /// The metric's values of the trials that reached.
 fn values(rows: &[&TrialRow], metric: &Metric) -> Vec<f64> {
     rows.iter().filter(|row| row.has_reached()).filter_map(|row| (metric.of)(row)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{results, row};
+
+    #[test]
+    fn many_routes_are_told_by_what_their_names_begin_with() {
+        let names: Vec<String> =
+            (0..30).map(|index| format!("{}-1-{index:04}", ["easy", "hard"][index % 2])).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let rows = names.iter().map(|name| row("default", name, "none", 1, "reached")).collect();
+        let many = results(&["default"], &names, rows);
+        assert_eq!(many.groups(), ["easy", "hard"]);
+        assert_eq!(many.of("default", "easy").len(), 15);
+        let few = results(&["default"], &names[..3], Vec::new());
+        assert_eq!(few.groups(), ["easy-1-0000", "easy-1-0002", "hard-1-0001"]);
+    }
+
+    #[test]
+    fn failures_are_counted_by_how_they_ended() {
+        let outcomes = ["stuck", "timeout", "reached", "timeout"];
+        let rows: Vec<TrialRow> =
+            outcomes.iter().map(|outcome| row("default", "a", "none", 1, outcome)).collect();
+        let rows: Vec<&TrialRow> = rows.iter().collect();
+        assert_eq!(failures(&rows), "2 timeout, 1 stuck");
+        assert_eq!(rate(&rows), "1 of 4 (5–70 %)");
+    }
+
+    #[test]
+    fn the_shortest_path_is_the_measure_where_it_is_known() {
+        let lengths = |row: TrialRow, driven_m, shortest_m| TrialRow {
+            distance_m: Some(driven_m),
+            oracle_length_m: shortest_m,
+            ..row
+        };
+        let rows = vec![
+            lengths(row("default", "a", "none", 1, "reached"), 20.0, Some(10.0)),
+            lengths(row("default", "b", "none", 1, "stuck"), 3.0, Some(10.0)),
+            lengths(row("default", "c", "none", 1, "reached"), 8.0, None),
+        ];
+        let mut text = String::new();
+        oracle::section(&mut text, &results(&["default"], &["a", "b", "c"], rows)).unwrap();
+        assert!(text.ends_with("| `default` | 1 of 2 (9–91 %) | 0.250 | 2.000 |\n"), "{text}");
+    }
 }
