@@ -13,7 +13,10 @@ use mapless_world::{Caster, HeightField, SensorPose, Skyline, true_skyline};
 use crate::kind::UnknownName;
 
 /// What is true in place of perceived.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum Truth {
     /// Nothing: the planner as it is.
     #[default]
@@ -30,6 +33,12 @@ impl Truth {
     const ALL: [Self; 4] = [Self::None, Self::Profile, Self::Ground, Self::Both];
     /// Every name.
     pub const NAMES: [&str; 4] = ["none", "profile", "ground", "both"];
+
+    /// The name in files and tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
 
     fn of_profile(self) -> bool {
         matches!(self, Self::Profile | Self::Both)
@@ -51,7 +60,7 @@ impl FromStr for Truth {
 
 impl fmt::Display for Truth {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(Self::NAMES[*self as usize])
+        f.write_str(self.name())
     }
 }
 

@@ -10,8 +10,10 @@ mod picture;
 mod profile;
 mod progress;
 mod report;
+mod results;
 mod run;
 mod setup;
+mod trials;
 
 use std::process::ExitCode;
 
@@ -34,6 +36,11 @@ struct Args {
 enum Command {
     /// Run one trial. Exit code: 0 = goal reached, 2 = another outcome, 1 = error.
     Run(run::Args),
+    /// Run a campaign: planners × routes × seeds × parameter values, one row a trial. Exit code: 0 = every trial has its row,
+    /// 1 = error.
+    Trials(trials::Args),
+    /// Write the tables and figures of finished campaigns.
+    Report(results::Args),
     /// Compare the elevation profile with the true skyline at random poses.
     Profile(profile::Args),
     /// Write tasks on generated terrains, each of which the oracle has solved, as scenario files.
@@ -52,6 +59,8 @@ fn main() -> ExitCode {
             Outcome::Reached => ExitCode::SUCCESS,
             _ => ExitCode::from(2),
         }),
+        Command::Trials(args) => trials::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Report(args) => results::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Generate(args) => generate::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Perceive(args) => perceive::run(&args).map(|()| ExitCode::SUCCESS),

@@ -1,5 +1,5 @@
 //! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build`, and
-//! `cargo xtask scenarios`, `cargo xtask profile`, `cargo xtask bench` and `cargo xtask fuzz`, which measure.
+//! `cargo xtask scenarios`, `cargo xtask profile`, `cargo xtask results`, `cargo xtask bench` and `cargo xtask fuzz`, which measure.
 //!
 //! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a browser),
 //! so that a fresh clone on a machine with Rust and Node needs nothing by hand.
@@ -9,8 +9,9 @@ mod browser;
 mod count;
 mod fuzz;
 mod page;
-mod plot;
 mod profile;
+mod python;
+mod results;
 mod scenarios;
 mod setup;
 mod test;
@@ -61,6 +62,12 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 200)]
         poses: usize,
     },
+    /// Run the campaigns of terrains/campaigns, or what is left of them, and write docs/RESULTS.md with its figures.
+    Results {
+        /// Only the campaign `quick`: ten seeds a route.
+        #[arg(long)]
+        quick: bool,
+    },
     /// Time mapless beside gpflow and Embree, natively and as wasm, and write docs/BENCHMARKS.md.
     Bench {
         /// Rounds in which everyone is asked in turn.
@@ -95,6 +102,7 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Test { part } => test::run(&sh, part),
         Command::Scenarios { seeds, paper_seeds } => scenarios::run(&sh, [seeds, paper_seeds]),
         Command::Profile { poses } => profile::run(&sh, poses),
+        Command::Results { quick } => results::run(&sh, quick),
         Command::Bench { rounds } => bench::run(&sh, rounds),
         Command::Fuzz { seconds } => fuzz::run(&sh, seconds),
     }

@@ -9,9 +9,9 @@ use std::process::Command;
 use anyhow::{Context as _, ensure};
 use xshell::{Shell, cmd};
 
-use crate::plot::{Line, Plot, Scale};
 use crate::setup;
 use crate::work::run_all;
+use mapless_figures::plot::{Line, Plot, Scale};
 
 const REPORT: &str = "docs/PROFILE.md";
 const FIGURE: &str = "docs/profile.svg";
@@ -241,8 +241,8 @@ fn report(settings: &[Setting], measured: &BTreeMap<Job, Accuracy>, poses: usize
 /// Error and bias of the default over its threshold.
 fn figure(settings: &[Setting], measured: &BTreeMap<Job, Accuracy>) -> String {
     let first = settings.len() - THRESHOLDS.len();
-    let line = |name: &'static str, value: fn(&Accuracy) -> f64| Line {
-        name,
+    let line = |name: &str, value: fn(&Accuracy) -> f64| Line {
+        name: name.to_owned(),
         points: THRESHOLDS
             .iter()
             .enumerate()
@@ -250,8 +250,8 @@ fn figure(settings: &[Setting], measured: &BTreeMap<Job, Accuracy>) -> String {
             .collect(),
     };
     Plot {
-        x_label: "threshold V_th, share of the signal variance",
-        y_label: "elevation, °",
+        x_label: "threshold V_th, share of the signal variance".to_owned(),
+        y_label: "elevation, °".to_owned(),
         lines: vec![
             line("worst pose", |a| a.worst_pose_error_rad),
             line("mean absolute error", |a| a.mean_abs_error_rad),

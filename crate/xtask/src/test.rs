@@ -1,6 +1,7 @@
 //! Every check and test, the fast ones first.
 
 use std::io::{self, Read as _, Write as _};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -10,6 +11,7 @@ use xshell::{Cmd, Shell, cmd};
 
 use crate::browser::Browser;
 use crate::count::{Count, Runner};
+use crate::python::Environment;
 use crate::{page, setup};
 
 /// A part of the tests that can run alone.
@@ -23,6 +25,8 @@ pub(crate) enum Part {
     Wasm,
     /// Unit and browser tests of the page.
     Page,
+    /// Campaigns on a local Ray cluster; only when asked for, as it needs Python 3.10 or newer and installs Ray under target/.
+    Ray,
 }
 
 /// One step: its heading, the parts it belongs to (at least one), and what it does.
@@ -30,6 +34,13 @@ struct Stage {
     title: &'static str,
     parts: &'static [Part],
     run: fn(&Shell) -> anyhow::Result<Count>,
+}
+
+impl Stage {
+    /// Whether it belongs to a part, or to all of them: those that need no more than Rust and Node.
+    fn belongs_to(&self, part: Option<Part>) -> bool {
+        part.map_or(self.parts != [Part::Ray], |part| self.parts.contains(&part))
+    }
 }
 
 const STAGES: &[Stage] = &[
@@ -43,8 +54,9 @@ const STAGES: &[Stage] = &[
     Stage { title: "native tests", parts: &[Part::Native], run: test_native },
     Stage { title: "wasm tests", parts: &[Part::Wasm], run: test_wasm },
     Stage { title: "unit tests of the page", parts: &[Part::Page], run: test_page_units },
-    // The browser tests compare the page with the command line.
-    Stage { title: "build of the command line", parts: &[Part::Page], run: build_command_line },
+    // The browser tests compare the page with the command line; those on Ray run it.
+    Stage { title: "build of the command line", parts: &[Part::Page, Part::Ray], run: build_command_line },
+    Stage { title: "campaigns on Ray", parts: &[Part::Ray], run: test_ray },
     Stage { title: "browser tests of the page", parts: &[Part::Page], run: test_page },
 ];
 
@@ -53,7 +65,7 @@ pub(crate) fn run(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     set_up(sh, part)?;
     let mut times: Vec<(&str, Duration)> = Vec::new();
     let mut sum = Count::default();
-    for stage in STAGES.iter().filter(|stage| part.is_none_or(|part| stage.parts.contains(&part))) {
+    for stage in STAGES.iter().filter(|stage| stage.belongs_to(part)) {
         println!("\n=== {} ===", stage.title);
         let start = Instant::now();
         sum += (stage.run)(sh).map_err(|error| {
@@ -80,6 +92,9 @@ fn set_up(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     let wants = |any: &[Part]| part.is_none_or(|part| any.contains(&part));
     if wants(&[Part::Lint]) {
         setup::lint_tools(sh)?;
+    }
+    if part == Some(Part::Ray) {
+        ray(sh)?;
     }
     if wants(&[Part::Lint, Part::Page]) {
         setup::npm_packages(sh)?;
@@ -157,6 +172,26 @@ fn test_page(sh: &Shell) -> anyhow::Result<Count> {
     let browser = Browser::set_up(sh)?;
     let npm = setup::NPM;
     count(cmd!(sh, "{npm} run test:page").env("CHROME", &browser.chrome), Runner::Playwright)
+}
+
+fn test_ray(sh: &Shell) -> anyhow::Result<Count> {
+    let python = ray(sh)?;
+    let program =
+        setup::target_dir(sh).join("release/mapless").with_extension(std::env::consts::EXE_EXTENSION);
+    count(cmd!(sh, "{python} crate/campaign/ray/test_run.py {program}"), Runner::Playwright)
+}
+
+/// Installs Ray; gives the Python that has it.
+fn ray(sh: &Shell) -> anyhow::Result<PathBuf> {
+    let environment = Environment {
+        folder: &setup::target_dir(sh).join("ray-venv"),
+        requirements: "crate/campaign/ray/requirements.txt",
+        pythons: &["python3", "python3.13", "python3.12", "python3.11", "python3.10", "python"],
+        fits: |version| version >= (3, 10),
+        missing: "The tests on Ray need Python 3.10 or newer with pip, and none is on PATH. Install one, for example with \
+            `sudo apt-get install python3 python3-venv`, or run the other parts alone: cargo xtask test native, and so on.",
+    };
+    environment.set_up(sh)
 }
 
 /// Runs a check that counts no tests.

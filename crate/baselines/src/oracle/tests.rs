@@ -182,14 +182,18 @@ fn a_goal_at_the_start_is_reached() {
 #[test]
 fn its_path_can_be_driven() {
     let (end_m, worst) = drive(&wall_with_a_gap(), START, GOAL_M);
-    assert!(end_m.distance(GOAL_M) < 0.1, "{end_m}");
+    assert!(end_m.distance(GOAL_M) <= PlannerConfig::default().goal_tolerance_m, "{end_m}");
     assert!(worst < 1.0, "{worst}");
     for index in 1..=2 {
         for difficulty in Difficulty::ALL {
             let task = Task::generate(difficulty, 9, index).unwrap();
             let (end_m, worst) = drive(&task.terrain.field, task.start, task.goal_m);
             println!("{}: at most {worst:.2} of a limit", task.name);
-            assert!(end_m.distance(task.goal_m) < 0.1, "{}: {end_m}", task.name);
+            assert!(
+                end_m.distance(task.goal_m) <= PlannerConfig::default().goal_tolerance_m,
+                "{}: {end_m}",
+                task.name
+            );
             assert!(worst < 1.0, "{}: {worst}", task.name);
         }
     }

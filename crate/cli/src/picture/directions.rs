@@ -5,7 +5,7 @@ use std::fmt::{self, Write as _};
 use glam::DVec2;
 use mapless::occupancy::COLUMNS;
 
-use super::page::{self, INK, embed};
+use mapless_figures::page::{self, INK, embed};
 
 /// Pixels a degree; elevation is drawn higher than it is wide, since that is where the ground differs.
 const ACROSS: f64 = 3.0;

@@ -8,7 +8,7 @@ use mapless::occupancy::OccupancySurface;
 use mapless::perception::{PredictedSurface, ROWS};
 
 use super::directions::{LEFT, Panel, SIZE, grey};
-use super::page::{self, ColourBar};
+use mapless_figures::page::{self, ColourBar};
 
 const TOP: f64 = 88.0;
 const SPACING: f64 = SIZE.y + 58.0;

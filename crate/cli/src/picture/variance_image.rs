@@ -11,8 +11,8 @@ use mapless::segments::{Segment, Verdict};
 use mapless::subgoals::Subgoal;
 
 use super::directions::{LEFT, Panel, SIZE, grey};
-use super::marks;
-use super::page::{self, ColourBar, INK, css};
+use mapless_figures::marks;
+use mapless_figures::page::{self, ColourBar, INK, css};
 
 const PANEL: Panel = Panel { top: 88.0 };
 const WIDTH: f64 = LEFT + SIZE.x + 190.0;

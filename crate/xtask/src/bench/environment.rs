@@ -1,14 +1,13 @@
 //! The programs that are measured, built or installed, and the machine they run on.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use anyhow::{Context as _, bail};
 use xshell::{Shell, cmd};
 
 use super::runner::{Runner, Side};
 use crate::browser::Browser;
-use crate::setup;
+use crate::{python, setup};
 
 const REQUIREMENTS: &str = "crate/bench/requirements.txt";
 
@@ -40,43 +39,22 @@ pub(crate) fn set_up(sh: &Shell) -> anyhow::Result<Environment> {
     Ok(Environment { folder, native, python, chrome: browser.chrome })
 }
 
-/// Installs the peers into a Python environment of their own, unless these very ones are there; gives its Python.
-fn peers(sh: &Shell, venv: &std::path::Path) -> anyhow::Result<PathBuf> {
-    let python = venv.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let requirements = sh.read_file(REQUIREMENTS)?;
-    let installed = venv.join("installed-requirements.txt");
-    if sh.read_file(&installed).is_ok_and(|installed| installed == requirements) {
-        return Ok(python);
-    }
-    let fits = |name: &&str| {
-        let printed = cmd!(sh, "{name} --version").quiet().ignore_stderr().read();
-        printed.is_ok_and(|printed| runs_tensorflow(&printed))
+/// Installs the peers into a Python environment of their own; gives its Python.
+fn peers(sh: &Shell, venv: &Path) -> anyhow::Result<PathBuf> {
+    let environment = python::Environment {
+        folder: venv,
+        requirements: REQUIREMENTS,
+        pythons: &["python3.11", "python3.10", "python3", "python"],
+        fits: runs_tensorflow,
+        missing: "The peers need Python 3.10 or 3.11, for which tensorflow 2.15 is built, and none is on PATH. Install one, for example \
+            with `sudo apt-get install python3.11 python3.11-venv`, or with pyenv.",
     };
-    let Some(system) = ["python3.11", "python3.10", "python3", "python"].into_iter().find(fits) else {
-        bail!(
-            "The peers need Python 3.10 or 3.11, for which tensorflow 2.15 is built, and none is on PATH. Install one, for example \
-             with `sudo apt-get install python3.11 python3.11-venv`, or with pyenv."
-        );
-    };
-    sh.remove_path(venv)?;
-    cmd!(sh, "{system} -m venv {venv}").run().with_context(|| {
-        format!(
-            "{system} could not make an environment in {}; its module venv may be a package of its own",
-            venv.display()
-        )
-    })?;
-    println!("Installing gpflow, tensorflow and embreex into {}; about 1.5 GB, once.", venv.display());
-    cmd!(sh, "{python} -m pip install --quiet --disable-pip-version-check --requirement {REQUIREMENTS}")
-        .run()
-        .context("pip could not install the peers; it needs the network and the Python Package Index")?;
-    sh.write_file(&installed, requirements)?;
-    Ok(python)
+    environment.set_up(sh)
 }
 
-/// Whether `Python 3.11.7` is a version that tensorflow 2.15 runs on and embreex is built for.
-fn runs_tensorflow(printed: &str) -> bool {
-    let version = printed.trim().strip_prefix("Python ").unwrap_or_default();
-    matches!(version.split('.').collect::<Vec<_>>().as_slice(), ["3", "10" | "11", ..])
+/// Whether tensorflow 2.15 runs on this version of Python and embreex is built for it.
+fn runs_tensorflow(version: (u32, u32)) -> bool {
+    matches!(version, (3, 10 | 11))
 }
 
 impl Environment {
@@ -157,12 +135,8 @@ mod tests {
 
     #[test]
     fn python_must_be_one_that_tensorflow_is_built_for() {
-        assert!(runs_tensorflow("Python 3.11.7\n") && runs_tensorflow("Python 3.10.13"));
-        assert!(
-            !runs_tensorflow("Python 3.12.1")
-                && !runs_tensorflow("Python 2.7.18")
-                && !runs_tensorflow("3.11")
-        );
+        assert!(runs_tensorflow((3, 11)) && runs_tensorflow((3, 10)));
+        assert!(!runs_tensorflow((3, 12)) && !runs_tensorflow((2, 7)));
     }
 
     #[test]

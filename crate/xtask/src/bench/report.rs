@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::COSTS;
 use super::measured::{Measured, Times};
 use super::runner::Side;
-use crate::plot::{Line, Plot, Scale};
+use mapless_figures::plot::{Line, Plot, Scale};
 
 /// A comparison with a peer: what, our work, the peer's work, its name, and the ratio aimed at.
 const AGAINST_PEERS: &[(&str, &str, &str, &str, Option<f64>)] = &[
@@ -215,8 +215,8 @@ fn agreements(text: &mut String, measured: &Measured) -> anyhow::Result<()> {
 pub(crate) fn figure(measured: &Measured) -> anyhow::Result<String> {
     let lines = cost_lines(measured)?;
     let plot = Plot {
-        x_label: "n (m = 200), m (n = 1823), beams or samples of terrain",
-        y_label: "fastest time, ms",
+        x_label: "n (m = 200), m (n = 1823), beams or samples of terrain".to_owned(),
+        y_label: "fastest time, ms".to_owned(),
         lines,
         mark_x: None,
         scale: Scale::Logarithmic,
@@ -225,9 +225,9 @@ pub(crate) fn figure(measured: &Measured) -> anyhow::Result<String> {
 }
 
 fn cost_lines(measured: &Measured) -> anyhow::Result<Vec<Line>> {
-    let line = |&(name, works): &(&'static str, &[(&str, f64)])| {
+    let line = |&(name, works): &(&str, &[(&str, f64)])| {
         let point = |&(work, size): &(&str, f64)| Ok((size, measured.times(work, Side::Native)?.fastest));
-        Ok(Line { name, points: works.iter().map(point).collect::<anyhow::Result<_>>()? })
+        Ok(Line { name: name.to_owned(), points: works.iter().map(point).collect::<anyhow::Result<_>>()? })
     };
     COSTS.iter().map(line).collect()
 }

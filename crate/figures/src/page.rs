@@ -5,14 +5,15 @@ use std::fmt::{self, Write as _};
 use base64::Engine as _;
 use glam::DVec2;
 
-use super::scale::{nice_step, ticks};
+use crate::FigureError;
+use crate::scale::{nice_step, ticks};
 
 /// Colour of lines and words.
-pub(crate) const INK: &str = "#1c1c1c";
+pub const INK: &str = "#1c1c1c";
 
 /// Begins a white page of `size` pixels with a title and a line below it, `left` from the edge. The caller ends it with
 /// `</svg>`.
-pub(crate) fn begin(svg: &mut String, size: DVec2, left: f64, title: &str, subtitle: &str) -> fmt::Result {
+pub fn begin(svg: &mut String, size: DVec2, left: f64, title: &str, subtitle: &str) -> fmt::Result {
     let (width, height) = (size.x, size.y);
     writeln!(
         svg,
@@ -28,7 +29,7 @@ pub(crate) fn begin(svg: &mut String, size: DVec2, left: f64, title: &str, subti
 }
 
 /// Places a PNG on the page, stretched to `size`.
-pub(crate) fn embed(svg: &mut String, place: DVec2, size: DVec2, png: &[u8]) -> fmt::Result {
+pub fn embed(svg: &mut String, place: DVec2, size: DVec2, png: &[u8]) -> fmt::Result {
     writeln!(
         svg,
         r#"<image x="{}" y="{}" width="{:.2}" height="{:.2}" preserveAspectRatio="none" href="data:image/png;base64,{}"/>"#,
@@ -41,7 +42,7 @@ pub(crate) fn embed(svg: &mut String, place: DVec2, size: DVec2, png: &[u8]) -> 
 }
 
 /// Encodes rows of RGB pixels, the first at the top.
-pub(crate) fn png(width: u32, height: u32, rgb: &[u8]) -> anyhow::Result<Vec<u8>> {
+pub fn png(width: u32, height: u32, rgb: &[u8]) -> Result<Vec<u8>, FigureError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
@@ -51,24 +52,26 @@ pub(crate) fn png(width: u32, height: u32, rgb: &[u8]) -> anyhow::Result<Vec<u8>
 }
 
 /// A vertical bar of colours with its ticks at the right.
-pub(crate) struct ColourBar<'a> {
+pub struct ColourBar<'a> {
     /// Of its gradient; unique in the picture.
-    pub(crate) id: &'a str,
-    pub(crate) label: &'a str,
+    pub id: &'a str,
+    /// Stands beside it.
+    pub label: &'a str,
     /// Its upper left corner.
-    pub(crate) place: DVec2,
-    pub(crate) height: f64,
+    pub place: DVec2,
+    /// In pixels of the page.
+    pub height: f64,
     /// What its lower and its upper end stand for.
-    pub(crate) range: (f64, f64),
+    pub range: (f64, f64),
     /// About as many ticks.
-    pub(crate) ticks: f64,
+    pub ticks: f64,
 }
 
 impl ColourBar<'_> {
     const WIDTH: f64 = 16.0;
 
     /// Draws it; `colour` takes the share of the range, from 0 to 1.
-    pub(crate) fn draw(&self, svg: &mut String, colour: impl Fn(f64) -> [u8; 3]) -> fmt::Result {
+    pub fn draw(&self, svg: &mut String, colour: impl Fn(f64) -> [u8; 3]) -> fmt::Result {
         let Self { id, label, place, height, range: (low, high), .. } = *self;
         let bottom = place.y + height;
         write!(svg, r#"<linearGradient id="{id}" x1="0" y1="1" x2="0" y2="0">"#)?;
@@ -108,10 +111,11 @@ impl ColourBar<'_> {
 }
 
 /// A colour as SVG writes it.
-pub(crate) fn css([r, g, b]: [u8; 3]) -> String {
+pub fn css([r, g, b]: [u8; 3]) -> String {
     format!("rgb({r} {g} {b})")
 }
 
-fn escape(text: &str) -> String {
+/// Text as SVG writes it.
+pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

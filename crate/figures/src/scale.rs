@@ -1,7 +1,7 @@
 //! Round numbers for axes, contours and scale bars.
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above `most`, which must be positive.
-pub(crate) fn nice_step(most: f64) -> f64 {
+pub fn nice_step(most: f64) -> f64 {
     // Negative powers of ten are not exact; dividing by positive ones gives the number as one would write it.
     let exponent = libm::log10(most).floor();
     let scaled = |digit: f64| {
@@ -12,7 +12,7 @@ pub(crate) fn nice_step(most: f64) -> f64 {
 }
 
 /// The multiples of `step` from `low` to `high`.
-pub(crate) fn ticks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
+pub fn ticks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
     let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
     // Dividing by the reciprocal of a step below one keeps 3 × 0.1 from being 0.30000000000000004.
     let per_metre = (1.0 / step).round();

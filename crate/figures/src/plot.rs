@@ -10,18 +10,21 @@ const TOP: f64 = 16.0;
 const BOTTOM: f64 = 52.0;
 /// Labels of neighbouring lines keep this distance.
 const LABEL_HEIGHT: f64 = 15.0;
-/// Okabe and Ito's colours for everybody.
-const COLOURS: [&str; 6] = ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+/// Okabe and Ito's colours for everybody, but for black and yellow, which a dark or a white page hides, with two more.
+pub const COLOURS: [&str; 8] =
+    ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1", "#888888"];
 
 /// One line.
-pub(crate) struct Line {
-    pub(crate) name: &'static str,
-    pub(crate) points: Vec<(f64, f64)>,
+pub struct Line {
+    /// Stands at its end.
+    pub name: String,
+    /// Places of x and y, joined in order.
+    pub points: Vec<(f64, f64)>,
 }
 
 /// How the values of both axes are spaced.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Scale {
+pub enum Scale {
     /// Evenly; the vertical axis includes zero.
     Linear,
     /// By their logarithms; all of them must be positive.
@@ -29,17 +32,22 @@ pub(crate) enum Scale {
 }
 
 /// Lines over one axis.
-pub(crate) struct Plot {
-    pub(crate) x_label: &'static str,
-    pub(crate) y_label: &'static str,
-    pub(crate) lines: Vec<Line>,
+pub struct Plot {
+    /// What x is, and its unit.
+    pub x_label: String,
+    /// What y is, and its unit.
+    pub y_label: String,
+    /// The lines.
+    pub lines: Vec<Line>,
     /// A value of x to mark.
-    pub(crate) mark_x: Option<f64>,
-    pub(crate) scale: Scale,
+    pub mark_x: Option<f64>,
+    /// Of both axes.
+    pub scale: Scale,
 }
 
 impl Plot {
-    pub(crate) fn svg(&self) -> String {
+    /// Draws it.
+    pub fn svg(&self) -> String {
         let place = |value: f64| match self.scale {
             Scale::Linear => value,
             Scale::Logarithmic => libm::log10(value),
@@ -101,7 +109,9 @@ impl Plot {
             ));
         }
         let mut labels: Vec<(f64, f64, &str)> = (self.lines.iter())
-            .filter_map(|line| line.points.last().map(|&(x, y)| (y_at(y) + 4.0, x_at(x) + 8.0, line.name)))
+            .filter_map(|line| {
+                line.points.last().map(|&(x, y)| (y_at(y) + 4.0, x_at(x) + 8.0, line.name.as_str()))
+            })
             .collect();
         labels.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut free_from = f64::NEG_INFINITY;
@@ -159,19 +169,29 @@ mod tests {
 
     #[test]
     fn a_plot_has_its_lines_and_labels() {
-        let line = Line { name: "error", points: vec![(0.2, 1.0), (0.3, 0.5)] };
-        let svg =
-            Plot { x_label: "x", y_label: "y", lines: vec![line], mark_x: Some(0.25), scale: Scale::Linear }
-                .svg();
+        let line = Line { name: "error".to_owned(), points: vec![(0.2, 1.0), (0.3, 0.5)] };
+        let svg = Plot {
+            x_label: "x".to_owned(),
+            y_label: "y".to_owned(),
+            lines: vec![line],
+            mark_x: Some(0.25),
+            scale: Scale::Linear,
+        }
+        .svg();
         assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
         assert!(svg.contains(">error</text>") && svg.contains("polyline") && !svg.contains("NaN"));
     }
 
     #[test]
     fn decades_are_evenly_spaced_on_a_logarithmic_plot() {
-        let line = Line { name: "cost", points: vec![(10.0, 0.1), (100.0, 1.0), (1000.0, 10.0)] };
-        let plot =
-            Plot { x_label: "n", y_label: "ms", lines: vec![line], mark_x: None, scale: Scale::Logarithmic };
+        let line = Line { name: "cost".to_owned(), points: vec![(10.0, 0.1), (100.0, 1.0), (1000.0, 10.0)] };
+        let plot = Plot {
+            x_label: "n".to_owned(),
+            y_label: "ms".to_owned(),
+            lines: vec![line],
+            mark_x: None,
+            scale: Scale::Logarithmic,
+        };
         let svg = plot.svg();
         let points = svg.split_once("points=\"").unwrap().1.split_once('"').unwrap().0;
         let xs: Vec<f64> = points.split([' ', ',']).step_by(2).map(|x| x.parse().unwrap()).collect();

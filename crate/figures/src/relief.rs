@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use mapless_world::HeightField;
 
-use super::page;
+use crate::{FigureError, page};
 
 /// Slopes are drawn this much steeper, since gentle ones matter to a robot.
 const EXAGGERATION: f64 = 1.3;
@@ -11,7 +11,7 @@ const EXAGGERATION: f64 = 1.3;
 const PALENESS: f64 = 0.5;
 
 /// The relief of the whole field as an RGB PNG of about `size` pixels, north up.
-pub(crate) fn png(field: &HeightField, size: DVec2) -> anyhow::Result<Vec<u8>> {
+pub(crate) fn png(field: &HeightField, size: DVec2) -> Result<Vec<u8>, FigureError> {
     let pixels = size.round().max(DVec2::ONE);
     let (width, height) = (pixels.x as u32, pixels.y as u32);
     let extent = field.extent_m();

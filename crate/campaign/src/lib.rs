@@ -1,0 +1,38 @@
+//! Campaigns: many trials, planners × routes × seeds × parameter values, run on every core.
+//!
+//! A campaign is a TOML file ([`Campaign`]). [`Plan::read`] expands it into trials, [`run`] runs those that no journal in
+//! the results' folder has yet, and once all have run the folder holds
+//!
+//! | file | what |
+//! |---|---|
+//! | `trials.parquet`, `trials.csv` | one row a trial: outcome, metrics, digest, configuration ([`TrialRow`]) |
+//! | `campaign.json` | what the campaign consists of ([`Manifest`]) |
+//! | `trajectories/` | the first seed's trajectory of every planner on every route, where the campaign asks for them |
+//! | `timing.csv` | wall-clock times, which differ from run to run |
+//! | `journal*.jsonl` | what has run so far, one line a trial |
+//!
+//! All but the last two are the same bytes whenever, wherever and in whatever order the trials ran.
+
+mod columns;
+mod error;
+mod file;
+mod files;
+mod hash;
+mod journal;
+mod navigators;
+mod parameters;
+mod plan;
+pub mod report;
+mod results;
+mod runner;
+#[cfg(test)]
+mod testing;
+mod trial;
+
+pub use error::{CampaignError, CampaignFault};
+pub use file::{Campaign, Combine};
+pub use journal::{Entry, Timing, TrialResult};
+pub use mapless_baselines::Truth;
+pub use plan::{Plan, Route, Shard, TrialSpec};
+pub use results::{Manifest, ManifestRoute, TrialRow};
+pub use runner::{Done, Options, Progress, run, run_one};

@@ -1,0 +1,161 @@
+//! Where a planner wins and loses, in sentences that the numbers write.
+
+use std::fmt::{self, Write as _};
+
+use super::published::PublishedRow;
+use super::{METRICS, Results, failures, rate, stats, values};
+use crate::results::TrialRow;
+
+/// Means that differ by less than this share are even.
+const EVEN: f64 = 0.005;
+
+/// One metric of two methods over several routes.
+struct Contest {
+    metric: &'static str,
+    /// Routes on which the first is lower, and on which it is higher; on the others they are even.
+    lower: usize,
+    higher: usize,
+    routes: usize,
+    /// Mean over the routes of first / second - 1.
+    change: f64,
+}
+
+/// What the first planner does better and worse than the paper says of its own and than the other planners here.
+pub(super) fn sentences(text: &mut String, results: &Results, published: &[PublishedRow]) -> fmt::Result {
+    writeln!(text, "\n### Where it wins, where it loses\n")?;
+    let planners = &results.manifest.planners;
+    let groups = results.groups();
+    for planner in planners {
+        for (method, name) in [
+            ("paper", "the published numbers of the paper's method"),
+            ("VGF", "the published numbers of VGF"),
+        ] {
+            let pairs = (published.iter().filter(|row| row.method == method)).filter_map(|row| {
+                let ours = results.of(planner, groups.iter().find(|group| **group == row.route)?);
+                Some((means(&ours), row.mean.map(Some)))
+            });
+            writeln!(text, "{}", against(planner, name, &contests(pairs)))?;
+        }
+    }
+    let Some((first, others)) = planners.split_first() else { return Ok(()) };
+    let all =
+        |planner: &str| -> Vec<&TrialRow> { results.plain().filter(|row| row.planner == planner).collect() };
+    for other in others {
+        let pairs =
+            groups.iter().map(|group| (means(&results.of(first, group)), means(&results.of(other, group))));
+        writeln!(text, "{}", against(first, &format!("`{other}`"), &contests(pairs)))?;
+        writeln!(text, "{}", successes([first, other], [&all(first), &all(other)]))?;
+    }
+    for planner in planners {
+        writeln!(text, "{}", why(planner, &all(planner)))?;
+    }
+    Ok(())
+}
+
+fn means(rows: &[&TrialRow]) -> [Option<f64>; 6] {
+    METRICS.each_ref().map(|metric| stats::mean(&values(rows, metric)))
+}
+
+fn contests(pairs: impl Iterator<Item = ([Option<f64>; 6], [Option<f64>; 6])>) -> Vec<Contest> {
+    let pairs: Vec<_> = pairs.collect();
+    let contest = |(index, metric): (usize, &super::Metric)| {
+        let ratios: Vec<f64> = pairs
+            .iter()
+            .filter_map(|(ours, theirs)| Some(ours[index]? / theirs[index].filter(|value| *value > 0.0)?))
+            .collect();
+        Some(Contest {
+            metric: metric.heading.split(',').next().unwrap_or_default(),
+            lower: ratios.iter().filter(|ratio| **ratio < 1.0 - EVEN).count(),
+            higher: ratios.iter().filter(|ratio| **ratio > 1.0 + EVEN).count(),
+            routes: ratios.len(),
+            change: stats::mean(&ratios)? - 1.0,
+        })
+    };
+    METRICS.iter().enumerate().filter_map(contest).collect()
+}
+
+/// A sentence of what is lower on most routes, and one of the rest; nothing where there is nothing to compare.
+fn against(planner: &str, other: &str, contests: &[Contest]) -> String {
+    let Some(first) = contests.first() else {
+        return format!("- `{planner}` against {other}: no route to compare on.");
+    };
+    let list = |verb: &str, of: &dyn Fn(&Contest) -> bool| {
+        let words = contests.iter().filter(|contest| of(contest)).map(
+            |Contest { metric, lower, higher, routes, change }| {
+                let (count, side) = if higher > lower { (higher, "higher") } else { (lower, "lower") };
+                format!("{metric} ({side} on {count} of {routes}, {:+.0} % on average)", 100.0 * change)
+            },
+        );
+        let words: Vec<String> = words.collect();
+        (!words.is_empty()).then(|| format!("{verb} {}", words.join(", ")))
+    };
+    let verdicts = [
+        list("wins in", &|contest| 2 * contest.lower > contest.routes),
+        list("loses in", &|contest| 2 * contest.higher > contest.routes),
+        list("even in", &|contest| 2 * contest.lower.max(contest.higher) <= contest.routes),
+    ];
+    let verdicts: Vec<String> = verdicts.into_iter().flatten().collect();
+    let routes = if first.routes == 1 { "route" } else { "routes" };
+    format!("- `{planner}` against {other}, on {} {routes}: {}.", first.routes, verdicts.join("; "))
+}
+
+fn successes([one, other]: [&str; 2], [ones, others]: [&[&TrialRow]; 2]) -> String {
+    let reached = |rows: &[&TrialRow]| rows.iter().filter(|row| row.has_reached()).count();
+    let interval = |rows: &[&TrialRow]| stats::wilson(reached(rows), rows.len());
+    let ((one_low, one_high), (other_low, other_high)) = (interval(ones), interval(others));
+    let verdict = if one_low > other_high {
+        "reaches more often, beyond the 95 % intervals"
+    } else if one_high < other_low {
+        "reaches less often, beyond the 95 % intervals"
+    } else {
+        "differs in success by less than the 95 % intervals"
+    };
+    format!("- `{one}` {verdict}: {} against {} of `{other}`.", rate(ones), rate(others))
+}
+
+/// How the planner fails, and where most.
+fn why(planner: &str, rows: &[&TrialRow]) -> String {
+    let failed: Vec<&&TrialRow> = rows.iter().filter(|row| !row.has_reached()).collect();
+    if failed.is_empty() {
+        return format!("- `{planner}` fails nowhere here.");
+    }
+    let mut routes: Vec<(&str, usize)> = Vec::new();
+    for row in &failed {
+        match routes.iter_mut().find(|(route, _)| *route == row.route) {
+            Some((_, count)) => *count += 1,
+            None => routes.push((&row.route, 1)),
+        }
+    }
+    routes.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
+    let most: Vec<String> =
+        routes.iter().take(3).map(|(route, count)| format!("{route} ({count})")).collect();
+    format!(
+        "- `{planner}` fails in {} of {} trials: {}; most on {}.",
+        failed.len(),
+        rows.len(),
+        failures(rows),
+        most.join(", ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sentences_follow_the_numbers() {
+        let ours = [Some(8.0), Some(0.4), Some(0.2), Some(0.1), Some(5.0), Some(0.6)];
+        let theirs = [Some(10.0), Some(0.5), Some(0.4), Some(0.2), Some(5.0), Some(0.1)];
+        let sentence = against("default", "them", &contests([(ours, theirs), (ours, [None; 6])].into_iter()));
+        assert!(sentence.starts_with(
+            "- `default` against them, on 1 route: wins in distance (lower on 1 of 1, -20 % on average)"
+        ));
+        assert!(
+            sentence.contains("; loses in curvature change (higher on 1 of 1, +500 % on average); even in elevation rate (lower on 0 of 1, +0 %"),
+            "{sentence}"
+        );
+        let none = against("default", "them", &contests([(ours, [None; 6])].into_iter()));
+        assert!(none.ends_with("no route to compare on."));
+        assert!(against("a", "b", &contests([(theirs, ours)].into_iter())).contains("loses in distance"));
+    }
+}

@@ -1,0 +1,96 @@
+//! The statistics of the report.
+
+/// Mean and sample standard deviation; no deviation of a single value, nothing of none.
+pub(super) fn mean_and_deviation(values: &[f64]) -> Option<(f64, Option<f64>)> {
+    let mean = mean(values)?;
+    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+    let deviation = (values.len() > 1).then(|| (squares / (values.len() - 1) as f64).sqrt());
+    Some((mean, deviation))
+}
+
+/// The mean; nothing of none.
+pub(super) fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// The median; nothing of none.
+pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    let upper = *values.get(middle)?;
+    Some(if values.len() % 2 == 1 { upper } else { (values[middle - 1] + upper) / 2.0 })
+}
+
+/// Standard normal quantile of a two-sided 95 % interval.
+const Z: f64 = 1.959_963_984_540_054;
+
+/// Wilson's 95 % interval of the rate behind `successes` of `trials` (Wilson 1927, without continuity correction).
+pub(super) fn wilson(successes: usize, trials: usize) -> (f64, f64) {
+    if trials == 0 {
+        return (0.0, 1.0);
+    }
+    let n = trials as f64;
+    let rate = successes as f64 / n;
+    let centre = rate + Z * Z / (2.0 * n);
+    let half = Z * (rate * (1.0 - rate) / n + Z * Z / (4.0 * n * n)).sqrt();
+    let scale = 1.0 + Z * Z / n;
+    (((centre - half) / scale).max(0.0), ((centre + half) / scale).min(1.0))
+}
+
+/// Success weighted by path length (Anderson et al. 2018): the mean over all trials of what the shortest path is to the
+/// driven one, with nothing for a failure. Each trial gives the driven length where it succeeded, and the shortest.
+pub(super) fn spl(trials: &[(Option<f64>, f64)]) -> Option<f64> {
+    let shares: Vec<f64> = trials
+        .iter()
+        .map(|&(driven_m, shortest_m)| driven_m.map_or(0.0, |driven_m| shortest_m / driven_m.max(shortest_m)))
+        .collect();
+    mean(&shares)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(a: f64, b: f64) {
+        assert!((a - b).abs() < 5e-5, "{a} is not {b}");
+    }
+
+    #[test]
+    fn wilson_as_published() {
+        // Newcombe, Statistics in Medicine 17 (1998), Table I, method 3.
+        for (successes, trials, low, high) in [
+            (81, 263, 0.2553, 0.3662),
+            (15, 148, 0.0624, 0.1605),
+            (0, 20, 0.0, 0.1611),
+            (1, 29, 0.0061, 0.1718),
+        ] {
+            let interval = wilson(successes, trials);
+            close(interval.0, low);
+            close(interval.1, high);
+        }
+        let (low, high) = wilson(20, 20);
+        close(low, 1.0 - 0.1611);
+        close(high, 1.0);
+        assert_eq!(wilson(0, 0), (0.0, 1.0));
+    }
+
+    #[test]
+    fn spl_by_hand() {
+        // Twice the shortest way, a failure, and a way shorter than the search's grid allows.
+        let trials = [(Some(20.0), 10.0), (None, 10.0), (Some(9.0), 10.0)];
+        close(spl(&trials).unwrap(), (0.5 + 0.0 + 1.0) / 3.0);
+        assert_eq!(spl(&[]), None);
+    }
+
+    #[test]
+    fn means_and_medians_by_hand() {
+        let (mean, deviation) = mean_and_deviation(&[10.0, 14.0]).unwrap();
+        close(mean, 12.0);
+        close(deviation.unwrap(), 8.0_f64.sqrt());
+        assert_eq!(mean_and_deviation(&[3.0]), Some((3.0, None)));
+        assert_eq!(mean_and_deviation(&[]), None);
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), Some(2.5));
+        assert_eq!(median(Vec::new()), None);
+    }
+}

@@ -1,0 +1,58 @@
+//! The worst trials, each with the command that runs it again.
+
+use std::fmt::{self, Write as _};
+
+use super::Results;
+use crate::results::TrialRow;
+
+/// How many are shown.
+const SHOWN: usize = 10;
+
+/// Failures first, then what came nearest to a tilt limit.
+pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
+    let mut rows: Vec<(&TrialRow, f64)> = results.rows.iter().map(|row| (row, limit_share(row))).collect();
+    rows.sort_by(|(a, a_share), (b, b_share)| {
+        (a.has_reached().cmp(&b.has_reached()))
+            .then(b_share.total_cmp(a_share))
+            .then_with(|| (&a.planner, &a.route, a.seed, &a.id).cmp(&(&b.planner, &b.route, b.seed, &b.id)))
+    });
+    writeln!(text, "\n### The worst trials\n")?;
+    writeln!(
+        text,
+        "Failures first, then by the largest share of a tilt limit. The command runs a trial again and prints its digest.\n"
+    )?;
+    writeln!(
+        text,
+        "| planner | route | seed | outcome | of the tilt limit | command |\n|---|---|---:|---|---:|---|"
+    )?;
+    for (row, share) in rows.into_iter().take(SHOWN) {
+        let TrialRow { id, planner, route, parameters, truth, seed, outcome, .. } = row;
+        let mut planner = format!("`{planner}`");
+        if truth != "none" {
+            write!(planner, ", told {truth}")?;
+        }
+        if !parameters.is_empty() {
+            write!(planner, ", {parameters}")?;
+        }
+        let command = format!("mapless trials {} --only {id}", results.manifest.file);
+        let reason = row.stop_reason.as_ref().or(row.error.as_ref());
+        let reason = reason.map_or_else(String::new, |reason| {
+            format!(": {}", reason.replace('|', "\\|").replace('\n', " "))
+        });
+        writeln!(
+            text,
+            "| {planner} | {route} | {seed} | {outcome}{reason} | {:.0} % | `{command}` |",
+            100.0 * share
+        )?;
+    }
+    Ok(())
+}
+
+/// The largest share of a tilt limit that the robot came to; nothing where the trial did not run.
+fn limit_share(row: &TrialRow) -> f64 {
+    let limits = serde_json::from_str::<serde_json::Value>(&row.configuration);
+    let limit = |name: &str| limits.as_ref().ok().and_then(|limits| limits["limits"][name].as_f64());
+    let share = |angle_rad: Option<f64>, name: &str| Some(angle_rad? / limit(name)?);
+    let roll = share(row.max_abs_roll_rad, "roll_rad").unwrap_or_default();
+    roll.max(share(row.max_abs_pitch_rad, "pitch_rad").unwrap_or_default())
+}

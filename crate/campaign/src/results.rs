@@ -1,0 +1,203 @@
+//! The final files of a campaign.
+
+use std::path::{Path, PathBuf};
+
+use mapless_trials::Metrics;
+
+use crate::columns;
+use crate::error::CampaignError;
+use crate::files::write_atomically;
+use crate::journal::{Entries, Timing, TrialResult};
+use crate::plan::{Plan, TrialSpec};
+
+/// One row of `trials.csv` and `trials.parquet`.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrialRow {
+    /// The trial's identity within its campaign.
+    pub id: String,
+    /// The campaign's identity.
+    pub campaign: String,
+    /// Name of the planner.
+    pub planner: String,
+    /// Name of the route.
+    pub route: String,
+    /// What the planner was told.
+    pub truth: String,
+    /// `path=value` of every parameter that was set, separated by spaces.
+    pub parameters: String,
+    /// Seed of the sensor's noise.
+    pub seed: u64,
+    /// How it ended, or `error`.
+    pub outcome: String,
+    /// Why the planner stopped, where it did.
+    pub stop_reason: Option<String>,
+    /// Why there is no outcome.
+    pub error: Option<String>,
+    /// Length D of the path, in space.
+    pub distance_m: Option<f64>,
+    /// Largest |φ|.
+    pub max_abs_roll_rad: Option<f64>,
+    /// Largest |ψ|.
+    pub max_abs_pitch_rad: Option<f64>,
+    /// Mean of |φ'| + |ψ'| over time.
+    pub mean_vibration_rad_s: Option<f64>,
+    /// Mean of |z'| over time, centimetres a second.
+    pub mean_elevation_rate_cm_s: Option<f64>,
+    /// C_chg.
+    pub curvature_change_rad_m: Option<f64>,
+    /// Simulated time, seconds.
+    pub sim_time_s: Option<f64>,
+    /// Planning periods.
+    pub ticks: Option<u64>,
+    /// From start to goal as the crow flies, seen from above.
+    pub straight_m: f64,
+    /// Length of the shortest safe path, where it is known.
+    pub oracle_length_m: Option<f64>,
+    /// Digest of the trajectory.
+    pub digest: Option<String>,
+    /// The planner's whole configuration as JSON; empty where it was no valid one.
+    pub configuration: String,
+}
+
+/// `campaign.json`: what a campaign consists of, for its report.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// Name of the campaign.
+    pub name: String,
+    /// Its file, as named when it ran.
+    pub file: String,
+    /// Its identity.
+    pub hash: String,
+    /// Planners in the campaign file's order.
+    pub planners: Vec<String>,
+    /// Routes by name.
+    pub routes: Vec<ManifestRoute>,
+    /// Seeds in the campaign file's order.
+    pub seeds: Vec<u64>,
+}
+
+/// A route and where it comes from.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ManifestRoute {
+    /// Name of the route.
+    pub name: String,
+    /// Its scenario file, as named when the campaign ran.
+    pub file: String,
+}
+
+/// One row of `timing.csv`.
+#[derive(serde::Serialize)]
+struct TimingRow<'a> {
+    id: &'a str,
+    wall_s: f64,
+    planner_p50_ms: f64,
+    planner_p99_ms: f64,
+    planner_max_ms: f64,
+}
+
+/// Writes the final files; `entries` must hold every trial of the plan.
+pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path) -> Result<(), CampaignError> {
+    let done = plan.trials.iter().filter_map(|spec| Some((spec, entries.get(&spec.id)?)));
+    let rows: Vec<TrialRow> = done.clone().map(|(spec, entry)| row(plan, spec, &entry.result)).collect();
+    let timings: Vec<TimingRow<'_>> = done.map(|(spec, entry)| timing_row(&spec.id, entry.timing)).collect();
+    let path = |name: &str| folder.join(name);
+    let manifest = Manifest {
+        name: plan.campaign.name.clone(),
+        file: plan.file.clone(),
+        hash: plan.hash.clone(),
+        planners: plan.campaign.planners.clone(),
+        routes: plan
+            .routes
+            .iter()
+            .map(|r| ManifestRoute { name: r.name.clone(), file: r.file.clone() })
+            .collect(),
+        seeds: plan.campaign.seeds.clone(),
+    };
+    let json = serde_json::to_string_pretty(&manifest)
+        .map_err(|e| CampaignError::write(&path("campaign.json"), e))?;
+    write_atomically(&path("campaign.json"), (json + "\n").as_bytes())?;
+    let parquet = columns::parquet(&rows).map_err(|e| CampaignError::write(&path("trials.parquet"), e))?;
+    write_atomically(&path("trials.parquet"), &parquet)?;
+    write_atomically(&path("timing.csv"), &csv(&path("timing.csv"), &timings)?)?;
+    // The last, since what reads a campaign begins with it.
+    write_atomically(&path("trials.csv"), &csv(&path("trials.csv"), &rows)?)
+}
+
+fn csv<T: serde::Serialize>(path: &Path, rows: &[T]) -> Result<Vec<u8>, CampaignError> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row).map_err(|error| CampaignError::write(path, error))?;
+    }
+    writer.into_inner().map_err(|error| CampaignError::write(path, error))
+}
+
+fn row(plan: &Plan, spec: &TrialSpec, result: &TrialResult) -> TrialRow {
+    let route = &plan.routes[spec.route];
+    let scenario = &route.loaded.scenario;
+    let metric = |value: fn(&Metrics) -> f64| result.metrics.as_ref().map(value);
+    let json = spec.config.as_ref().as_ref().ok().and_then(|config| serde_json::to_string(config).ok());
+    TrialRow {
+        id: spec.id.clone(),
+        campaign: plan.hash.clone(),
+        planner: spec.planner.clone(),
+        route: route.name.clone(),
+        truth: spec.truth.name().to_owned(),
+        parameters: spec.parameters.clone(),
+        seed: spec.seed,
+        outcome: result.outcome.map_or("error", mapless_trials::Outcome::name).to_owned(),
+        stop_reason: result.stop_reason.clone(),
+        error: result.error.clone(),
+        distance_m: metric(|m| m.distance_m),
+        max_abs_roll_rad: metric(|m| m.max_abs_roll_rad),
+        max_abs_pitch_rad: metric(|m| m.max_abs_pitch_rad),
+        mean_vibration_rad_s: metric(|m| m.mean_vibration_rad_s),
+        mean_elevation_rate_cm_s: metric(|m| m.mean_elevation_rate_cm_s),
+        curvature_change_rad_m: metric(|m| m.curvature_change_rad_m),
+        sim_time_s: result.sim_time_s,
+        ticks: result.ticks,
+        straight_m: (scenario.goal_m - scenario.start.position_m).length(),
+        oracle_length_m: route.oracle_length_m,
+        digest: result.digest.clone(),
+        configuration: json.unwrap_or_default(),
+    }
+}
+
+fn timing_row(id: &str, timing: Timing) -> TimingRow<'_> {
+    let Timing { wall_s, planner_p50_ms, planner_p99_ms, planner_max_ms } = timing;
+    TimingRow { id, wall_s, planner_p50_ms, planner_p99_ms, planner_max_ms }
+}
+
+/// Where the trajectory of the trial `id` is, if it is kept.
+pub(crate) fn trajectory_path(folder: &Path, id: &str) -> PathBuf {
+    folder.join("trajectories").join(format!("{id}.csv"))
+}
+
+pub(crate) fn write_trajectory(folder: &Path, id: &str, text: &str) -> Result<(), CampaignError> {
+    let path = trajectory_path(folder, id);
+    let trajectories = folder.join("trajectories");
+    std::fs::create_dir_all(&trajectories).map_err(|error| CampaignError::write(&trajectories, error))?;
+    write_atomically(&path, text.as_bytes())
+}
+
+impl Manifest {
+    /// Reads a finished campaign.
+    ///
+    /// # Errors
+    /// [`CampaignError`] when the campaign has not finished or its files are not as they were written.
+    pub fn read(folder: &Path) -> Result<(Self, Vec<TrialRow>), CampaignError> {
+        let path = folder.join("trials.csv");
+        let file = std::fs::File::open(&path).map_err(|error| {
+            CampaignError::read(&path, format_args!("{error}: expected a campaign that has finished"))
+        })?;
+        let rows = csv::Reader::from_reader(file).deserialize().collect::<Result<Vec<TrialRow>, _>>();
+        let rows = rows.map_err(|error| CampaignError::content(&path, error))?;
+        let path = folder.join("campaign.json");
+        let text = std::fs::read_to_string(&path).map_err(|error| CampaignError::read(&path, error))?;
+        let manifest: Self =
+            serde_json::from_str(&text).map_err(|error| CampaignError::content(&path, error))?;
+        Ok((manifest, rows))
+    }
+}

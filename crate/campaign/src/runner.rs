@@ -1,0 +1,177 @@
+//! Runs what is left of a campaign on several cores.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::error::CampaignError;
+use crate::hash::Hash;
+use crate::journal::{self, Entry, Header, Journal};
+use crate::plan::{Plan, Shard, TrialSpec};
+use crate::results;
+use crate::trial::{self, Finished};
+
+/// How to run a campaign.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The results' folder, made when missing.
+    pub folder: PathBuf,
+    /// Trials at a time.
+    pub jobs: usize,
+    /// Run only this part of the trials.
+    pub shard: Option<Shard>,
+}
+
+/// How far it has come, told after every trial.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<'a> {
+    /// Trials to run in this process, those that had run before included.
+    pub trials: usize,
+    /// How many of them have run.
+    pub done: usize,
+    /// Time left at the pace so far.
+    pub left: Duration,
+    /// What came of the last one.
+    pub last: &'a Entry,
+}
+
+/// What a run leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Done {
+    /// Trials of the whole campaign.
+    pub trials: usize,
+    /// Trials that have run, in this process or another. The final files are there once it is all of them.
+    pub done: usize,
+    /// Trials that ended in an error.
+    pub errors: usize,
+}
+
+/// Runs the trials of `plan` that no journal has yet, and writes the final files when that makes the campaign complete.
+///
+/// `show` is told of every trial, `tell` of what people should know besides.
+///
+/// # Errors
+/// [`CampaignError`] when the folder holds something else or cannot be written. What went wrong in a trial is in its row.
+pub fn run(
+    plan: &Plan,
+    options: &Options,
+    show: impl Fn(Progress<'_>) + Sync,
+    tell: impl Fn(&str),
+) -> Result<Done, CampaignError> {
+    let folder = &options.folder;
+    std::fs::create_dir_all(folder).map_err(|error| CampaignError::write(folder, error))?;
+    let header = Header { campaign: plan.hash.clone(), build: this_build()? };
+    // What is there must fit before anything is added to it.
+    journal::read_all(folder, &header)?;
+    let journal = Journal::open(folder, options.shard, &header, tell)?;
+    let before = journal::read_all(folder, &header)?;
+
+    let mine: Vec<&TrialSpec> = (plan.trials.iter().enumerate())
+        .filter(|(index, _)| options.shard.is_none_or(|shard| shard.holds(*index)))
+        .map(|(_, spec)| spec)
+        .collect();
+    let left: Vec<&TrialSpec> = mine.iter().copied().filter(|spec| !before.contains_key(&spec.id)).collect();
+    let queue = Queue {
+        plan,
+        folder,
+        left: Mutex::new(left.iter().copied()),
+        desk: Mutex::new(Desk { journal, done: 0, began: Instant::now() }),
+        had: mine.len() - left.len(),
+        trials: mine.len(),
+    };
+    let failed = thread::scope(|scope| {
+        let workers: Vec<_> = (0..options.jobs.max(1)).map(|_| scope.spawn(|| queue.work(&show))).collect();
+        let ends: Vec<_> = workers.into_iter().map(std::thread::ScopedJoinHandle::join).collect();
+        ends.into_iter().find_map(|end| match end {
+            Ok(result) => result.err(),
+            Err(_) => Some(CampaignError::write(folder, "a worker panicked outside of a trial")),
+        })
+    });
+    if let Some(error) = failed {
+        return Err(error);
+    }
+    drop(queue);
+    let entries = journal::read_all(folder, &header)?;
+    if entries.len() == plan.trials.len() {
+        results::write(plan, &entries, folder)?;
+    }
+    let errors = entries.values().filter(|entry| entry.result.error.is_some()).count();
+    Ok(Done { trials: plan.trials.len(), done: entries.len(), errors })
+}
+
+/// Runs the trial `id` alone; gives what came of it and its trajectory as CSV. No journal is read or written.
+///
+/// # Errors
+/// A text when the plan has no such trial.
+pub fn run_one(plan: &Plan, id: &str) -> Result<(Entry, String), String> {
+    let Some(spec) = plan.trials.iter().find(|trial| trial.id == id) else {
+        return Err(format!("\"{id}\": expected the id of a trial of campaign {}", plan.campaign.name));
+    };
+    let spec = TrialSpec { keeps_trajectory: true, ..spec.clone() };
+    let Finished { entry, trajectory } = trial::run(&spec, &plan.routes[spec.route]);
+    Ok((entry, trajectory.unwrap_or_default()))
+}
+
+/// What the workers share.
+struct Queue<'a, I> {
+    plan: &'a Plan,
+    folder: &'a Path,
+    left: Mutex<I>,
+    desk: Mutex<Desk>,
+    /// Trials that had run before.
+    had: usize,
+    trials: usize,
+}
+
+/// Where a worker hands in what it has done.
+struct Desk {
+    journal: Journal,
+    done: usize,
+    began: Instant,
+}
+
+impl<'a, I: Iterator<Item = &'a TrialSpec>> Queue<'a, I> {
+    /// Takes trials until there are none left, or nothing can be written any more.
+    fn work(&self, show: &impl Fn(Progress<'_>)) -> Result<(), CampaignError> {
+        while let Some(spec) = self.next() {
+            let finished = trial::run(spec, &self.plan.routes[spec.route]);
+            let handed_in = self.hand_in(&finished, show);
+            if handed_in.is_err() {
+                while self.next().is_some() {}
+            }
+            handed_in?;
+        }
+        Ok(())
+    }
+
+    fn next(&self) -> Option<&'a TrialSpec> {
+        self.left.lock().ok()?.next()
+    }
+
+    fn hand_in(&self, finished: &Finished, show: &impl Fn(Progress<'_>)) -> Result<(), CampaignError> {
+        let Finished { entry, trajectory } = finished;
+        // Before the journal's line, which says that all of the trial is there.
+        if let Some(trajectory) = trajectory {
+            results::write_trajectory(self.folder, &entry.result.id, trajectory)?;
+        }
+        let Ok(mut desk) = self.desk.lock() else {
+            return Err(CampaignError::write(self.folder, "another worker panicked"));
+        };
+        desk.journal.append(entry)?;
+        desk.done += 1;
+        let (trials, done) = (self.trials, self.had + desk.done);
+        let left = desk.began.elapsed().mul_f64((trials - done) as f64 / desk.done as f64);
+        show(Progress { trials, done, left, last: entry });
+        Ok(())
+    }
+}
+
+/// Identity of the running program's file.
+fn this_build() -> Result<String, CampaignError> {
+    let path = std::env::current_exe()
+        .map_err(|error| CampaignError::read(Path::new("the running program"), error))?;
+    let mut hash = Hash::default();
+    hash.add(&std::fs::read(&path).map_err(|error| CampaignError::read(&path, error))?);
+    Ok(hash.hex())
+}

@@ -1,0 +1,144 @@
+//! One trial of a campaign, whatever happens in it.
+
+use std::any::Any;
+use std::fmt::Write as _;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
+
+use mapless_trials::{Metrics, Trial};
+
+use crate::journal::{Entry, Timing, TrialResult};
+use crate::navigators;
+use crate::plan::{Route, TrialSpec};
+
+/// Heads the columns of a trajectory: one row each planning period, and one where the robot ended.
+const TRAJECTORY_HEADER: &str = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,speed_m_s,turn_rate_rad_s\n";
+
+/// What came of a trial.
+pub(crate) struct Finished {
+    pub(crate) entry: Entry,
+    /// As CSV, where it is kept.
+    pub(crate) trajectory: Option<String>,
+}
+
+/// Runs the trial. An error or a panic in it becomes its result.
+pub(crate) fn run(spec: &TrialSpec, route: &Route) -> Finished {
+    let began = Instant::now();
+    let mut times = Vec::new();
+    let mut trajectory = spec.keeps_trajectory.then(|| TRAJECTORY_HEADER.to_owned());
+    let outcome = guarded(|| drive(spec, route, &mut times, trajectory.as_mut()));
+    let timing = Timing::of(began.elapsed(), times);
+    let result = match outcome {
+        Ok(result) => result,
+        Err(error) => TrialResult { id: spec.id.clone(), error: Some(error), ..TrialResult::default() },
+    };
+    Finished { entry: Entry { result, timing }, trajectory }
+}
+
+/// What `work` gives, with a panic as an error.
+fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(format!("panic: {}", message(&*panic))))
+}
+
+fn message(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a message")
+}
+
+fn drive(
+    spec: &TrialSpec,
+    route: &Route,
+    times: &mut Vec<Duration>,
+    mut trajectory: Option<&mut String>,
+) -> Result<TrialResult, String> {
+    let config = spec.config.as_ref().as_ref().map_err(Clone::clone)?;
+    let (scenario, field) = (&route.loaded.scenario, &route.loaded.terrain.field);
+    let navigator = navigators::navigator(&spec.planner, spec.truth, field, scenario, config, spec.seed)?;
+    let mut trial = Trial::with_navigator(field.clone(), scenario, navigator, spec.seed)
+        .map_err(|error| error.to_string())?;
+    let outcome = loop {
+        if let Some(text) = &mut trajectory {
+            write_state(text, &trial);
+        }
+        trial.look();
+        let began = Instant::now();
+        trial.plan();
+        times.push(began.elapsed());
+        if let Some(outcome) = trial.act() {
+            break outcome;
+        }
+    };
+    if let Some(text) = &mut trajectory {
+        write_state(text, &trial);
+    }
+    let metrics = trial.metrics();
+    finite(&metrics)?;
+    Ok(TrialResult {
+        id: spec.id.clone(),
+        outcome: Some(outcome),
+        stop_reason: trial.stop_reason().map(|reason| reason.to_string()),
+        error: None,
+        metrics: Some(metrics),
+        sim_time_s: Some(trial.time_s()),
+        ticks: Some(trial.ticks()),
+        digest: Some(trial.digest()),
+    })
+}
+
+fn write_state<N: mapless::Navigator>(text: &mut String, trial: &Trial<N>) {
+    let values: String = trial.motion().iter().map(|value| format!(",{value:.6}")).collect();
+    // A String takes whatever is written to it.
+    let _ = writeln!(text, "{:.3}{values}", trial.time_s());
+}
+
+/// A journal has no word for what is no number.
+fn finite(metrics: &Metrics) -> Result<(), String> {
+    let Metrics {
+        distance_m,
+        max_abs_roll_rad,
+        max_abs_pitch_rad,
+        mean_vibration_rad_s,
+        mean_elevation_rate_cm_s,
+        curvature_change_rad_m,
+    } = *metrics;
+    let all = [
+        distance_m,
+        max_abs_roll_rad,
+        max_abs_pitch_rad,
+        mean_vibration_rad_s,
+        mean_elevation_rate_cm_s,
+        curvature_change_rad_m,
+    ];
+    if all.iter().all(|value| value.is_finite()) {
+        Ok(())
+    } else {
+        Err(format!("metrics that are no numbers: {metrics:?}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_an_error_with_its_message() {
+        let shown = std::panic::take_hook();
+        std::panic::set_hook(Box::new(|_| {}));
+        let results = [
+            guarded::<()>(|| panic!("at tick {}", 3)),
+            guarded::<()>(|| panic!("plainly")),
+            guarded::<()>(|| std::panic::panic_any(7)),
+        ];
+        std::panic::set_hook(shown);
+        let errors = results.map(Result::unwrap_err);
+        assert_eq!(errors, ["panic: at tick 3", "panic: plainly", "panic: without a message"]);
+        assert_eq!(guarded(|| Ok(1)), Ok(1));
+    }
+
+    #[test]
+    fn metrics_must_be_numbers() {
+        assert!(finite(&Metrics::default()).is_ok());
+        let error = finite(&Metrics { distance_m: f64::NAN, ..Metrics::default() }).unwrap_err();
+        assert!(error.contains("NaN"), "{error}");
+    }
+}
