@@ -308,7 +308,7 @@ fn a_report_is_the_same_twice_and_names_every_route() {
         "| AD (cht-ad) | *published: VGF* | | *46.6* |",
         "| AD (cht-ad) | `default` | 1 of 1 (21–100 %) | ",
         "`default` against the published numbers of VGF, on 1 route:",
-        "The shortest safe path of these routes is not known",
+        "### Against the shortest safe path",
         "#### `planner.decision.steepness_weight`",
         "| `default` | **0.5** | ",
         "| `paper` | 1.0 | ",

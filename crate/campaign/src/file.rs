@@ -322,7 +322,7 @@ mod tests {
             (GOOD.replace("seeds", "seed"), vec!["line 3", "unknown field `seed`", "expected"]),
             (
                 GOOD.replace("default", "best"),
-                vec!["quick.toml: line 1: planners: \"best\"", "\"default\", \"paper\""],
+                vec!["quick.toml: line 1: planners: planner \"best\"", "expected one of default, paper"],
             ),
             (GOOD.replace("\"default\"", "\"paper\", \"paper\""), vec!["line 1", "\"paper\"", "twice"]),
             (GOOD.replace("\"default\"", ""), vec!["line 1", "planners = []", "at least one"]),

@@ -6,11 +6,26 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::error::CampaignError;
 
+/// How the names of unfinished files begin.
+const PART: &str = ".part-";
+
+/// Removes what killed processes left unfinished in `folder`, if that exists. Nobody may be writing there.
+pub(crate) fn remove_unfinished(folder: &Path) -> Result<(), CampaignError> {
+    let Ok(files) = fs::read_dir(folder) else { return Ok(()) };
+    for file in files {
+        let path = file.map_err(|error| CampaignError::read(folder, error))?.path();
+        if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(PART)) {
+            fs::remove_file(&path).map_err(|error| CampaignError::write(&path, error))?;
+        }
+    }
+    Ok(())
+}
+
 /// Writes `bytes` to `path` at once: whoever reads it sees the old file or the new one, also after a power failure.
 pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), CampaignError> {
     let fail = |error: std::io::Error| CampaignError::write(path, error);
     let folder = path.parent().unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new().prefix(".part-").tempfile_in(folder).map_err(fail)?;
+    let mut file = tempfile::Builder::new().prefix(PART).tempfile_in(folder).map_err(fail)?;
     file.write_all(bytes).map_err(fail)?;
     file.as_file().sync_all().map_err(fail)?;
     // Temporary files are for their owner alone; results are for everyone the folder is for.
@@ -64,6 +79,10 @@ mod tests {
         write_atomically(&path, b"second").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"second");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        fs::write(folder.path().join(".part-killed"), "fir").unwrap();
+        remove_unfinished(folder.path()).unwrap();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        remove_unfinished(&folder.path().join("none")).unwrap();
         let error = write_atomically(&folder.path().join("none/a.csv"), b"").unwrap_err().to_string();
         assert!(error.contains("a.csv: cannot be written"), "{error}");
     }

@@ -6,7 +6,7 @@ use mapless_trials::Metrics;
 
 use crate::columns;
 use crate::error::CampaignError;
-use crate::files::write_atomically;
+use crate::files::{remove_unfinished, write_atomically};
 use crate::journal::{Entries, Timing, TrialResult};
 use crate::plan::{Plan, TrialSpec};
 
@@ -103,6 +103,8 @@ pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path) -> Result<(),
     let done = plan.trials.iter().filter_map(|spec| Some((spec, entries.get(&spec.id)?)));
     let rows: Vec<TrialRow> = done.clone().map(|(spec, entry)| row(plan, spec, &entry.result)).collect();
     let timings: Vec<TimingRow<'_>> = done.map(|(spec, entry)| timing_row(&spec.id, entry.timing)).collect();
+    // Every trial has run, so nobody writes trajectories any more.
+    remove_unfinished(&folder.join("trajectories"))?;
     let path = |name: &str| folder.join(name);
     let manifest = Manifest {
         name: plan.campaign.name.clone(),
