@@ -79,6 +79,12 @@ const INVERSE_FACTORIALS: [f64; 14] = [
     1.0 / 6_227_020_800.0,
 ];
 
+/// The largest whole number not above a finite `value`. (`f64::floor` is a call where the processor's own is not assumed.)
+pub(crate) fn floor(value: f64) -> i32 {
+    let towards_zero = value as i32;
+    towards_zero.saturating_sub(i32::from(value < f64::from(towards_zero)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,5 +108,12 @@ mod tests {
     fn a_very_negative_power_stays_positive_and_tiny() {
         let value = exp_of_negative([-1e9; LANES])[0];
         assert!(value > 0.0 && value < 1e-300);
+    }
+
+    #[test]
+    fn floor_agrees_with_the_standard_library() {
+        for value in [0.0, -0.0, 0.5, -0.5, 3.0, -3.0, 2.999_999, -2.000_001, 1e9, -1e9, 1e300, -1e300] {
+            assert_eq!(floor(value), f64::floor(value) as i32, "{value}");
+        }
     }
 }

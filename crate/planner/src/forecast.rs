@@ -73,6 +73,7 @@ pub(crate) fn forecast(
     let mut risk_sum = 0.0;
     let mut samples = 0.0;
     let mut unseen_m = 0.0;
+    let (mut steepest_across, mut steepest_along) = (0.0_f64, 0.0_f64);
     let steps = (length_m / config.step_m).ceil() as usize;
     for step in 1..=steps {
         let distance_m = (config.step_m * step as f64).min(length_m);
@@ -106,12 +107,14 @@ pub(crate) fn forecast(
             let risk = tilt_share(&station, limits);
             risk_sum += risk * risk;
             samples += 1.0;
-            result.max_roll_rad = result.max_roll_rad.max(libm::atan(station.slope_across.abs()));
-            result.max_pitch_rad = result.max_pitch_rad.max(libm::atan(station.slope_along.abs()));
+            steepest_across = steepest_across.max(station.slope_across.abs());
+            steepest_along = steepest_along.max(station.slope_along.abs());
         }
         unseen_m += (gap_m - config.step_m).max(0.0);
         last = here;
     }
+    result.max_roll_rad = libm::atan(steepest_across);
+    result.max_pitch_rad = libm::atan(steepest_along);
     if result.end == ReachEnd::Whole && last.distance_m + config.max_gap_m < length_m {
         result.end = ReachEnd::Unseen;
     }

@@ -6,6 +6,7 @@
 use glam::{DVec2, DVec3, IVec2};
 
 use crate::config::GroundConfig;
+use crate::elementary::floor;
 use crate::plane::{Moments, Plane};
 
 /// Cells per side of the window.
@@ -53,7 +54,7 @@ impl Ground {
         match slot {
             Some(cell) if cell.index == index && tick - cell.seen_tick <= self.config.memory_ticks => {
                 cell.returns = (cell.returns + 1.0).min(MOST_RETURNS);
-                cell.mean_m += (point_m - cell.mean_m) / cell.returns;
+                cell.mean_m += (point_m - cell.mean_m) * (1.0 / cell.returns);
                 cell.seen_tick = tick;
             }
             _ => *slot = Some(GroundCell { index, seen_tick: tick, returns: 1.0, mean_m: point_m }),
@@ -93,12 +94,6 @@ impl Ground {
         let cells = place_m / self.config.cell_m;
         IVec2::new(floor(cells.x), floor(cells.y))
     }
-}
-
-/// The largest whole number not above a finite `value`. (`f64::floor` is a call where the processor's own is not assumed.)
-fn floor(value: f64) -> i32 {
-    let towards_zero = value as i32;
-    towards_zero.saturating_sub(i32::from(value < f64::from(towards_zero)))
 }
 
 fn slot_of(index: IVec2) -> usize {

@@ -9,6 +9,8 @@ use core::ops::Range;
 
 use glam::{DVec2, Vec3};
 
+use crate::elementary::floor;
+
 /// Columns of the surfaces, one degree each; column `c` is centred on azimuth -π + c · 1°.
 pub const COLUMNS: usize = 360;
 /// Rings of the sensor; ring `r` is centred on elevation -15° + r · 2°.
@@ -26,7 +28,7 @@ pub fn column_azimuth_rad(column: usize) -> f64 {
 
 /// The column an azimuth falls into.
 pub fn column_of(azimuth_rad: f64) -> usize {
-    (((azimuth_rad + PI) / COLUMN_STEP_RAD + 0.5).floor() as i64).rem_euclid(COLUMNS as i64) as usize
+    floor((azimuth_rad + PI) / COLUMN_STEP_RAD + 0.5).rem_euclid(COLUMNS as i32) as usize
 }
 
 /// One occupied cell.
@@ -83,8 +85,8 @@ impl OccupancySurface {
             }
             let plan = (point.x * point.x + point.y * point.y).sqrt();
             let elevation = libm::atan2(point.z, plan);
-            let ring = ((elevation - LOWEST_ELEVATION_RAD) / RING_STEP_RAD + 0.5).floor();
-            if !(0.0..RINGS as f64).contains(&ring) {
+            let ring = floor((elevation - LOWEST_ELEVATION_RAD) / RING_STEP_RAD + 0.5);
+            if !(0..RINGS as i32).contains(&ring) {
                 continue;
             }
             let index = column_of(libm::atan2(point.y, point.x)) * RINGS + ring as usize;
