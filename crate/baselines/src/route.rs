@@ -80,6 +80,10 @@ impl<R: RoutePlanner> Navigator for RouteNavigator<R> {
         Decision { status, command }
     }
 
+    fn looks(&self) -> bool {
+        false
+    }
+
     fn period_s(&self) -> f64 {
         self.period_s
     }

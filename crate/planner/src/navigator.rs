@@ -23,6 +23,11 @@ pub trait Navigator {
     /// goal seen from above, in the world.
     fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision;
 
+    /// Whether it looks at the scans; one that does not gets none.
+    fn looks(&self) -> bool {
+        true
+    }
+
     /// Time between two calls, in seconds.
     fn period_s(&self) -> f64;
 
@@ -41,6 +46,10 @@ pub trait Navigator {
 impl<N: Navigator + ?Sized> Navigator for Box<N> {
     fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision {
         (**self).navigate(points_m, pose, goal_m)
+    }
+
+    fn looks(&self) -> bool {
+        (**self).looks()
     }
 
     fn period_s(&self) -> f64 {

@@ -205,8 +205,11 @@ impl<N: Navigator> Trial<N> {
         self.outcome
     }
 
-    /// Takes a scan from where the robot stands.
+    /// Takes a scan from where the robot stands, unless nobody looks at it.
     pub fn look(&mut self) {
+        if !self.navigator.looks() {
+            return;
+        }
         let state = self.husky.state();
         let sensor_pose = self.sensor.config().pose_on(state.position, state.yaw_rad, &state.attitude);
         self.sensor.scan(&self.caster, &sensor_pose, self.seed, self.tick, &mut self.scan);
