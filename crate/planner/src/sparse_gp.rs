@@ -3,7 +3,7 @@
 //! With inducing inputs Z (m), training inputs X (n), targets y and noise variance σₙ²:
 //! L Lᵀ = K_uu + jitter I, A = L⁻¹ K_uf / σₙ, L_B L_Bᵀ = I + A Aᵀ, c = L_B⁻¹ A y / σₙ. At a test input with
 //! covariances k_u*: t = L⁻¹ k_u*, s = L_B⁻¹ t, mean = sᵀ c, variance = k_** - tᵀ t + sᵀ s. What does not depend on the test
-//! input is computed once: mean = wᵀ k_u* with w = L⁻ᵀ L_B⁻ᵀ c, variance = k_** - k_u*ᵀ W k_u* ([`crate::reduction`]).
+//! input is computed once: mean = wᵀ k_u* with w = L⁻ᵀ L_B⁻ᵀ c, variance = k_** - k_u*ᵀ W k_u* (module `reduction`).
 //! Fitting costs O(n m²), a prediction O(m²). Everything is sorted by azimuth, so that what is out of the kernel's reach costs
 //! nothing.
 

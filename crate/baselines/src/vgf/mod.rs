@@ -4,7 +4,7 @@
 //! 1. [`filter`]: the map's points from which the ground rises too steeply are dropped.
 //! 2. [`voxels`]: free voxels over occupied ones are the search space.
 //! 3. [`travel`]: a travel cost from the second differences of the surface, spread in the plane.
-//! 4. [`search`]: A* over 26 neighbours.
+//! 4. [`mod@search`]: A* over 26 neighbours.
 //!
 //! [`VgfConfig::published`] has the values of the authors' release. DESIGN.md has what was decided beyond them.
 
