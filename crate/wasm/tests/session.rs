@@ -58,7 +58,7 @@ fn the_seed_is_the_scenarios_unless_given() {
 #[wasm_bindgen_test]
 fn faults_reach_the_page_as_sentences() {
     let unknown = message(open(SCENARIO, "best", None).unwrap_err());
-    assert!(unknown.contains("best") && unknown.contains("expected default or paper"), "{unknown}");
+    assert!(unknown.contains("best") && unknown.contains("expected default, paper or flat"), "{unknown}");
     let off = message(open(&SCENARIO.replace("34.0", "99.0"), "default", None).unwrap_err());
     assert!(off.contains("goal = (99.000, 8.000)"), "{off}");
     let key = message(open(&format!("{SCENARIO}colour = 1\n"), "default", None).unwrap_err());
