@@ -4,6 +4,7 @@ import type { MaplessState } from './api.ts';
 import { entry, following } from './core/catalogue.ts';
 import { CoreClient } from './core/client.ts';
 import type { Brush, Frame, Ground, GroundPatch, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
+import { RunRecord } from './core/record.ts';
 import { HeightField } from './scene/heightfield.ts';
 import type { Tool } from './scene/tools.ts';
 import { SPEEDS } from './ui/controls.ts';
@@ -28,6 +29,8 @@ export interface Views {
 }
 
 export class App {
+  /** The run so far. */
+  readonly record = new RunRecord();
   readonly #views: Views;
   readonly #core: CoreClient;
   #info: SessionInfo | undefined;
@@ -39,6 +42,7 @@ export class App {
   #touched = false;
   #lingering: ReturnType<typeof setInterval> | undefined;
   #sculpting = 0;
+  #recovering = false;
   #waitingDab: Brush | undefined;
 
   constructor(views: Views) {
@@ -69,7 +73,7 @@ export class App {
   state(): MaplessState | undefined {
     const [info, frame, field] = [this.#info, this.#frame, this.#field];
     if (!info || !frame || !field) return undefined;
-    const { buffers: _buffers, path: _path, segments, subgoals, ...rest } = frame;
+    const { buffers: _buffers, path: _path, rows: _rows, segments, subgoals, ...rest } = frame;
     return {
       ...rest,
       scenario: info.scenario,
@@ -207,6 +211,8 @@ export class App {
   #onFrame(frame: Frame): void {
     const last = this.#frame;
     this.#frame = frame;
+    if (frame.tick === 0) this.record.clear();
+    this.record.add(frame.rows);
     this.#views.frame(frame);
     this.#views.status(frame, this.#playing);
     // The newest frame stays readable; the one before goes back.
@@ -246,18 +252,27 @@ export class App {
       this.#views.notice(message);
       return;
     }
-    const { title } = entry(this.scenario);
-    this.#views.notice(
-      `The simulation stopped on an internal error and was started anew with “${title}”. (${message})`,
-    );
-    const again = this.#core.request({
-      type: 'load',
-      scenario: this.scenario,
-      setting: this.setting,
-      seed: this.#info?.seed,
+    // A panic on the way back is reported by the way back.
+    if (this.#recovering) return;
+    this.#recovering = true;
+    this.#recover(message).finally(() => {
+      this.#recovering = false;
     });
-    again
-      .then(() => this.setSpeed(this.#speed))
-      .catch(() => this.#views.notice(`The simulation cannot be started: ${message}`));
+  }
+
+  async #recover(message: string): Promise<void> {
+    try {
+      const again = await this.#core.recover();
+      await this.setSpeed(this.#speed);
+      this.#views.notice(
+        again
+          ? `The simulation stopped on an internal error. “${entry(this.scenario).title}” stands at its start again, with your ground, start and goal. (${message})`
+          : `The simulation could not be loaded; reload the page to try again. (${message})`,
+      );
+    } catch {
+      this.#views.notice(
+        `The simulation stopped on an internal error and could not be started again; reload the page. (${message})`,
+      );
+    }
   }
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 use js_sys::{Float32Array, Uint8Array};
 use mapless::occupancy::COLUMNS;
 use mapless::perception::ROWS;
-use mapless::{Status, StopReason};
+use mapless::{Navigator as _, Status, StopReason};
 use mapless_trials::{Preset, Scenario, StartPose, Trial};
 use mapless_world::{Brush, BrushKind, SensorPose, load_terrain_bytes};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -192,6 +192,33 @@ impl Session {
     /// Second part: the planner decides. Apart from the others so that the page can time it.
     pub fn plan(&mut self) {
         self.trial.plan();
+    }
+
+    /// What the record of a run keeps of a tick, read between [`Session::plan`] and [`Session::act`]: tick, time; x, y, z,
+    /// roll, pitch, yaw; speed, turn rate; the commanded speed and turn rate; the subgoal's x and y, NaN without one; what
+    /// the planner does (0 driving, 1 arrived, 2 looking, 3 stopped); mean vibration and mean elevation rate so far.
+    pub fn row(&self) -> Vec<f64> {
+        let (trial, step) = (&self.trial, self.trial.step());
+        let metrics = trial.metrics();
+        let subgoal_m = trial.navigator().subgoal_m().unwrap_or(DVec2::NAN);
+        let activity = match step.status {
+            Status::Driving => 0.0,
+            Status::Arrived => 1.0,
+            Status::Looking => 2.0,
+            Status::Stopped(_) => 3.0,
+        };
+        let mut values = vec![trial.ticks() as f64, trial.time_s()];
+        values.extend(trial.motion());
+        values.extend([
+            step.command.linear_m_s,
+            step.command.angular_rad_s,
+            subgoal_m.x,
+            subgoal_m.y,
+            activity,
+            metrics.mean_vibration_rad_s,
+            metrics.mean_elevation_rate_cm_s,
+        ]);
+        values
     }
 
     /// Third part: the robot moves. Returns whether the trial goes on.

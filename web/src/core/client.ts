@@ -1,5 +1,6 @@
 /** The page's end of the worker: requests with answers, events, and a new worker after a panic. */
 
+import { Journal } from './journal.ts';
 import type {
   Command,
   Frame,
@@ -20,6 +21,7 @@ export interface CoreEvents {
 }
 
 interface Waiting {
+  readonly command: Command;
   resolve(): void;
   reject(error: Error): void;
 }
@@ -27,6 +29,7 @@ interface Waiting {
 export class CoreClient {
   readonly #events: CoreEvents;
   readonly #waiting = new Map<number, Waiting>();
+  readonly #journal = new Journal();
   #worker: Worker;
   #nextId = 0;
 
@@ -39,9 +42,16 @@ export class CoreClient {
   request(command: Command): Promise<void> {
     const id = this.#nextId++;
     return new Promise((resolve, reject) => {
-      this.#waiting.set(id, { resolve, reject });
+      this.#waiting.set(id, { command, resolve, reject });
       this.#send({ type: 'request', id, command });
     });
+  }
+
+  /** Makes the session of before a panic again, from its start; says whether there was one. */
+  async recover(): Promise<boolean> {
+    const { commands } = this.#journal;
+    for (const command of [...commands]) await this.request(command);
+    return commands.length > 0;
   }
 
   /** Gives a frame's buffers back; also tells the worker that the page is ready for another frame. */
@@ -75,9 +85,12 @@ export class CoreClient {
       case 'ground':
         this.#events.ground(message.patch);
         break;
-      case 'done':
-        this.#settle(message.id)?.resolve();
+      case 'done': {
+        const waiting = this.#settle(message.id);
+        if (waiting) this.#journal.note(waiting.command);
+        waiting?.resolve();
         break;
+      }
       case 'failed': {
         const waiting = message.id === undefined ? undefined : this.#settle(message.id);
         waiting?.reject(new Error(message.message));

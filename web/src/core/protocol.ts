@@ -176,6 +176,8 @@ export interface Frame {
   readonly buffers: FrameBuffers;
   /** x, y, z after each tick since the frame before. */
   readonly path: Float32Array<ArrayBuffer>;
+  /** The ticks since the frame before, as rows of the record (record.ts). */
+  readonly rows: Float64Array<ArrayBuffer>;
 }
 
 /** Ticks per second of simulated time. */

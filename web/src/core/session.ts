@@ -86,12 +86,18 @@ export class Session {
     return { column, row, columns, rows, heights_m: own(this.#core.heights(column, row, columns, rows)) };
   }
 
-  tick(): void {
-    this.#core.look();
+  /** Runs one tick and returns its row of the record. */
+  tick(): number[] {
     const began_ms = performance.now();
+    this.#core.look();
+    const scanned_ms = performance.now();
     this.#core.plan();
-    this.#planner_ms = performance.now() - began_ms;
+    const planned_ms = performance.now();
+    const row = this.#core.row();
+    const recorded_ms = performance.now();
     this.#core.act();
+    this.#planner_ms = planned_ms - scanned_ms;
+    return [...row, scanned_ms - began_ms, this.#planner_ms, performance.now() - recorded_ms];
   }
 
   /** The named scalars of the present state. */
@@ -108,7 +114,7 @@ export class Session {
     if (buffers.variance.length === columns * rows) this.#pool.push(buffers);
   }
 
-  frame(path: Float32Array<ArrayBuffer>): Frame {
+  frame(path: Float32Array<ArrayBuffer>, rows: Float64Array<ArrayBuffer>): Frame {
     const core = this.#core;
     const status = this.status();
     const buffers = this.#pool.pop() ?? this.#newBuffers();
@@ -150,6 +156,7 @@ export class Session {
       digest: core.digest(),
       buffers,
       path,
+      rows,
     };
   }
 

@@ -22,6 +22,8 @@ export interface CoreSession {
   look(): void;
   plan(): void;
   act(): boolean;
+  /** The present tick as a row of the record, without the durations; between `plan` and `act`. */
+  row(): Float64Array;
   /** Scalars in the order of `STATUS` in decode.ts. */
   status(): Float64Array;
   outcome(): string;

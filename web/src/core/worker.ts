@@ -24,6 +24,7 @@ let inFlight = 0;
 let lastFrame_ms = 0;
 let unsent = false;
 let path: number[] = [];
+let rows: number[] = [];
 /** Requests are carried out one after the other: loading waits for files. */
 let queue: Promise<void> = Promise.resolve();
 
@@ -73,7 +74,7 @@ function loop(): void {
 
 function advance(): void {
   if (!session) return;
-  session.tick();
+  rows.push(...session.tick());
   const { x, y, z } = session.status();
   path.push(x, y, z);
   unsent = true;
@@ -91,17 +92,20 @@ function showIfDue(): void {
 
 function show(): void {
   if (!session) return;
-  const frame: Frame = session.frame(new Float32Array(path));
+  const frame: Frame = session.frame(new Float32Array(path), new Float64Array(rows));
   path = [];
+  rows = [];
   unsent = false;
   inFlight += 1;
   const { points, variance, profile, kinds } = frame.buffers;
-  post({ type: 'frame', frame }, [points.buffer, variance.buffer, profile.buffer, kinds.buffer, frame.path.buffer]);
+  const once = [frame.path.buffer, frame.rows.buffer];
+  post({ type: 'frame', frame }, [points.buffer, variance.buffer, profile.buffer, kinds.buffer, ...once]);
 }
 
 function openFromStart(): void {
   if (!session) return;
   path = [];
+  rows = [];
   const { x, y, z } = session.status();
   path.push(x, y, z);
   due_ms = performance.now();

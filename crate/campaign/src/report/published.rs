@@ -17,15 +17,15 @@ pub(super) struct PublishedRow {
 }
 
 #[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
 struct File {
     rows: Vec<PublishedRow>,
 }
 
-/// The paper's Tables I and II.
+/// The paper's Tables I and II, from the file that the page shows them from too.
 pub(super) fn published() -> Result<Vec<PublishedRow>, CampaignError> {
-    let file: Result<File, _> = toml::from_str(include_str!("published.toml"));
-    file.map(|file| file.rows).map_err(|error| CampaignError::content("published.toml".as_ref(), error))
+    let file: Result<File, _> = serde_json::from_str(include_str!("../../../../terrains/published.json"));
+    file.map(|file| file.rows)
+        .map_err(|error| CampaignError::content("terrains/published.json".as_ref(), error))
 }
 
 #[cfg(test)]

@@ -1,0 +1,99 @@
+/**
+ * The record of a run: one row for each tick, for the plots, the scrubber and the files. A row is the state of the robot
+ * when the scan was taken and what the planner decided on it. It grows with the run and is bounded.
+ */
+
+/** What a row holds, in its order. The worker appends the last three, which the core cannot measure. */
+export const ROW = [
+  'tick',
+  'time_s',
+  'x',
+  'y',
+  'z',
+  'roll',
+  'pitch',
+  'yaw',
+  'v_m_s',
+  'omega_rad_s',
+  'command_v_m_s',
+  'command_omega_rad_s',
+  'subgoal_x',
+  'subgoal_y',
+  'activity',
+  'mean_vibration_rad_s',
+  'mean_elevation_rate_cm_s',
+  'scan_ms',
+  'planner_ms',
+  'motion_ms',
+] as const;
+
+export type RowName = (typeof ROW)[number];
+
+/** An hour of simulated time: 6 MB. */
+export const MAX_ROWS = 36_000;
+const FIRST_ROWS = 1024;
+const STRIDE = ROW.length;
+const OFFSET = Object.fromEntries(ROW.map((name, index) => [name, index])) as Record<RowName, number>;
+
+export class RunRecord {
+  #values = new Float64Array(FIRST_ROWS * STRIDE);
+  #rows = 0;
+  #dropped = false;
+
+  get length(): number {
+    return this.#rows;
+  }
+
+  /** Whether the run was longer than the record: then its beginning is gone. */
+  get cut(): boolean {
+    return this.#dropped;
+  }
+
+  clear(): void {
+    this.#rows = 0;
+    this.#dropped = false;
+  }
+
+  /** Takes whole rows. A tick that the record already has begins another future: what was there from it on is dropped. */
+  add(rows: Float64Array): void {
+    if (rows.length % STRIDE !== 0) throw new Error(`A record of ${rows.length} values was sent in rows of ${STRIDE}.`);
+    for (let at = 0; at < rows.length; at += STRIDE) {
+      const tick = rows[at] ?? 0;
+      while (this.#rows > 0 && this.get(this.#rows - 1, 'tick') >= tick) this.#rows -= 1;
+      this.#makeRoom();
+      this.#values.set(rows.subarray(at, at + STRIDE), this.#rows * STRIDE);
+      this.#rows += 1;
+    }
+  }
+
+  get(row: number, name: RowName): number {
+    return this.#values[row * STRIDE + OFFSET[name]] ?? Number.NaN;
+  }
+
+  /** The row whose time is nearest to this one; -1 in an empty record. */
+  at(time_s: number): number {
+    let [low, high] = [0, this.#rows - 1];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.get(middle, 'time_s') < time_s) low = middle + 1;
+      else high = middle;
+    }
+    const earlier = high > 0 && time_s - this.get(high - 1, 'time_s') < this.get(high, 'time_s') - time_s;
+    return earlier ? high - 1 : high;
+  }
+
+  #makeRoom(): void {
+    if (this.#rows * STRIDE < this.#values.length) return;
+    if (this.#rows >= MAX_ROWS) {
+      // A quarter at a time, so that a long run moves its record seldom.
+      const gone = MAX_ROWS / 4;
+      this.#values.copyWithin(0, gone * STRIDE, this.#rows * STRIDE);
+      this.#rows -= gone;
+      this.#dropped = true;
+      return;
+    }
+    const larger = new Float64Array(Math.min(2 * this.#rows, MAX_ROWS) * STRIDE);
+    larger.set(this.#values);
+    this.#values = larger;
+  }
+}

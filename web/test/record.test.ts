@@ -1,0 +1,54 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { MAX_ROWS, ROW, RunRecord } from '../src/core/record.ts';
+
+function rows(from: number, to: number, x = 0): Float64Array {
+  const values = new Float64Array((to - from) * ROW.length);
+  for (let tick = from; tick < to; tick += 1) {
+    values.set([tick, 0.1 * tick, x], (tick - from) * ROW.length);
+  }
+  return values;
+}
+
+test('a record keeps every tick while it grows', () => {
+  const record = new RunRecord();
+  for (let tick = 0; tick < 5000; tick += 7) record.add(rows(tick, tick + 7, tick));
+  assert.equal(record.length, 5005);
+  assert.equal(record.get(4000, 'tick'), 4000);
+  assert.equal(record.get(4000, 'x'), 4000 - (4000 % 7));
+  assert.equal(record.cut, false);
+});
+
+test('a tick that comes again begins another future', () => {
+  const record = new RunRecord();
+  record.add(rows(0, 100));
+  record.add(rows(40, 42, 9));
+  assert.equal(record.length, 42);
+  assert.deepEqual(
+    [39, 40, 41].map((row) => record.get(row, 'x')),
+    [0, 9, 9],
+  );
+});
+
+test('an endless run keeps its last three quarters of an hour at least', () => {
+  const record = new RunRecord();
+  for (let tick = 0; tick < 2 * MAX_ROWS; tick += 500) record.add(rows(tick, tick + 500));
+  assert.equal(record.cut, true);
+  assert.ok(record.length > 0.7 * MAX_ROWS && record.length <= MAX_ROWS);
+  assert.equal(record.get(record.length - 1, 'tick'), 2 * MAX_ROWS - 1);
+  assert.equal(record.get(0, 'tick'), 2 * MAX_ROWS - record.length);
+});
+
+test('a time finds the nearest tick', () => {
+  const record = new RunRecord();
+  assert.equal(record.at(1), -1);
+  record.add(rows(0, 50));
+  assert.deepEqual(
+    [-1, 0.04, 0.06, 2.31, 99].map((time_s) => record.at(time_s)),
+    [0, 0, 1, 23, 49],
+  );
+});
+
+test('half a row is refused', () => {
+  assert.throws(() => new RunRecord().add(new Float64Array(3)), /3 values/);
+});
