@@ -3,13 +3,14 @@
 import './style/tokens.css';
 import './style/layout.css';
 import './style/controls.css';
+import './style/measure.css';
 import './style/panels.css';
 import { publish } from './api.ts';
 import { App } from './app.ts';
 import { CATALOGUE, entry, following } from './core/catalogue.ts';
 import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
 import { DecisionPanel } from './panel/decision.ts';
-import { MetricsPanel } from './panel/metrics.ts';
+import { Measure } from './panel/measure.ts';
 import { OUTCOME_WORDS, StatusPanel } from './panel/status.ts';
 import { VarianceImage } from './panel/varianceImage.ts';
 import { Stage } from './scene/stage.ts';
@@ -27,14 +28,12 @@ const variance = new VarianceImage(byId('variance', HTMLCanvasElement), readThem
 const roll = new AttitudeInstrument(ROLL);
 const pitch = new AttitudeInstrument(PITCH);
 element('attitude').append(roll.element, pitch.element);
-const metrics = new MetricsPanel(element('metrics'));
 const decision = new DecisionPanel(element('candidates'), element('terms'), element('candidate-count'));
 const status = new StatusPanel({
   outcome: element('outcome'),
   time: element('time'),
   speed: element('speed-now'),
   reason: element('reason'),
-  planner: element('planner-ms'),
   returns: element('returns'),
   digest: element('digest'),
   announcement: element('announcement'),
@@ -58,6 +57,7 @@ const app = new App({
     pitch.limit(info.limits.pitch_rad);
     decision.session(info);
     status.session(info);
+    measure.session(info);
     controls.showSession(info);
     controls.showFollowing(stage?.following ?? false);
     const { group, title, lesson } = entry(info.scenario);
@@ -69,7 +69,7 @@ const app = new App({
     stage?.frame(frame);
     variance.show(frame);
     decision.show(frame);
-    metrics.show(frame.metrics);
+    measure.frame(frame);
     roll.show(frame.pose.roll, frame.metrics.max_abs_roll_rad);
     pitch.show(frame.pose.pitch, frame.metrics.max_abs_pitch_rad);
   },
@@ -94,6 +94,8 @@ const app = new App({
   notice: (message) => notice.show(message),
   clearNotice: () => notice.hide(),
 });
+
+const measure = new Measure({ record: app.record, view: stage, notice: (message) => notice.show(message) });
 
 const tools = stage
   ? new GroundTools(view, stage, {

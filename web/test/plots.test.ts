@@ -43,7 +43,10 @@ test('thinning keeps every peak', () => {
   assert.ok(Math.abs(highest - (0.5 * 180) / Math.PI) < 1e-9 && Math.abs(lowest + (0.4 * 180) / Math.PI) < 1e-9);
   assert.ok(points.includes(777.7) && points.includes(12.3));
   const times = points.filter((_, index) => index % 2 === 0);
-  assert.deepEqual(times, [...times].sort((a, b) => a - b));
+  assert.deepEqual(
+    times,
+    [...times].sort((a, b) => a - b),
+  );
 });
 
 test('a stretch without values breaks the line', () => {

@@ -136,10 +136,9 @@ impl Scenario {
     /// [`ScenarioError`] names the file, the place, the value and what was expected.
     pub fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
         let fail = |fault| ScenarioError { file: file.to_owned(), fault };
-        let syntax =
-            |error: toml::de::Error| fail(ScenarioFault::Syntax(error.to_string().trim_end().to_owned()));
-        let parsed: File = toml::from_str(text).map_err(syntax)?;
-        let mut table: toml::Table = text.parse().map_err(syntax)?;
+        let syntax = |error: mapless_toml::Error| fail(ScenarioFault::Syntax(error.to_string()));
+        let parsed: File = mapless_toml::from_str(text).map_err(syntax)?;
+        let mut table: toml::Table = mapless_toml::from_str(text).map_err(syntax)?;
         let planner = match table.remove("planner") {
             Some(toml::Value::Table(planner)) => planner,
             _ => toml::Table::new(),
@@ -174,9 +173,9 @@ impl Scenario {
         let fault = |reason: &dyn std::fmt::Display| ScenarioFault::Value(format!("planner: {reason}"));
         let mut table = toml::Table::try_from(&config).map_err(|e| fault(&e))?;
         merge(&mut table, &self.planner);
-        // By way of text, because a second reader for tables would be a tenth of the page's wasm.
+        // By way of text: one reader is enough.
         let text = toml::to_string(&table).map_err(|e| fault(&e))?;
-        let config: PlannerConfig = toml::from_str(&text).map_err(|e| fault(&e.message()))?;
+        let config: PlannerConfig = mapless_toml::from_str(&text).map_err(|e| fault(&e.message()))?;
         config.validate().map_err(|e| ScenarioFault::Value(e.to_string()))?;
         Ok(config)
     }

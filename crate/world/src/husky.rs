@@ -316,8 +316,8 @@ mod tests {
         assert_eq!(bad.validate().unwrap_err().field, "max_speed_m_s");
         let narrow = HuskyConfig { width_m: 0.3, ..HuskyConfig::default() };
         assert_eq!(narrow.validate().unwrap_err().field, "width_m");
-        assert!(toml::from_str::<HuskyConfig>("wheel_base_m = 1.0").is_err());
-        assert_eq!(toml::from_str::<HuskyConfig>("").unwrap(), HuskyConfig::default());
+        assert!(mapless_toml::from_str::<HuskyConfig>("wheel_base_m = 1.0").is_err());
+        assert_eq!(mapless_toml::from_str::<HuskyConfig>("").unwrap(), HuskyConfig::default());
     }
 
     proptest! {

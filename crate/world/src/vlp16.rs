@@ -290,6 +290,6 @@ mod tests {
         ] {
             assert_eq!(Vlp16::new(bad).unwrap_err().field, field);
         }
-        assert!(toml::from_str::<SensorConfig>("noise = 1").is_err());
+        assert!(mapless_toml::from_str::<SensorConfig>("noise = 1").is_err());
     }
 }

@@ -1,8 +1,9 @@
-/** The six metrics of the paper, as they stand. */
+/** The six metrics of the paper, as they stand, beside the paper's own. */
 
 import type { Metrics } from '../core/protocol.ts';
 import { html, setText } from '../ui/dom.ts';
 import { fixed } from '../ui/format.ts';
+import type { Published } from './published.ts';
 
 interface Row {
   readonly key: keyof Metrics;
@@ -59,17 +60,30 @@ const ROWS: readonly Row[] = [
 
 export class MetricsPanel {
   readonly #values = new Map<keyof Metrics, HTMLElement>();
+  readonly #papers = new Map<keyof Metrics, HTMLElement>();
 
   constructor(list: HTMLElement) {
     for (const row of ROWS) {
       const value = html('span', 'metric-value', ['–']);
+      const paper = html('dd', 'metric-paper');
       this.#values.set(row.key, value);
+      this.#papers.set(row.key, paper);
       const item = html('div', 'metric', [
         html('dt', 'metric-name', [row.name]),
         html('dd', 'metric-reading', [value, html('span', 'metric-unit', [` ${row.unit}`])]),
+        paper,
       ]);
       item.title = `${row.symbol}: ${row.meaning}`;
       list.append(item);
+    }
+  }
+
+  /** What the paper reports for its own route, on which the scenario is modelled. */
+  session(paper: Published | undefined): void {
+    for (const { key, decimals } of ROWS) {
+      const element = this.#papers.get(key);
+      const spread = paper?.deviation ? ` ± ${fixed(paper.deviation[key], decimals)}` : '';
+      if (element) setText(element, paper ? `paper ${fixed(paper.mean[key], decimals)}${spread}` : '');
     }
   }
 

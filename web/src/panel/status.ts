@@ -20,7 +20,6 @@ export interface StatusElements {
   readonly time: HTMLElement;
   readonly speed: HTMLElement;
   readonly reason: HTMLElement;
-  readonly planner: HTMLElement;
   readonly returns: HTMLElement;
   readonly digest: HTMLElement;
   /** Announced to screen readers, only when a trial ends. */
@@ -30,7 +29,6 @@ export interface StatusElements {
 export class StatusPanel {
   readonly #elements: StatusElements;
   #outcome: Outcome | undefined;
-  #planner_ms = 0;
   #info: SessionInfo | undefined;
 
   constructor(elements: StatusElements) {
@@ -42,7 +40,7 @@ export class StatusPanel {
   }
 
   show(frame: Frame, playing: boolean): void {
-    const { outcome, time, speed, planner, returns, digest, announcement } = this.#elements;
+    const { outcome, time, speed, returns, digest, announcement } = this.#elements;
     const words = frame.outcome === 'running' && !playing ? 'Paused' : OUTCOME_WORDS[frame.outcome];
     setText(outcome, words);
     outcome.dataset.outcome = frame.outcome === 'running' && !playing ? 'paused' : frame.outcome;
@@ -50,10 +48,6 @@ export class StatusPanel {
     setText(speed, `${fixed(frame.v_m_s, 2)} m/s`);
     const why = this.#info ? reason(frame, this.#info) : '';
     setText(this.#elements.reason, why);
-    // Smoothed: single ticks jump too quickly to read.
-    this.#planner_ms =
-      frame.tick <= 1 ? frame.planner_ms : this.#planner_ms + 0.1 * (frame.planner_ms - this.#planner_ms);
-    setText(planner, `${fixed(this.#planner_ms, 1)} ms`);
     setText(returns, frame.returns.toLocaleString('en'));
     setText(digest, frame.digest);
     if (this.#outcome !== frame.outcome) {

@@ -42,6 +42,8 @@ export class Stage {
   #shown: Pose | undefined;
   #speed = 1;
   #dirty = true;
+  /** Called with the view right after each drawing: later its pixels are gone. */
+  drawn: ((view: HTMLCanvasElement) => void) | undefined;
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
     this.#canvas = canvas;
@@ -208,6 +210,7 @@ export class Stage {
     this.#subgoals.attach(this.#sensor, camera.position);
     this.#places.face(camera.position);
     this.#renderer.render(this.#scene, camera);
+    this.drawn?.(this.#canvas);
     if (this.#pacer.drew(now_ms)) this.#resize();
   }
 

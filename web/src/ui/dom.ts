@@ -13,7 +13,7 @@ const SVG = 'http://www.w3.org/2000/svg';
 export function svg<K extends keyof SVGElementTagNameMap>(
   name: K,
   attributes: Record<string, string | number> = {},
-  children: readonly Node[] = [],
+  children: readonly (Node | string)[] = [],
 ): SVGElementTagNameMap[K] {
   const element = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, String(value));

@@ -76,8 +76,8 @@ use crate::terrain::{Terrain, TerrainError, TerrainFault, split_name};
 use canvas::Canvas;
 use check::Table;
 use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
+use mapless_toml::Located;
 use serde::Deserialize;
-use toml::Spanned;
 use trail::Trail;
 
 #[derive(Deserialize)]
@@ -96,19 +96,19 @@ struct Recipe {
     tilt: [f64; 2],
     import: Option<Import>,
     #[serde(default)]
-    hill: Vec<Spanned<Hill>>,
+    hill: Vec<Located<Hill>>,
     #[serde(default)]
-    plateau: Vec<Spanned<Plateau>>,
+    plateau: Vec<Located<Plateau>>,
     #[serde(default)]
-    ridge: Vec<Spanned<Ridge>>,
+    ridge: Vec<Located<Ridge>>,
     #[serde(default)]
-    valley: Vec<Spanned<Valley>>,
+    valley: Vec<Located<Valley>>,
     #[serde(default)]
-    crater: Vec<Spanned<Crater>>,
+    crater: Vec<Located<Crater>>,
     #[serde(default)]
-    noise: Vec<Spanned<Noise>>,
+    noise: Vec<Located<Noise>>,
     #[serde(default)]
-    trail: Vec<Spanned<Trail>>,
+    trail: Vec<Located<Trail>>,
 }
 
 #[derive(Deserialize)]
@@ -126,8 +126,8 @@ pub(crate) fn load(
     text: &str,
     resolve: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
 ) -> Result<Terrain, TerrainError> {
-    let recipe: Recipe = toml::from_str(text)
-        .map_err(|error| TerrainFault::damaged("recipe", error.to_string().trim_end()).of(file))?;
+    let recipe: Recipe =
+        mapless_toml::from_str(text).map_err(|error| TerrainFault::damaged("recipe", error).of(file))?;
     let mut canvas = recipe.ground(file, resolve)?;
     let heights = recipe.shape(text, &mut canvas).and_then(|()| {
         let heights_m = canvas.heights_m.iter().map(|&height| height as f32).collect();
@@ -195,14 +195,14 @@ impl Recipe {
 fn add<F: Feature>(
     text: &str,
     kind: &'static str,
-    features: &[Spanned<F>],
+    features: &[Located<F>],
     seed: u64,
     canvas: &mut Canvas,
 ) -> Result<(), TerrainFault> {
     for (index, feature) in features.iter().enumerate() {
-        let table = Table::at(text, feature.span().start, kind, index);
-        feature.get_ref().check(&table, canvas)?;
-        feature.get_ref().apply(canvas, crate::random::key(seed, index as u64));
+        let table = Table::at(text, feature.begin, kind, index);
+        feature.value.check(&table, canvas)?;
+        feature.value.apply(canvas, crate::random::key(seed, index as u64));
     }
     Ok(())
 }

@@ -97,7 +97,10 @@ export class PlotFigure {
       band.marks.replaceChildren(...this.#marks(band.y, limit, paper));
       const bound = limit ?? Math.max(highest, 0);
       band.bound.setAttribute('y', (band.y(bound) + (limit === undefined ? -2 : 9)).toFixed(1));
-      setText(band.bound, limit === undefined || !Number.isFinite(bound) ? '' : `${fixed(bound, 0)}${band.series.unit}`);
+      setText(
+        band.bound,
+        limit === undefined || !Number.isFinite(bound) ? '' : `${fixed(bound, 0)}${band.series.unit}`,
+      );
     });
     this.#drawAxis();
   }

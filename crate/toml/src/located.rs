@@ -1,0 +1,41 @@
+//! A value that knows where it stands.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+
+/// By this name the reader knows that a place is asked for.
+pub(crate) const NAME: &str = "$mapless_toml::Located";
+
+/// A value and where it stands in the document. Only [`from_str`](crate::from_str) can read one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Located<T> {
+    /// The first byte of the value; of a table, of its header.
+    pub begin: usize,
+    /// The value.
+    pub value: T,
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_newtype_struct(NAME, Pair(PhantomData))
+    }
+}
+
+struct Pair<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for Pair<T> {
+    type Value = Located<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value with its place")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut pair: A) -> Result<Self::Value, A::Error> {
+        let missing = |index| A::Error::invalid_length(index, &"a value with its place");
+        let begin = pair.next_element()?.ok_or_else(|| missing(0))?;
+        let value = pair.next_element()?.ok_or_else(|| missing(1))?;
+        Ok(Located { begin, value })
+    }
+}

@@ -1,0 +1,130 @@
+//! The toml crate is the measure: the same values, and the same messages.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+
+use proptest::prelude::*;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::{Located, from_str};
+
+#[derive(Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    name: String,
+    seed: u64,
+    shift: Option<i32>,
+    #[serde(default)]
+    flat: bool,
+    #[serde(default)]
+    tilt: [f64; 2],
+    mode: Option<Mode>,
+    #[serde(default)]
+    hill: Vec<Hill>,
+    height: Option<OneOrMany>,
+    rest: Option<BTreeMap<String, f64>>,
+}
+
+#[derive(Debug, Deserialize, PartialEq)]
+#[serde(rename_all = "snake_case")]
+enum Mode {
+    Once,
+    EveryScan,
+}
+
+#[derive(Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Hill {
+    height_m: f64,
+    #[serde(default)]
+    radius_m: f64,
+}
+
+#[derive(Debug, Deserialize, PartialEq)]
+#[serde(untagged)]
+enum OneOrMany {
+    One(f64),
+    Many(Vec<f64>),
+}
+
+/// What the toml crate makes of a text, its message without the last line's end.
+fn theirs<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())
+}
+
+fn ours<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    from_str(text).map_err(|error| error.to_string())
+}
+
+#[track_caller]
+fn same<T: DeserializeOwned + Debug + PartialEq>(text: &str) {
+    assert_eq!(ours::<T>(text), theirs::<T>(text), "{text}");
+}
+
+const GOOD: &str = "name = \"ü\"\nseed = 0x_1f\nshift = -3\nflat = true\ntilt = [1, 2.5e-3]\nmode = \"every_scan\"\n\
+    height = [1, 2.0]\n[[hill]]\nheight_m = 3\n[[hill]]\nheight_m = inf\nradius_m = 0.1\n[rest]\na.b = 1\n";
+
+#[test]
+fn a_document_reads_as_with_the_toml_crate() {
+    same::<Document>(&GOOD.replace("a.b", "\"a.b\""));
+    same::<toml::Table>(GOOD);
+}
+
+#[test]
+fn messages_are_those_of_the_toml_crate() {
+    let change = |from: &str, to: &str| {
+        assert!(GOOD.contains(from), "{from}");
+        same::<Document>(&GOOD.replace("a.b", "a").replace(from, to));
+    };
+    change("seed = 0x_1f", "seed = 1.5");
+    change("seed = 0x1f".replace("0x", "0x_").as_str(), "seed = -1");
+    change("shift = -3", "shift = 3000000000");
+    change("flat = true", "flat = \"ja\"");
+    change("radius_m = 0.1", "radius = 0.1");
+    change("tilt = [1, 2.5e-3]", "tilt = [1]");
+    change("tilt = [1, 2.5e-3]", "tilt = [1, \"ü\"]");
+    change("mode = \"every_scan\"", "mode = \"never\"");
+    change("height = [1, 2.0]", "height = false");
+    change("name = \"ü\"", "");
+    change("name = \"ü\"", "name = \"ü");
+    change("flat = true", "seed = 2");
+    change("a.b = 1", "a = \"x\"");
+    change("[[hill]]\nheight_m = 3\n", "[[hill]]\nradius_m = 3\n");
+}
+
+#[test]
+fn a_struct_is_a_table() {
+    let text = "name = \"a\"\nseed = 1\nhill = [[1.0, 2.0]]\n";
+    let error = ours::<Document>(text).unwrap_err();
+    assert!(error.contains("line 3, column 9") && error.contains("expected struct Hill"), "{error}");
+}
+
+#[test]
+fn a_located_table_knows_its_header() {
+    #[derive(Deserialize)]
+    struct Hills {
+        hill: Vec<Located<Hill>>,
+    }
+    let text = "[[hill]]\nheight_m = 1\n\n[[hill]]\nheight_m = 2\n";
+    let hills = from_str::<Hills>(text).unwrap().hill;
+    let found: Vec<_> = hills.iter().map(|hill| (hill.begin, hill.value.height_m)).collect();
+    assert_eq!(found, [(0, 1.0), (23, 2.0)]);
+}
+
+proptest! {
+    /// A byte of a good document changed, left out or doubled: the same value or the same fault as with the toml crate.
+    #[test]
+    fn damaged_documents_are_judged_alike(at in 0..GOOD.len(), byte in 0x09..0x7f_u8, how in 0..3) {
+        let mut bytes = GOOD.as_bytes().to_vec();
+        match how {
+            0 => bytes[at] = byte,
+            1 => { bytes.remove(at); }
+            _ => bytes.insert(at, byte),
+        }
+        if let Ok(text) = String::from_utf8(bytes) {
+            prop_assert_eq!(ours::<toml::Table>(&text), theirs::<toml::Table>(&text));
+            prop_assert_eq!(ours::<Document>(&text).is_ok(), theirs::<Document>(&text).is_ok(), "{}", text);
+        }
+    }
+}

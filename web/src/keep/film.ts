@@ -1,0 +1,110 @@
+/** Pictures and films of the 3D view. The view's canvas is see-through: here it stands before the page's sky. */
+
+/** What gives the view right after each drawing, while its pixels can be read. */
+export interface Drawn {
+  drawn: ((view: HTMLCanvasElement) => void) | undefined;
+  /** Asks for another drawing. */
+  invalidate(): void;
+}
+
+const FRAME_RATE_HZ = 30;
+const BITS_PER_SECOND = 8_000_000;
+/** VP9 is smaller where the browser has it. */
+const KINDS = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'];
+
+/** Whether this browser records WebM. */
+export function canFilm(): boolean {
+  return kind() !== undefined;
+}
+
+function kind(): string | undefined {
+  return typeof MediaRecorder === 'undefined' ? undefined : KINDS.find((type) => MediaRecorder.isTypeSupported(type));
+}
+
+export class Camera {
+  readonly #source: Drawn;
+  readonly #plate = document.createElement('canvas');
+  #recorder: MediaRecorder | undefined;
+  #onDrawn: (() => void) | undefined;
+
+  constructor(source: Drawn) {
+    this.#source = source;
+  }
+
+  get filming(): boolean {
+    return this.#recorder !== undefined;
+  }
+
+  /** The view as it is next drawn, as PNG. */
+  async picture(): Promise<Blob> {
+    await this.#next();
+    return new Promise((resolve, reject) => {
+      this.#plate.toBlob(
+        (blob) => (blob ? resolve(blob) : reject(new Error('The browser could not make a picture of the view.'))),
+        'image/png',
+      );
+    });
+  }
+
+  /** Films until `stop`; resolves with the WebM. */
+  async film(): Promise<Blob> {
+    const mimeType = kind();
+    if (!mimeType) throw new Error('This browser records no WebM video.');
+    await this.#next();
+    const stream = this.#plate.captureStream(FRAME_RATE_HZ);
+    const recorder = new MediaRecorder(stream, { mimeType, videoBitsPerSecond: BITS_PER_SECOND });
+    this.#recorder = recorder;
+    this.#watch();
+    return new Promise((resolve, reject) => {
+      const parts: Blob[] = [];
+      recorder.ondataavailable = ({ data }) => parts.push(data);
+      recorder.onerror = () => reject(new Error('The browser stopped recording.'));
+      recorder.onstop = () => resolve(new Blob(parts, { type: 'video/webm' }));
+      recorder.start(1000);
+    });
+  }
+
+  stop(): void {
+    this.#recorder?.stop();
+    this.#recorder = undefined;
+    this.#watch();
+  }
+
+  /** Waits for the next drawing. */
+  #next(): Promise<void> {
+    return new Promise((resolve) => {
+      this.#onDrawn = resolve;
+      this.#watch();
+    });
+  }
+
+  /** Reads the view while anybody needs it. */
+  #watch(): void {
+    const needed = this.#recorder !== undefined || this.#onDrawn !== undefined;
+    this.#source.drawn = needed ? (view) => this.#take(view) : undefined;
+    if (needed) this.#source.invalidate();
+  }
+
+  #take(view: HTMLCanvasElement): void {
+    const plate = this.#plate;
+    // A film keeps the size it began with.
+    if (!this.#recorder && (plate.width !== view.width || plate.height !== view.height)) {
+      plate.width = view.width;
+      plate.height = view.height;
+    }
+    const context = plate.getContext('2d');
+    if (!context) return;
+    const style = getComputedStyle(document.documentElement);
+    const sky = context.createLinearGradient(0, 0, 0, plate.height);
+    sky.addColorStop(0, style.getPropertyValue('--sky-top').trim());
+    sky.addColorStop(0.72, style.getPropertyValue('--sky-bottom').trim());
+    context.fillStyle = sky;
+    context.fillRect(0, 0, plate.width, plate.height);
+    context.drawImage(view, 0, 0, plate.width, plate.height);
+    const done = this.#onDrawn;
+    if (!done) return;
+    this.#onDrawn = undefined;
+    this.#watch();
+    done();
+  }
+}

@@ -1,0 +1,81 @@
+/** The measurements of a run: the six metrics beside the paper's, plots over time, times, digest, and its files. */
+
+import type { Frame, SessionInfo } from '../core/protocol.ts';
+import type { RunRecord } from '../core/record.ts';
+import type { Drawn } from '../keep/film.ts';
+import { TakeAway } from '../keep/takeAway.ts';
+import { byId, setText } from '../ui/dom.ts';
+import { MetricsPanel } from './metrics.ts';
+import { TimePlots } from './plots/timePlots.ts';
+import { published } from './published.ts';
+import { TimingPanel } from './timing.ts';
+
+/** How long a button says that it has done its work. */
+const THANKS_MS = 1600;
+
+export interface MeasureOptions {
+  readonly record: RunRecord;
+  readonly view: Drawn | undefined;
+  notice(message: string): void;
+}
+
+export class Measure {
+  readonly plots: TimePlots;
+  readonly #metrics = new MetricsPanel(byId('metrics', HTMLElement));
+  readonly #timing = new TimingPanel();
+  readonly #record: RunRecord;
+  #info: SessionInfo | undefined;
+  #frame: Frame | undefined;
+
+  constructor({ record, view, notice }: MeasureOptions) {
+    this.#record = record;
+    this.plots = new TimePlots(record);
+    byId('plots', HTMLElement).append(this.plots.element);
+    this.#enlarges();
+    this.#copiesDigest(notice);
+    new TakeAway({ run: () => this.#run(), plots: (title) => this.plots.file(title), view, notice });
+  }
+
+  session(info: SessionInfo): void {
+    this.#info = info;
+    const paper = published(info.scenario);
+    this.#metrics.session(paper);
+    this.plots.session(info, paper);
+  }
+
+  frame(frame: Frame): void {
+    this.#frame = frame;
+    this.#metrics.show(frame.metrics);
+    this.#timing.show(this.#record);
+    this.plots.update();
+  }
+
+  #run() {
+    const [info, frame] = [this.#info, this.#frame];
+    return info && frame ? { info, frame, record: this.#record } : undefined;
+  }
+
+  /** The plots move into a sheet of the whole window, and back. */
+  #enlarges(): void {
+    const sheet = byId('plots-sheet', HTMLDialogElement);
+    const large = byId('plots-large', HTMLElement);
+    byId('plots-enlarge', HTMLButtonElement).addEventListener('click', () => {
+      large.append(this.plots.element);
+      sheet.showModal();
+    });
+    sheet.addEventListener('close', () => byId('plots', HTMLElement).append(this.plots.element));
+  }
+
+  #copiesDigest(notice: (message: string) => void): void {
+    const button = byId('copy-digest', HTMLButtonElement);
+    button.addEventListener('click', async () => {
+      try {
+        await navigator.clipboard.writeText(byId('digest', HTMLElement).textContent ?? '');
+        setText(button, 'Copied');
+        setTimeout(() => setText(button, 'Copy'), THANKS_MS);
+      } catch {
+        notice('The browser did not let the page write to the clipboard; select the digest and copy it.');
+      }
+    });
+  }
+}
