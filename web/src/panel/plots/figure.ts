@@ -24,7 +24,9 @@ const HEADROOM = 1.12;
 interface Band {
   readonly series: Series;
   readonly value: SVGTextElement;
-  readonly bound: SVGTextElement;
+  readonly name: SVGTextElement;
+  /** The limit, or the largest value in sight, after the name. */
+  readonly bound: SVGTSpanElement;
   readonly line: SVGPathElement;
   readonly marks: SVGGElement;
   readonly dot: SVGCircleElement;
@@ -43,17 +45,18 @@ export class PlotFigure {
 
   constructor() {
     this.#bands = SERIES.map((series) => {
-      const name = svg('text', { class: 'plot-name', x: MARGIN.left }, [series.name]);
+      const bound = svg('tspan', { class: 'plot-bound', dx: 6 });
       const band: Band = {
         series,
         value: svg('text', { class: 'plot-value', 'text-anchor': 'end' }),
-        bound: svg('text', { class: 'plot-bound', 'text-anchor': 'end' }),
+        name: svg('text', { x: MARGIN.left }, [series.name, bound]),
+        bound,
         line: svg('path', { class: 'plot-line' }),
         marks: svg('g'),
         dot: svg('circle', { class: 'plot-dot', r: 3 }),
         y: () => 0,
       };
-      this.svg.append(svg('g', {}, [name, band.bound, band.value, band.marks, band.line, band.dot]));
+      this.svg.append(svg('g', {}, [band.name, band.value, band.marks, band.line, band.dot]));
       return band;
     });
     this.svg.append(this.#axis, this.#cursor);
@@ -90,17 +93,11 @@ export class PlotFigure {
       const reach = limit === undefined ? HEADROOM * Math.max(highest, paper ?? 0, 1e-3) : HEADROOM * limit;
       const least = limit === undefined ? 0 : -reach;
       band.y = (value) => bottom - ((value - least) / (reach - least)) * (bottom - top);
-      for (const text of [band.value, band.bound]) text.setAttribute('x', String(this.#width - MARGIN.right));
-      band.line.parentElement?.firstElementChild?.setAttribute('y', (top - 5).toFixed(1));
-      band.value.setAttribute('y', (top - 5).toFixed(1));
+      for (const text of [band.name, band.value]) text.setAttribute('y', (top - 5).toFixed(1));
+      band.value.setAttribute('x', String(this.#width - MARGIN.right));
       band.line.setAttribute('d', this.#path(points, band.y));
       band.marks.replaceChildren(...this.#marks(band.y, limit, paper));
-      const bound = limit ?? Math.max(highest, 0);
-      band.bound.setAttribute('y', (band.y(bound) + (limit === undefined ? -2 : 9)).toFixed(1));
-      setText(
-        band.bound,
-        limit === undefined || !Number.isFinite(bound) ? '' : `${fixed(bound, 0)}${band.series.unit}`,
-      );
+      setText(band.bound, boundText(band.series, limit, highest));
     });
     this.#drawAxis();
   }
@@ -159,6 +156,11 @@ export class PlotFigure {
 
 export function reading({ decimals, unit }: Series, value: number): string {
   return `${fixed(value, decimals)}${unit === '°' ? unit : ` ${unit}`}`;
+}
+
+function boundText(series: Series, limit: number | undefined, highest: number): string {
+  if (limit !== undefined) return `limit ${fixed(limit, 0)}°`;
+  return Number.isFinite(highest) ? `up to ${reading(series, highest)}` : '';
 }
 
 function axisLabel(time_s: number): string {

@@ -219,31 +219,35 @@ export class TimePlots {
       this.#zoomed = pan(this.#zoomed, (event.deltaX / this.#surface.clientWidth) * (to_s - from_s), this.#whole_s);
       this.#draw();
     } else if (!sideways) {
-      this.#zoom(1.0015 ** event.deltaY, this.#figure.timeAt(event.offsetX));
+      this.#zoom(1.0015 ** event.deltaY, this.#figure.timeAt(this.#xOf(event)));
     }
+  }
+
+  #xOf(event: MouseEvent): number {
+    return event.clientX - this.#surface.getBoundingClientRect().left;
   }
 
   #down(event: PointerEvent): void {
     if (event.button !== 0) return;
     this.#surface.setPointerCapture(event.pointerId);
-    this.#pointers.set(event.pointerId, event.offsetX);
-    if (this.#pointers.size === 1) this.#choose(this.#figure.timeAt(event.offsetX));
+    this.#pointers.set(event.pointerId, this.#xOf(event));
+    if (this.#pointers.size === 1) this.#choose(this.#figure.timeAt(this.#xOf(event)));
   }
 
   #move(event: PointerEvent): void {
     const before = this.#pointers.get(event.pointerId);
     if (before === undefined) {
       if (event.pointerType !== 'mouse') return;
-      this.#hovered_s = this.#figure.timeAt(event.offsetX);
+      this.#hovered_s = this.#figure.timeAt(this.#xOf(event));
       this.#point();
       return;
     }
     if (this.#pointers.size === 1) {
-      this.#choose(this.#figure.timeAt(event.offsetX));
+      this.#choose(this.#figure.timeAt(this.#xOf(event)));
     } else if (this.#pointers.size === 2) {
-      this.#pinch(event.pointerId, before, event.offsetX);
+      this.#pinch(event.pointerId, before, this.#xOf(event));
     }
-    this.#pointers.set(event.pointerId, event.offsetX);
+    this.#pointers.set(event.pointerId, this.#xOf(event));
   }
 
   /** Two fingers: their distance zooms, their middle stays under them. */

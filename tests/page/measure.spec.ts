@@ -1,0 +1,171 @@
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, readFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { McapIndexedReader } from '@mcap/core';
+import type { Page } from '@playwright/test';
+import { expect, state, test, until } from './page.ts';
+
+/** Clicks a button of "Take away" and returns the file. */
+async function download(page: Page, id: string): Promise<{ name: string; bytes: Buffer }> {
+  const waiting = page.waitForEvent('download');
+  await page.locator(`#${id}`).click();
+  const file = await waiting;
+  return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+}
+
+async function driveTo(page: Page, tick: number): Promise<void> {
+  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+  await until(page, (now) => now.tick >= tick || now.outcome !== 'running');
+  await page.evaluate(() => window.mapless?.pause());
+  // A frame with the last ticks may still be under way.
+  await page.waitForTimeout(500);
+}
+
+const cursor = (page: Page) => page.getByRole('slider', { name: 'Time in the plots' });
+const time_s = async (page: Page) => Number(await cursor(page).getAttribute('aria-valuenow'));
+
+test('the plots show the run, and their cursor reads it', async ({ mapless: page }) => {
+  await driveTo(page, 60);
+  await cursor(page).scrollIntoViewIfNeeded();
+  for (const line of await page.locator('.plot-line').all()) {
+    await expect(line).toHaveAttribute('d', /^M.*L.*L/);
+  }
+  await expect(page.locator('.plot-limit')).toHaveCount(4);
+  await expect(page.locator('.plot-paper')).toHaveCount(2);
+  await cursor(page).focus();
+  await page.keyboard.press('Home');
+  expect(await time_s(page)).toBe(0);
+  for (let press = 0; press < 7; press += 1) await page.keyboard.press('ArrowRight');
+  expect(await time_s(page)).toBeCloseTo(0.7);
+  await expect(cursor(page)).toHaveAttribute('aria-valuetext', /^0:00\.7: Roll .*°, Pitch .*, Curvature .* rad\/m$/);
+  await page.keyboard.press('End');
+  const { tick } = await state(page);
+  expect(await time_s(page)).toBeCloseTo((tick - 1) / 10);
+});
+
+test('the plots zoom by keys, wheel and buttons, and grow into a sheet', async ({ mapless: page }) => {
+  await driveTo(page, 100);
+  const times = () => page.locator('.plot-axis text').allTextContents();
+  await cursor(page).scrollIntoViewIfNeeded();
+  const whole = await times();
+  await cursor(page).focus();
+  await page.keyboard.press('Home');
+  for (let press = 0; press < 3; press += 1) await page.keyboard.press('+');
+  const near = await times();
+  expect(near).not.toEqual(whole);
+  expect(near).toContain('0:00');
+  await page.keyboard.press('0');
+  expect(await times()).toEqual(whole);
+  await page.getByRole('button', { name: 'Enlarge the plots' }).click();
+  const sheet = page.getByRole('dialog', { name: 'Over time' });
+  await expect(sheet.locator('.plot-line')).toHaveCount(5);
+  const box = await cursor(page).boundingBox();
+  if (!box) throw new Error('The plots have no place.');
+  await page.mouse.move(box.x + box.width / 2, box.y + 80);
+  await expect.poll(() => time_s(page)).toBeCloseTo(5, 0);
+  const before = await times();
+  await page.mouse.wheel(0, -600);
+  await expect.poll(times).not.toEqual(before);
+  await sheet.getByRole('button', { name: 'Show the whole run' }).click();
+  expect(await times()).toEqual(before);
+  await page.keyboard.press('Escape');
+  await expect(page.locator('#plots .plot-line')).toHaveCount(5);
+});
+
+test('trajectory and result are those of the command line', async ({ mapless: page }) => {
+  test.setTimeout(600_000);
+  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+  await page.evaluate(() => window.mapless?.loadScenario('ht', { seed: 5 }));
+  await page.evaluate(() => window.mapless?.play());
+  await until(page, (now) => now.outcome !== 'running', 500_000);
+  const out = mkdtempSync(join(tmpdir(), 'mapless-'));
+  const run = ['run', 'terrains/scenarios/ht.toml', '--seed', '5', '--out', out];
+  const { error, stderr, status } = spawnSync('target/release/mapless', run, { encoding: 'utf8' });
+  if (error)
+    throw new Error('Build the command line first: cargo build --release --package mapless-cli', { cause: error });
+  expect(status, stderr).toBe(0);
+  const csv = await download(page, 'save-csv');
+  expect(csv.name).toBe('mapless-ht-seed5-trajectory.csv');
+  expect(csv.bytes.toString()).toBe(readFileSync(join(out, 'trajectory.csv'), 'utf8'));
+  const { planner_ms: _page, ...result } = JSON.parse((await download(page, 'save-json')).bytes.toString());
+  const { planner_ms: _line, ...expected } = JSON.parse(readFileSync(join(out, 'result.json'), 'utf8'));
+  expect(result).toEqual(expected);
+});
+
+test('the MCAP file is valid, complete and in the schemas of Foxglove', async ({ mapless: page }) => {
+  await driveTo(page, 40);
+  const { tick, seed, digest, returns, pose } = await state(page);
+  const { bytes } = await download(page, 'save-mcap');
+  const reader = await McapIndexedReader.Initialize({
+    readable: {
+      size: async () => BigInt(bytes.length),
+      read: async (offset, length) => new Uint8Array(bytes.subarray(Number(offset), Number(offset + length))),
+    },
+  });
+  const schemas = new Map(
+    [...reader.channelsById.values()].map((one) => [one.topic, reader.schemasById.get(one.schemaId)?.name]),
+  );
+  expect(Object.fromEntries(schemas)).toEqual({
+    '/pose': 'foxglove.PoseInFrame',
+    '/tf': 'foxglove.FrameTransform',
+    '/subgoal': 'foxglove.PoseInFrame',
+    '/goal': 'foxglove.PoseInFrame',
+    '/points': 'foxglove.PointCloud',
+    '/tick': 'mapless.Tick',
+  });
+  const messages = new Map<string, { time: bigint; content: Record<string, never> }[]>();
+  for await (const message of reader.readMessages({ validateCrcs: true })) {
+    const topic = reader.channelsById.get(message.channelId)?.topic ?? '';
+    const content = JSON.parse(new TextDecoder().decode(message.data));
+    messages.set(topic, [...(messages.get(topic) ?? []), { time: message.logTime, content }]);
+  }
+  expect(messages.get('/tf')).toHaveLength(tick);
+  expect(messages.get('/tick')).toHaveLength(tick);
+  expect(messages.get('/tick')?.at(-1)?.time).toBe(BigInt(tick - 1) * 100_000_000n);
+  const points = messages.get('/points')?.[0]?.content as unknown as { data: string; point_stride: number };
+  const cloud = Buffer.from(points.data, 'base64');
+  expect(cloud.length).toBe(returns * points.point_stride);
+  expect(Math.hypot(cloud.readFloatLE(0) - pose.x, cloud.readFloatLE(4) - pose.y)).toBeLessThan(110);
+  const metadata = new Map<string, string>();
+  for await (const one of reader.readMetadata()) for (const [name, value] of one.metadata) metadata.set(name, value);
+  expect(Object.fromEntries(metadata)).toMatchObject({ seed: String(seed), digest, outcome: 'running' });
+});
+
+test('pictures, plots and a film of the view', async ({ mapless: page }) => {
+  await driveTo(page, 30);
+  const picture = await download(page, 'save-picture');
+  expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');
+  expect(picture.bytes.length).toBeGreaterThan(20_000);
+  const plots = (await download(page, 'save-plots')).bytes.toString();
+  const faults = await page.evaluate(
+    (text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('parsererror').length,
+    plots,
+  );
+  expect(faults).toBe(0);
+  expect(plots).not.toMatch(/class=|var\(/);
+  await page.locator('#save-film').click();
+  await expect(page.locator('#save-film')).toHaveText('Stop the film');
+  await page.evaluate(() => window.mapless?.play());
+  await page.waitForTimeout(2500);
+  const film = await download(page, 'save-film');
+  expect(film.name).toMatch(/film\.webm$/);
+  expect(film.bytes.readUInt32BE(0)).toBe(0x1a45dfa3);
+  expect(film.bytes.length).toBeGreaterThan(5_000);
+  await expect(page.locator('#save-film')).toHaveText('Film (WebM)');
+});
+
+test('the digest goes to the clipboard, the paper’s numbers stand beside the run’s', async ({ mapless: page }) => {
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await driveTo(page, 10);
+  await page.getByRole('button', { name: 'Copy the digest' }).click();
+  expect(await page.evaluate(() => navigator.clipboard.readText())).toBe((await state(page)).digest);
+  await expect(page.locator('#metrics')).toContainText('paper 63.5');
+  await page.evaluate(() => window.mapless?.loadScenario('ml'));
+  await expect(page.locator('#metrics')).toContainText('paper 84.5 ± 2.3');
+  await page.evaluate(() => window.mapless?.loadScenario('gsb'));
+  await expect(page.locator('#metrics')).not.toContainText('paper');
+  const parts = await page.locator('#scan-ms, #planner-ms, #motion-ms').allTextContents();
+  const sum = parts.map((text) => Number.parseFloat(text)).reduce((total, part) => total + part, 0);
+  expect(Math.abs(sum - Number.parseFloat((await page.locator('#tick-ms').textContent()) ?? ''))).toBeLessThan(0.3);
+});
