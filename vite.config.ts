@@ -1,4 +1,5 @@
 import { defineConfig, type Plugin } from 'vite';
+import { offline } from './web/build/offline.ts';
 
 /**
  * Nothing leaves the page's own origin: scripts, the worker, wasm and styles come from `self` and nothing else is
@@ -33,7 +34,7 @@ export default defineConfig({
   // Relative addresses: any static host serves the page, under any path.
   base: './',
   publicDir: 'web/public',
-  plugins: [contentSecurityPolicy],
+  plugins: [contentSecurityPolicy, offline],
   worker: { format: 'es' },
   build: {
     target: 'es2022',

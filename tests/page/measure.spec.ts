@@ -26,7 +26,7 @@ const cursor = (page: Page) => page.getByRole('slider', { name: 'Time in the plo
 const time_s = async (page: Page) => Number(await cursor(page).getAttribute('aria-valuenow'));
 
 test('the plots show the run, and their cursor reads it', async ({ mapless: page }) => {
-  await driveTo(page, 60);
+  await driveTo(page, 30);
   await cursor(page).scrollIntoViewIfNeeded();
   for (const line of await page.locator('.plot-line').all()) {
     await expect(line).toHaveAttribute('d', /^M.*L.*L/);
@@ -45,7 +45,7 @@ test('the plots show the run, and their cursor reads it', async ({ mapless: page
 });
 
 test('the plots zoom by keys, wheel and buttons, and grow into a sheet', async ({ mapless: page }) => {
-  await driveTo(page, 100);
+  await driveTo(page, 50);
   const times = () => page.locator('.plot-axis text').allTextContents();
   await cursor(page).scrollIntoViewIfNeeded();
   const whole = await times();
@@ -63,7 +63,7 @@ test('the plots zoom by keys, wheel and buttons, and grow into a sheet', async (
   const box = await cursor(page).boundingBox();
   if (!box) throw new Error('The plots have no place.');
   await page.mouse.move(box.x + box.width / 2, box.y + 80);
-  await expect.poll(() => time_s(page)).toBeCloseTo(5, 0);
+  await expect.poll(() => time_s(page)).toBeCloseTo(2.5, 0);
   const before = await times();
   await page.mouse.wheel(0, -600);
   await expect.poll(times).not.toEqual(before);

@@ -8,6 +8,7 @@ import './style/panels.css';
 import { publish } from './api.ts';
 import { App } from './app.ts';
 import { CATALOGUE, entry, following } from './core/catalogue.ts';
+import { keepOffline } from './offline/register.ts';
 import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
 import { DecisionPanel } from './panel/decision.ts';
 import { Measure } from './panel/measure.ts';
@@ -17,6 +18,7 @@ import { Stage } from './scene/stage.ts';
 import { GroundTools } from './scene/tools.ts';
 import { Controls } from './ui/controls.ts';
 import { byId, setText } from './ui/dom.ts';
+import { watchFaults, watchGraphics } from './ui/faults.ts';
 import { bindKeys } from './ui/keys.ts';
 import { Notice } from './ui/notice.ts';
 import { readTheme, watchTheme } from './ui/theme.ts';
@@ -142,11 +144,18 @@ for (const event of ['pointerdown', 'keydown', 'wheel']) {
   document.addEventListener(event, () => app.touch(), { passive: true, capture: true });
 }
 document.addEventListener('visibilitychange', () => app.attempt(app.hidden(document.hidden)));
-view.addEventListener('webglcontextlost', (event) => {
+watchGraphics(
+  view,
+  (message) => notice.show(message),
+  () => notice.hide(),
+);
+watchFaults((message) => notice.show(message));
+element('skip').addEventListener('click', (event) => {
+  // An address with #view would stand in the history and in shared links.
   event.preventDefault();
-  notice.show('The graphics driver took the 3D view away. It comes back by itself; the simulation goes on.');
+  view.focus();
 });
-view.addEventListener('webglcontextrestored', () => notice.hide());
+keepOffline((start) => notice.show('A new version of this page is ready.', { name: 'Reload', act: start }));
 
 publish(app);
 

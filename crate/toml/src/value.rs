@@ -69,7 +69,7 @@ impl<'a> Value<'a> {
 
     fn table(&self, expected: &dyn Expected) -> Result<Entries<'a>, Error> {
         match self.kind {
-            Kind::Table(table) => Ok(Entries { rest: Box::new(table.iter()), value: None }),
+            Kind::Table(table) => Ok(Entries { rest: table.iter(), value: None }),
             _ => Err(self.unexpected(expected)),
         }
     }
@@ -117,7 +117,7 @@ impl<'de> Deserializer<'de> for Value<'_> {
             Kind::Boolean(truth) => visitor.visit_bool(truth),
             Kind::Datetime => Err(self.unexpected(&visitor)),
             Kind::Array(items) => visitor.visit_seq(Items { rest: items.iter() }),
-            Kind::Table(table) => visitor.visit_map(Entries { rest: Box::new(table.iter()), value: None }),
+            Kind::Table(table) => visitor.visit_map(Entries { rest: table.iter(), value: None }),
         };
         read.map_err(|error| error.at(self.span))
     }
@@ -197,7 +197,7 @@ impl<'de> Deserializer<'de> for Value<'_> {
 
 /// The entries of a table.
 struct Entries<'a> {
-    rest: Box<dyn Iterator<Item = (&'a Spanned<Cow<'a, str>>, &'a Spanned<DeValue<'a>>)> + 'a>,
+    rest: toml::map::Iter<'a, Spanned<Cow<'a, str>>, Spanned<DeValue<'a>>>,
     value: Option<&'a Spanned<DeValue<'a>>>,
 }
 

@@ -1,0 +1,58 @@
+import AxeBuilder from '@axe-core/playwright';
+import type { Page } from '@playwright/test';
+import { expect, test } from './page.ts';
+
+const GRAVE = ['serious', 'critical'];
+
+/** What axe finds by the rules of WCAG 2.2 AA, in one line each. */
+async function faults(page: Page): Promise<string[]> {
+  const { violations } = await new AxeBuilder({ page })
+    .withTags(['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'])
+    .analyze();
+  return violations
+    .filter(({ impact }) => GRAVE.includes(impact ?? ''))
+    .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
+}
+
+for (const scheme of ['light', 'dark'] as const) {
+  for (const [device, viewport] of [
+    ['desktop', { width: 1440, height: 900 }],
+    ['phone', { width: 390, height: 844 }],
+  ] as const) {
+    test(`axe finds nothing serious: ${device}, ${scheme}, also in the open sheets`, async ({ mapless: page }) => {
+      await page.setViewportSize(viewport);
+      await page.emulateMedia({ colorScheme: scheme, reducedMotion: 'reduce' });
+      await page.evaluate(() => window.mapless?.pause());
+      expect(await faults(page)).toEqual([]);
+      for (const button of ['How it works, and keys', 'Enlarge the plots']) {
+        await page.getByRole('button', { name: button }).click();
+        await expect(page.locator('dialog[open]')).toBeVisible();
+        expect(await faults(page), button).toEqual([]);
+        await page.keyboard.press('Escape');
+      }
+    });
+  }
+}
+
+test('the first stop of the keyboard leads past the controls to the view', async ({ mapless: page }) => {
+  await page.keyboard.press('Tab');
+  const link = page.getByRole('link', { name: 'Skip to the 3D view' });
+  await expect(link).toBeFocused();
+  await expect(link).toBeInViewport();
+  await page.keyboard.press('Enter');
+  await expect(page.locator('#view')).toBeFocused();
+  expect(new URL(page.url()).hash).toBe('');
+});
+
+test('nothing moves by itself where reduced motion is asked for', async ({ mapless: page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const moving = await page.evaluate(() =>
+    [...document.querySelectorAll('*')]
+      .filter((one) => {
+        const { transitionDuration, animationName } = getComputedStyle(one);
+        return animationName !== 'none' || transitionDuration.split(',').some((time) => Number.parseFloat(time) > 0);
+      })
+      .map((one) => one.id || one.className),
+  );
+  expect(moving).toEqual([]);
+});

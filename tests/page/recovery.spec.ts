@@ -1,0 +1,100 @@
+import { test as plain } from '@playwright/test';
+import { expect, loaded, state, test, until } from './page.ts';
+
+plain('a panic loses neither the ground, the start nor the goal', async ({ page }) => {
+  let served = 0;
+  // The first worker's core traps in its first decision after a start was set.
+  await page.route('**/mapless_wasm*.js', async (route) => {
+    const response = await route.fetch();
+    const script = await response.text();
+    served += 1;
+    const broken = script
+      .replace(/\bset_start\(([\w$,\s]+)\)\s*\{/, 'set_start($1){globalThis.armed=true;')
+      .replace(/\bplan\(\)\s*\{/, 'plan(){if(globalThis.armed)throw new WebAssembly.RuntimeError("unreachable");');
+    expect(broken.length).toBeGreaterThan(script.length + 90);
+    await route.fulfill({ response, body: served === 1 ? broken : script });
+  });
+  await page.goto('/');
+  await loaded(page);
+  await page.evaluate(() => window.mapless?.pause());
+  await page.evaluate(() => window.mapless?.loadScenario('ht', { seed: 9 }));
+  const { start } = await state(page);
+  const place = { x: start.x + 6, y: start.y + 1 };
+  const height = () => page.evaluate((at) => window.mapless?.heightAt(at) ?? Number.NaN, place);
+  const before = await height();
+  const brush = { ...place, radius_m: 2, strength_m: 0.5, kind: 'raise' } as const;
+  await page.evaluate((one) => window.mapless?.sculpt(one), brush);
+  await page.evaluate((at) => window.mapless?.setGoal(at), place);
+  const moved = { x: start.x + 1, y: start.y, heading_rad: 1 };
+  await page.evaluate((at) => window.mapless?.setStart(at), moved);
+  const raised = await height();
+  expect(raised).toBeGreaterThan(before + 0.2);
+  await page.getByRole('button', { name: 'Play' }).click();
+  await expect(page.locator('#notice-text')).toContainText('with your ground, start and goal');
+  const now = await state(page);
+  expect(served).toBe(2);
+  expect(now).toMatchObject({ scenario: 'ht', seed: 9, tick: 0, playing: false, start: moved, goal: place });
+  expect(await height()).toBe(raised);
+  await page.getByRole('button', { name: 'Play' }).click();
+  await until(page, ({ tick }) => tick > 3);
+});
+
+plain('a core that cannot start is no endless loop, and says so', async ({ page }) => {
+  await page.route('**/worker*.js', (route) => route.fulfill({ contentType: 'text/javascript', body: 'throw 1' }));
+  await page.goto('/');
+  await expect(page.locator('#notice-text')).toContainText('reload the page');
+});
+
+test('a hidden tab rests, and goes on where it was', async ({ mapless: page }) => {
+  await until(page, ({ tick }) => tick > 2);
+  const hide = (hidden: boolean) =>
+    page.evaluate((value) => {
+      Object.defineProperty(document, 'hidden', { value, configurable: true });
+      document.dispatchEvent(new Event('visibilitychange'));
+    }, hidden);
+  await hide(true);
+  await page.waitForTimeout(700);
+  const { tick } = await state(page);
+  await page.waitForTimeout(2500);
+  expect((await state(page)).tick).toBe(tick);
+  await hide(false);
+  await until(page, (now) => now.tick > tick);
+  const next = await state(page);
+  expect(next.playing).toBe(true);
+  // It does not catch up on the time that nobody saw.
+  expect(next.tick).toBeLessThan(tick + 20);
+});
+
+test('an unexpected error is shown', async ({ page }) => {
+  await page.goto('/');
+  await loaded(page);
+  await page.evaluate(() => {
+    setTimeout(() => {
+      throw new Error('a test went wrong');
+    });
+  });
+  await expect(page.locator('#notice-text')).toContainText('a test went wrong');
+});
+
+plain('nothing on the page breaks its own policy', async ({ page }) => {
+  await page.addInitScript(() => {
+    const broken: string[] = [];
+    Object.assign(window, { broken });
+    document.addEventListener('securitypolicyviolation', (event) => {
+      broken.push(`${event.violatedDirective}: ${event.blockedURI} ${event.sample}`);
+    });
+  });
+  await page.goto('/');
+  await loaded(page);
+  for (const button of ['How it works, and keys', 'Enlarge the plots']) {
+    await page.getByRole('button', { name: button }).click();
+    await page.keyboard.press('Escape');
+  }
+  for (const id of ['save-csv', 'save-mcap', 'save-plots', 'save-picture']) {
+    const waiting = page.waitForEvent('download');
+    await page.locator(`#${id}`).click();
+    await waiting;
+  }
+  await until(page, ({ tick }) => tick > 5);
+  expect(await page.evaluate(() => (window as unknown as { broken: string[] }).broken)).toEqual([]);
+});

@@ -1,0 +1,26 @@
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { brotliCompressSync, gzipSync } from 'node:zlib';
+import { expect, test } from '@playwright/test';
+
+/** Bytes of the built files whose names pass, compressed as a static host sends them. */
+function sent(passes: (name: string) => boolean): { gzip: number; brotli: number } {
+  const sizes = { gzip: 0, brotli: 0 };
+  for (const entry of readdirSync('dist', { recursive: true, withFileTypes: true })) {
+    if (!entry.isFile() || !passes(entry.name)) continue;
+    const content = readFileSync(join(entry.parentPath, entry.name));
+    sizes.gzip += gzipSync(content, { level: 9 }).length;
+    sizes.brotli += brotliCompressSync(content).length;
+  }
+  return sizes;
+}
+
+test('the page keeps to its budget: 350 kB of wasm to begin with, 400 kB of all else', () => {
+  const core = sent((name) => /^mapless_wasm_bg.*\.wasm$/.test(name));
+  const rest = sent((name) => !name.endsWith('.wasm'));
+  test.info().annotations.push({ type: 'bytes', description: JSON.stringify({ core, rest }) });
+  expect(core.brotli).toBeGreaterThan(0);
+  // Hosts that know brotli send the first, all send the second.
+  expect(core.brotli, JSON.stringify(core)).toBeLessThan(350_000);
+  expect(rest.gzip, JSON.stringify(rest)).toBeLessThan(400_000);
+});

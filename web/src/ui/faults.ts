@@ -1,0 +1,31 @@
+/** Faults that nobody expected, in words: nothing fails in silence. */
+
+const ADVICE = 'If something no longer answers, reload the page.';
+
+export function watchFaults(show: (message: string) => void): void {
+  window.addEventListener('error', ({ message }) => show(`The page met an error: ${message}. ${ADVICE}`));
+  window.addEventListener('unhandledrejection', ({ reason }) => {
+    show(`The page met an error: ${reason instanceof Error ? reason.message : reason}. ${ADVICE}`);
+  });
+}
+
+/** How long a view that was taken away may need to come back. */
+const PATIENCE_MS = 12_000;
+
+/** The graphics driver may take the view away: it is said, and three.js brings it back with the context. */
+export function watchGraphics(view: HTMLCanvasElement, show: (message: string) => void, hide: () => void): void {
+  let waiting: ReturnType<typeof setTimeout> | undefined;
+  view.addEventListener('webglcontextlost', (event) => {
+    event.preventDefault();
+    show('The graphics driver took the 3D view away. It comes back by itself; the simulation goes on.');
+    waiting = setTimeout(() => {
+      show(
+        'The 3D view has not come back: the graphics driver is busy or gone. Everything else goes on; reloading the page may bring it back.',
+      );
+    }, PATIENCE_MS);
+  });
+  view.addEventListener('webglcontextrestored', () => {
+    clearTimeout(waiting);
+    hide();
+  });
+}
