@@ -67,7 +67,7 @@ test('the plots zoom by keys, wheel and buttons, and grow into a sheet', async (
   const before = await times();
   await page.mouse.wheel(0, -600);
   await expect.poll(times).not.toEqual(before);
-  await sheet.getByRole('button', { name: 'Show the whole run' }).click();
+  await sheet.getByRole('button', { name: 'Show all of the run' }).click();
   expect(await times()).toEqual(before);
   await page.keyboard.press('Escape');
   await expect(page.locator('#plots .plot-line')).toHaveCount(5);

@@ -48,7 +48,7 @@ export class TimePlots {
     const tools = html('div', 'plots-tools', [
       zoomButton('Zoom in on the plots', '+', () => this.#zoom(ZOOM_STEP)),
       zoomButton('Zoom out of the plots', '\u2212', () => this.#zoom(1 / ZOOM_STEP)),
-      zoomButton('Show the whole run', 'all', () => this.#whole()),
+      zoomButton('Show all of the run', 'all', () => this.#whole()),
     ]);
     this.element = html('div', 'plots', [html('div', 'plots-head', [plotKey(), tools]), this.#surface]);
     this.#listen();
