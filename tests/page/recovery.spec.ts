@@ -2,6 +2,7 @@ import { test as plain } from '@playwright/test';
 import { expect, loaded, state, test, until } from './page.ts';
 
 plain('a panic loses neither the ground, the start nor the goal', async ({ page }) => {
+  plain.setTimeout(300_000);
   let served = 0;
   // The first worker's core traps in its first decision after a start was set.
   await page.route('**/mapless_wasm*.js', async (route) => {
