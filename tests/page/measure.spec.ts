@@ -6,6 +6,9 @@ import { McapIndexedReader } from '@mcap/core';
 import type { Page } from '@playwright/test';
 import { expect, state, test, until } from './page.ts';
 
+// A small view leaves a processor without graphics card its time.
+test.use({ viewport: { width: 720, height: 560 } });
+
 /** Clicks a button of "Take away" and returns the file. */
 async function download(page: Page, id: string): Promise<{ name: string; bytes: Buffer }> {
   const waiting = page.waitForEvent('download');

@@ -1,5 +1,8 @@
 import { expect, loaded, state, test, until } from './page.ts';
 
+// A small view leaves a processor without graphics card its time.
+test.use({ viewport: { width: 720, height: 560 } });
+
 test('after the first visit the page opens and drives without a network', async ({ mapless: page, context }) => {
   test.setTimeout(300_000);
   await page.evaluate(() => navigator.serviceWorker.ready);

@@ -261,14 +261,17 @@ export class App {
   }
 
   async #recover(message: string): Promise<void> {
+    const { title } = entry(this.scenario);
+    this.#views.notice(
+      `The simulation stopped on an internal error. “${title}” goes back to its start, with your ground, start and goal. (${message})`,
+    );
     try {
       const again = await this.#core.recover();
+      if (!again) {
+        this.#views.notice(`The simulation could not be loaded; reload the page to try again. (${message})`);
+        return;
+      }
       await this.setSpeed(this.#speed);
-      this.#views.notice(
-        again
-          ? `The simulation stopped on an internal error. “${entry(this.scenario).title}” stands at its start again, with your ground, start and goal. (${message})`
-          : `The simulation could not be loaded; reload the page to try again. (${message})`,
-      );
     } catch {
       this.#views.notice(
         `The simulation stopped on an internal error and could not be started again; reload the page. (${message})`,
