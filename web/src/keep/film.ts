@@ -25,6 +25,7 @@ export class Camera {
   readonly #source: Drawn;
   readonly #plate = document.createElement('canvas');
   #recorder: MediaRecorder | undefined;
+  #filming = false;
   #onDrawn: (() => void) | undefined;
 
   constructor(source: Drawn) {
@@ -32,7 +33,7 @@ export class Camera {
   }
 
   get filming(): boolean {
-    return this.#recorder !== undefined;
+    return this.#filming;
   }
 
   /** The view as it is next drawn, as PNG. */
@@ -50,7 +51,9 @@ export class Camera {
   async film(): Promise<Blob> {
     const mimeType = kind();
     if (!mimeType) throw new Error('This browser records no WebM video.');
+    this.#filming = true;
     await this.#next();
+    if (!this.#filming) throw new Error('It was stopped before its first picture.');
     const stream = this.#plate.captureStream(FRAME_RATE_HZ);
     const recorder = new MediaRecorder(stream, { mimeType, videoBitsPerSecond: BITS_PER_SECOND });
     this.#recorder = recorder;
@@ -65,6 +68,7 @@ export class Camera {
   }
 
   stop(): void {
+    this.#filming = false;
     this.#recorder?.stop();
     this.#recorder = undefined;
     this.#watch();

@@ -138,8 +138,10 @@ export class TimePlots {
     this.#draw();
   }
 
+  /** The whole run, with the cursor on the newest. */
   #whole(): void {
     this.#zoomed = undefined;
+    this.#pinned_s = undefined;
     this.#draw();
   }
 
