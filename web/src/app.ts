@@ -38,6 +38,8 @@ export class App {
   /** Whether somebody has used the page: then it does nothing by itself any more. */
   #touched = false;
   #lingering: ReturnType<typeof setInterval> | undefined;
+  /** Whether anything shows the surfaces. */
+  #watching = false;
   #sculpting = 0;
   #waitingDab: Brush | undefined;
 
@@ -177,6 +179,13 @@ export class App {
     return this.#frame?.buffers.points.slice(0, 3 * this.#frame.returns) ?? new Float32Array();
   }
 
+  /** Has the surfaces predicted while anything shows them. */
+  async watch(surfaces: boolean): Promise<void> {
+    if (surfaces === this.#watching) return;
+    this.#watching = surfaces;
+    await this.#core.request({ type: 'watch', surfaces });
+  }
+
   hidden(hidden: boolean): Promise<void> {
     return this.#core.request({ type: 'hidden', hidden });
   }
@@ -258,6 +267,7 @@ export class App {
     });
     again
       .then(() => this.setSpeed(this.#speed))
+      .then(() => this.#core.request({ type: 'watch', surfaces: this.#watching }))
       .catch(() => this.#views.notice(`The simulation cannot be started: ${message}`));
   }
 }

@@ -2,19 +2,25 @@
 
 import { AmbientLight, DirectionalLight, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
 import { type Frame, type Pose, type SessionInfo, TICK_RATE_HZ } from '../core/protocol.ts';
+import type { Finder, Target } from '../ui/attention.ts';
 import { wrap } from '../ui/format.ts';
 import type { Theme } from '../ui/theme.ts';
+import { Bands } from './bands.ts';
 import { Glide } from './glide.ts';
 import type { HeightField, Vector } from './heightfield.ts';
 import { Husky } from './husky.ts';
+import { FIRST_LAYERS, type Layers } from './layers.ts';
+import { Marks } from './marks.ts';
 import { Pacer } from './pacer.ts';
 import { Places } from './places.ts';
+import { nearestMark, projector } from './pointing.ts';
 import { Relief } from './relief.ts';
 import { Returns } from './returns.ts';
 import { Route } from './route.ts';
 import { Subgoals } from './subgoals.ts';
 import { SUN } from './sunlight.ts';
-import { Viewpoint } from './viewpoint.ts';
+import { type CameraMode, Viewpoint } from './viewpoint.ts';
+import { Ways } from './ways.ts';
 
 /** Triangles of finer grids cost more than they show; a processor draws far fewer of them than a graphics card. */
 const GRID_VERTICES = { hardware: 512, software: 160 };
@@ -34,11 +40,16 @@ export class Stage {
   readonly #subgoals = new Subgoals();
   readonly #places = new Places();
   readonly #glide = new Glide();
+  readonly #bands: Bands;
+  readonly #ways: Ways;
+  readonly #marks: Marks;
   readonly #sensor = new Vector3();
   #husky: Husky | undefined;
   #relief: Relief | undefined;
   #theme: Theme;
   #info: SessionInfo | undefined;
+  #frame: Frame | undefined;
+  #layers = FIRST_LAYERS;
   #shown: Pose | undefined;
   #speed = 1;
   #dirty = true;
@@ -52,6 +63,11 @@ export class Stage {
     sun.position.set(...SUN);
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
     this.#scene.add(this.#route.line, this.#returns.points, this.#subgoals.group, this.#places.group);
+    this.#bands = new Bands(theme);
+    this.#ways = new Ways(theme);
+    this.#marks = new Marks(theme);
+    this.#scene.add(this.#bands.group, this.#ways.group, this.#marks.group);
+    this.layers(FIRST_LAYERS);
     this.theme(theme);
     new ResizeObserver(() => this.#resize()).observe(canvas);
     canvas.addEventListener('webglcontextrestored', () => this.invalidate());
@@ -67,8 +83,8 @@ export class Stage {
     return this.#shown;
   }
 
-  get following(): boolean {
-    return this.#viewpoint.following;
+  get camera(): CameraMode {
+    return this.#viewpoint.mode;
   }
 
   get viewHeading_rad(): number {
@@ -81,7 +97,11 @@ export class Stage {
 
   theme(theme: Theme): void {
     this.#theme = theme;
-    for (const part of [this.#relief, this.#returns, this.#route, this.#subgoals, this.#places]) part?.theme(theme);
+    const overlays = [this.#bands, this.#ways, this.#marks];
+    for (const part of [this.#relief, this.#returns, this.#route, this.#subgoals, this.#places, ...overlays]) {
+      part?.theme(theme);
+    }
+    this.#showOverlays();
     this.invalidate();
   }
 
@@ -92,31 +112,67 @@ export class Stage {
       this.#husky = new Husky(info.sensor_height_m);
       this.#scene.add(this.#husky.group);
     }
+    this.#bands.session(info);
+    if (field) this.#returns.heights(field.min_m, field.max_m);
     const { start, goal } = info;
     this.#places.show(goal, start, this.#height);
     if (field) {
       const towards = Math.atan2(goal.y - start.y, goal.x - start.x);
+      this.#viewpoint.reset();
+      if (this.#husky) this.#husky.group.visible = true;
       this.#viewpoint.follow({ ...start, z: this.#height(start.x, start.y) }, towards - FIRST_LOOK_RAD);
     }
     this.invalidate();
   }
 
   frame(frame: Frame): void {
-    const { pose, tick, buffers, returns } = frame;
+    const { pose, tick } = frame;
+    this.#frame = frame;
     if (tick === 0) {
+      this.#viewpoint.reset();
       this.#route.clear();
       this.#glide.reset();
     }
     this.#route.extend(frame.path);
     this.#glide.to(pose, performance.now(), Math.min(1000 / (TICK_RATE_HZ * this.#speed), LONGEST_GLIDE_MS));
-    this.#returns.show(buffers.points, returns, this.#sensorAt(pose), this.#info?.occupancy_radius_m ?? 0);
+    this.#returns.show(frame, this.#radius_m);
     this.#subgoals.show(frame.subgoals, this.#height);
+    this.#bands.show(frame);
+    this.#showOverlays();
+  }
+
+  layers(layers: Layers): void {
+    this.#layers = layers;
+    this.#returns.colours(layers.points);
+    this.#subgoals.group.visible = layers.subgoals;
+    this.#bands.layers(layers);
+    this.#ways.layers(layers);
+    this.#showOverlays();
+  }
+
+  /** Marks what somebody points at. */
+  mark(frame: Frame, target: Target | undefined): void {
+    this.#marks.show(frame, target, this.#radius_m, this.#height);
     this.invalidate();
+  }
+
+  /** How to find the subgoal or segment under a place of the window, within so many pixels. */
+  pointedAt(clientX: number, clientY: number, within_px: number): Finder | undefined {
+    const find: Finder = (frame) => {
+      const project = projector(this.#canvas.getBoundingClientRect(), this.#viewpoint.camera);
+      const shown = { ...this.#layers, radius_m: this.#radius_m, height: this.#height };
+      return nearestMark(frame, shown, within_px, (place) => {
+        const at = project(place);
+        return at ? Math.hypot(at.x - clientX, at.y - clientY) : Number.POSITIVE_INFINITY;
+      });
+    };
+    return this.#frame && find(this.#frame) ? find : undefined;
   }
 
   /** The field's heights have changed. */
   sculpted(): void {
     this.#relief?.sculpted();
+    if (this.field) this.#returns.heights(this.field.min_m, this.field.max_m);
     this.#places.settle(this.#height);
     this.invalidate();
   }
@@ -126,15 +182,20 @@ export class Stage {
     this.#speed = speed;
   }
 
-  toggleFollow(): void {
-    if (this.following) this.#viewpoint.release();
-    else if (this.#shown) this.#viewpoint.follow(this.#shown);
-    this.invalidate();
+  /** Looks from elsewhere; `free` from above the whole ground. */
+  view(mode: CameraMode): void {
+    const robot = this.#shown;
+    if (mode === 'free' && this.field) this.#viewpoint.overview(this.field);
+    else if (robot && mode === 'chase') this.#viewpoint.follow(robot, robot.yaw - FIRST_LOOK_RAD);
+    else if (robot && mode === 'top') this.#viewpoint.above(robot);
+    else if (robot && mode === 'eye') this.#viewpoint.eye(robot, this.#sensorAt(robot));
+    if (this.#husky) this.#husky.group.visible = mode !== 'eye';
+    this.#resize();
   }
 
-  overview(): void {
-    if (this.field) this.#viewpoint.overview(this.field);
-    this.invalidate();
+  /** Lets the camera stay where it is while the robot drives on. */
+  release(): void {
+    this.#viewpoint.release();
   }
 
   toolInHand(inHand: boolean): void {
@@ -158,6 +219,15 @@ export class Stage {
     const caster = new Raycaster();
     caster.setFromCamera(at, this.#viewpoint.camera);
     return this.field?.intersect(caster.ray.origin, caster.ray.direction);
+  }
+
+  get #radius_m(): number {
+    return this.#info?.occupancy_radius_m ?? 0;
+  }
+
+  #showOverlays(): void {
+    if (this.#frame) this.#ways.show(this.#frame, this.#radius_m, this.#height);
+    this.invalidate();
   }
 
   #height = (x: number, y: number): number => this.field?.height(x, y) ?? 0;
@@ -217,13 +287,13 @@ export class Stage {
     if (!pose || pose === before) return;
     this.#shown = pose;
     this.#husky?.pose(pose);
+    this.#bands.pose(pose);
     if (before) {
       const [east, north] = [pose.x - before.x, pose.y - before.y];
       this.#husky?.roll(east * Math.cos(pose.yaw) + north * Math.sin(pose.yaw), wrap(pose.yaw - before.yaw));
     }
-    this.#viewpoint.track(pose);
-    this.#sensorAt(pose);
-    this.#relief?.robot(pose.x, pose.y, pose.yaw, this.#info?.occupancy_radius_m ?? 0);
+    this.#viewpoint.track(pose, this.#sensorAt(pose));
+    this.#relief?.robot(pose.x, pose.y, pose.yaw, this.#radius_m);
     this.invalidate();
   }
 }

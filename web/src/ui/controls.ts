@@ -3,6 +3,7 @@
 import { CATALOGUE } from '../core/catalogue.ts';
 import type { Learning, SessionInfo, Setting } from '../core/protocol.ts';
 import { TOOLS, type Tool } from '../scene/tools.ts';
+import type { CameraMode } from '../scene/viewpoint.ts';
 import { byId, html } from './dom.ts';
 
 export const SPEEDS: readonly number[] = [0.5, 1, 2, 4, Number.POSITIVE_INFINITY];
@@ -17,7 +18,10 @@ export interface Actions {
   selectTool(tool: Tool): void;
   setBrushRadius(radius_m: number): void;
   toggleFollow(): void;
+  toggleEye(): void;
+  toggleTop(): void;
   overview(): void;
+  toggleImage(): void;
   help(): void;
 }
 
@@ -31,7 +35,11 @@ export class Controls {
   readonly #learning = byId('learning', HTMLSelectElement);
   readonly #seed = byId('seed', HTMLInputElement);
   readonly #play = byId('play', HTMLButtonElement);
-  readonly #follow = byId('follow', HTMLButtonElement);
+  readonly #cameras = {
+    chase: byId('follow', HTMLButtonElement),
+    eye: byId('eye', HTMLButtonElement),
+    top: byId('top', HTMLButtonElement),
+  };
   readonly #brush = byId('brush', HTMLElement);
   readonly #brushSize = byId('brush-size', HTMLInputElement);
   readonly #brushValue = byId('brush-value', HTMLOutputElement);
@@ -54,7 +62,10 @@ export class Controls {
     this.#onClick('step', () => actions.step());
     this.#onClick('restart', () => actions.restart());
     this.#onClick('follow', () => actions.toggleFollow());
+    this.#onClick('eye', () => actions.toggleEye());
+    this.#onClick('top', () => actions.toggleTop());
     this.#onClick('overview', () => actions.overview());
+    this.#onClick('enlarge', () => actions.toggleImage());
     this.#onClick('help', () => actions.help());
     this.#onClick('next', () => actions.next());
     for (const input of this.#radios('tool')) {
@@ -74,8 +85,14 @@ export class Controls {
     this.#play.title = `${label} (Space)`;
   }
 
-  showFollowing(following: boolean): void {
-    this.#follow.setAttribute('aria-pressed', String(following));
+  showCamera(mode: CameraMode): void {
+    for (const [camera, button] of Object.entries(this.#cameras)) {
+      button.setAttribute('aria-pressed', String(camera === mode));
+    }
+  }
+
+  showImage(large: boolean): void {
+    byId('enlarge', HTMLButtonElement).setAttribute('aria-pressed', String(large));
   }
 
   showSession({ scenario, preset, learning, seed }: SessionInfo): void {

@@ -11,7 +11,13 @@ export interface KeyActions {
   selectTool(tool: Tool): void;
   growBrush(steps: number): void;
   toggleFollow(): void;
+  toggleEye(): void;
+  toggleTop(): void;
   overview(): void;
+  toggleLayers(): void;
+  toggleImage(): void;
+  /** Puts down the tool and lets go of what was pointed at. */
+  letGo(): void;
   help(): void;
 }
 
@@ -22,13 +28,17 @@ export function bindKeys(actions: KeyActions): void {
     r: () => actions.restart(),
     n: () => actions.next(),
     f: () => actions.toggleFollow(),
+    e: () => actions.toggleEye(),
+    t: () => actions.toggleTop(),
     o: () => actions.overview(),
+    l: () => actions.toggleLayers(),
+    v: () => actions.toggleImage(),
     ',': () => actions.faster(-1),
     '.': () => actions.faster(1),
     '[': () => actions.growBrush(-1),
     ']': () => actions.growBrush(1),
     '?': () => actions.help(),
-    escape: () => actions.selectTool('look'),
+    escape: () => actions.letGo(),
   };
   TOOLS.forEach((tool, index) => {
     keys[String(index + 1)] = () => actions.selectTool(tool);
@@ -36,6 +46,8 @@ export function bindKeys(actions: KeyActions): void {
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (document.querySelector('dialog[open]') || takesKey(event)) return;
+    // The browser closes a popover itself.
+    if (event.key === 'Escape' && document.querySelector(':popover-open')) return;
     const act = keys[event.key.toLowerCase()];
     if (!act) return;
     event.preventDefault();
@@ -48,6 +60,6 @@ function takesKey(event: KeyboardEvent): boolean {
   const { target } = event;
   if (target instanceof HTMLSelectElement) return true;
   if (target instanceof HTMLInputElement)
-    return target.type === 'number' || (event.key === ' ' && target.type === 'radio');
+    return target.type === 'number' || (event.key === ' ' && (target.type === 'radio' || target.type === 'checkbox'));
   return event.key === ' ' && (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement);
 }
