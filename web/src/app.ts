@@ -88,6 +88,18 @@ export class App {
     };
   }
 
+  /** The newest frame of a running trial in which something was decided, and what it belongs to. */
+  async decided(): Promise<{ frame: Frame; info: SessionInfo }> {
+    if (this.#frame && this.#frame.outcome !== 'running') await this.restart();
+    if (this.#frame?.tick === 0) await this.step();
+    if (!this.#frame || !this.#info) throw new Error('No scenario is loaded yet.');
+    return { frame: this.#frame, info: this.#info };
+  }
+
+  get playing(): boolean {
+    return this.#playing;
+  }
+
   async load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
     this.#stopLingering();
     await this.#core.request({ type: 'load', scenario, setting: { ...this.setting, ...setting }, seed });

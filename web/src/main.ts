@@ -14,11 +14,11 @@ import { DetailCard } from './panel/detail.ts';
 import { MetricsPanel } from './panel/metrics.ts';
 import { OUTCOME_WORDS, StatusPanel } from './panel/status.ts';
 import { neighbour, VarianceImage } from './panel/varianceImage.ts';
-import { needsSurfaces } from './scene/layers.ts';
+import { type Layers, needsSurfaces } from './scene/layers.ts';
 import { Stage } from './scene/stage.ts';
 import { GroundTools } from './scene/tools.ts';
 import type { CameraMode } from './scene/viewpoint.ts';
-import { Attention } from './ui/attention.ts';
+import { Attention, type Finder } from './ui/attention.ts';
 import { Controls } from './ui/controls.ts';
 import { byId, setText } from './ui/dom.ts';
 import { bindKeys } from './ui/keys.ts';
@@ -145,6 +145,7 @@ const actions = {
   overview: () => view3d('free'),
   toggleLayers: () => layersPanel.toggle(),
   toggleImage: () => enlargeImage(!imageIsLarge()),
+  tour: () => app.attempt(tour()),
   letGo() {
     actions.selectTool('look');
     attention.pin(undefined);
@@ -182,6 +183,38 @@ function enlargeImage(large: boolean): void {
   // A phone scrolls the large image sideways: it begins with what is ahead.
   const scroller = element('seen-scroll');
   scroller.scrollLeft = (scroller.scrollWidth - scroller.clientWidth) / 2;
+  if (large) scroller.scrollIntoView({ block: 'nearest' });
+}
+
+/** Loaded only for those who take it. */
+async function tour(): Promise<void> {
+  const card = element('tour');
+  if (!card.hidden) return;
+  const { Tour } = await import('./tour/tour.ts');
+  if (layout.dataset.tour) return;
+  layout.dataset.tour = 'on';
+  const host = {
+    layers: layersPanel.layers,
+    camera: stage?.camera ?? 'free',
+    imageIsLarge: imageIsLarge(),
+    playing: app.playing,
+    decided: () => app.decided(),
+    showLayers: (layers: Layers) => layersPanel.set(layers),
+    view: view3d,
+    enlargeImage,
+    play: (playing: boolean) => (playing ? app.play() : app.pause()),
+    pin: (finder: Finder | undefined) => attention.pin(finder),
+  } as const;
+  const ended = () => {
+    delete layout.dataset.tour;
+    byId('tour-open', HTMLButtonElement).focus();
+  };
+  try {
+    await new Tour(card, host, ended).begin();
+  } catch (error) {
+    ended();
+    throw error;
+  }
 }
 
 bindPointing(image, attention, (x, y, within_px) => variance.pointedAt(x, y, within_px));

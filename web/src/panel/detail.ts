@@ -55,7 +55,7 @@ export class DetailCard {
       setText(this.#reason, subgoalReason(subgoal, frame));
       setText(this.#segment, segment ? `Segment: ${segmentReason(segment, info)}` : '');
       this.#state(subgoalState(subgoal));
-      if (subgoal.terms) this.#showTerms(subgoal, frame, info);
+      if (subgoal.terms) this.#showTerms(subgoal, info);
     } else if (segment) {
       setText(this.#title, segmentTitle(segment));
       setText(this.#reason, segmentReason(segment, info));
@@ -78,13 +78,13 @@ export class DetailCard {
     this.#chip.dataset.state = words.replaceAll(' ', '-');
   }
 
-  #showTerms(subgoal: Subgoal, { subgoals }: Frame, { preset }: SessionInfo): void {
-    const dearest = Math.max(...subgoals.map((one) => Math.max(0, ...(one.terms ?? []))), 1e-9);
+  #showTerms(subgoal: Subgoal, { preset }: SessionInfo): void {
+    const longest = Math.max(...(subgoal.terms ?? []), 1e-9);
     this.#lines.forEach(({ row, bar, value }, index) => {
       const cost = subgoal.terms?.[index] ?? 0;
       // The paper has the first three.
       row.hidden = preset === 'paper' && index > 2;
-      bar.style.width = `${((100 * Math.max(cost, 0)) / dearest).toFixed(1)}%`;
+      bar.style.width = `${((100 * Math.max(cost, 0)) / longest).toFixed(1)}%`;
       setText(value, fixed(cost, 3));
     });
     setText(this.#total.value, fixed(subgoal.total, 3));

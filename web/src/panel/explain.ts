@@ -46,13 +46,16 @@ export function subgoalReason(one: Subgoal, { pose }: Frame): string {
 /** From which direction to which a segment goes, the left end first, as in the image. */
 export function segmentTitle({ begin_rad, end_rad }: Segment): string {
   if (end_rad - begin_rad > 2 * Math.PI - 1e-6) return 'All around';
-  return `${direction(wrap(end_rad))} to ${direction(wrap(begin_rad))}`;
+  const [from, to] = [direction(wrap(end_rad)), direction(wrap(begin_rad))];
+  const side = [' left', ' right'].find((one) => from.endsWith(one) && to.endsWith(one)) ?? '';
+  return `${from.slice(0, from.length - side.length)} to ${to}`;
 }
 
 /** The verdict with the numbers that it follows from. */
 export function segmentReason(one: Segment, { demands, occupancy_radius_m }: SessionInfo): string {
   const { robot_width_m, safety_margin_m, max_slope_rad, subgoals_on_unknown } = demands;
-  const width = `${fixed(one.width_m, 2)} m wide`;
+  // Near the least width every centimetre counts.
+  const width = `${fixed(one.width_m, one.width_m < 3 ? 2 : 1)} m wide`;
   const least_m = robot_width_m + safety_margin_m;
   const most_m = occupancy_radius_m * Math.sin(max_slope_rad);
   const wide = one.width_m > least_m;

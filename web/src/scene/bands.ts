@@ -61,7 +61,7 @@ void main() {
   if (texel < 0.5) discard;
   float value = (texel - 1.0) / 254.0;
   float line = threshold > 0.0 ? 1.0 - smoothstep(0.8, 1.8, abs(value - threshold) / max(fwidth(value), 1e-4)) : 0.0;
-  float solid = mix(0.32, 1.0, smoothstep(0.0, 0.25, abs(value - clear)));
+  float solid = mix(0.2, 1.0, smoothstep(0.0, 0.25, abs(value - clear)));
   vec3 colour = mix(texture2D(scale, vec2(value, 0.5)).rgb, lineColour, line);
   gl_FragColor = linearToOutputTexel(vec4(colour, opacity * max(solid, line)));
 }

@@ -77,7 +77,7 @@ export class Returns {
         up: { value: new Vector3() },
         heights: { value: new Vector2(0, 1) },
         mode: { value: 0 },
-        colours: { value: scaleTexture(VIRIDIS) },
+        colours: { value: null },
         radius: { value: 7 },
         scale: { value: 900 },
         nearColour: { value: new Color() },
@@ -91,6 +91,10 @@ export class Returns {
   theme(theme: Theme): void {
     this.points.material.uniforms.nearColour?.value.copy(colour(theme.returnNear));
     this.points.material.uniforms.farColour?.value.copy(colour(theme.returnFar));
+    const { colours } = this.points.material.uniforms;
+    colours?.value?.dispose();
+    // The end that is nearest to the ground's own lightness is left out.
+    if (colours) colours.value = scaleTexture(theme.dark ? VIRIDIS.slice(2) : VIRIDIS.slice(0, -1));
   }
 
   /** Device pixels that one metre has, one metre away: points keep a size in metres. */

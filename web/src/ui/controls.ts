@@ -22,6 +22,7 @@ export interface Actions {
   toggleTop(): void;
   overview(): void;
   toggleImage(): void;
+  tour(): void;
   help(): void;
 }
 
@@ -65,6 +66,7 @@ export class Controls {
     this.#onClick('eye', () => actions.toggleEye());
     this.#onClick('top', () => actions.toggleTop());
     this.#onClick('overview', () => actions.overview());
+    this.#onClick('tour-open', () => actions.tour());
     this.#onClick('enlarge', () => actions.toggleImage());
     this.#onClick('help', () => actions.help());
     this.#onClick('next', () => actions.next());

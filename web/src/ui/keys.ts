@@ -16,6 +16,7 @@ export interface KeyActions {
   overview(): void;
   toggleLayers(): void;
   toggleImage(): void;
+  tour(): void;
   /** Puts down the tool and lets go of what was pointed at. */
   letGo(): void;
   help(): void;
@@ -33,6 +34,7 @@ export function bindKeys(actions: KeyActions): void {
     o: () => actions.overview(),
     l: () => actions.toggleLayers(),
     v: () => actions.toggleImage(),
+    g: () => actions.tour(),
     ',': () => actions.faster(-1),
     '.': () => actions.faster(1),
     '[': () => actions.growBrush(-1),

@@ -3,6 +3,7 @@
 import { FIRST_LAYERS, type Layers, POINT_COLOURS, type PointColours } from '../scene/layers.ts';
 import { FARTHEST_RANGE_M } from '../scene/returns.ts';
 import { byId, html, setText } from './dom.ts';
+import { fixed } from './format.ts';
 
 const POINT_WORDS: Record<PointColours, string> = {
   use: 'used or not',
@@ -52,7 +53,7 @@ export class LayersPanel {
     }
     this.#points.addEventListener('change', () => {
       const points = POINT_COLOURS.find((by) => by === this.#points.value) ?? 'use';
-      this.#change({ ...this.#layers, points });
+      this.set({ ...this.#layers, points });
     });
     this.#scale.append(this.#ends[0], html('i', 'layers-ramp key-viridis'), this.#ends[1]);
     this.#panel.append(
@@ -74,7 +75,7 @@ export class LayersPanel {
         `${(document.documentElement.clientWidth - box.left + 8).toFixed(0)}px`,
       );
     });
-    this.show(FIRST_LAYERS);
+    this.#show(FIRST_LAYERS);
   }
 
   toggle(): void {
@@ -85,34 +86,35 @@ export class LayersPanel {
     return this.#layers;
   }
 
+  /** Shows other layers, here and in the view. */
+  set(layers: Layers): void {
+    this.#show(layers);
+    this.#changed(layers);
+  }
+
   /** The lowest and the highest ground, for the scale. */
   heights(min_m: number, max_m: number): void {
     this.#heights_m = [min_m, max_m];
-    this.show(this.#layers);
+    this.#show(this.#layers);
   }
 
-  show(layers: Layers): void {
+  #show(layers: Layers): void {
     this.#layers = layers;
     this.#points.value = layers.points;
     for (const [key, box] of this.#boxes) box.checked = layers[key];
     const { points } = layers;
     this.#scale.hidden = points === 'use' || points === 'none';
     const [min, max] = this.#heights_m;
-    const ends = { range: ['0 m', `${FARTHEST_RANGE_M} m`], height: [`${min.toFixed(1)} m`, `${max.toFixed(1)} m`] };
+    const ends = { range: ['0 m', `${FARTHEST_RANGE_M} m`], height: [`${fixed(min, 1)} m`, `${fixed(max, 1)} m`] };
     const [low = '−15°', high = '+15°'] = points === 'range' || points === 'height' ? ends[points] : [];
     setText(this.#ends[0], low);
     setText(this.#ends[1], high);
   }
 
-  #change(layers: Layers): void {
-    this.show(layers);
-    this.#changed(layers);
-  }
-
   #switch(key: Switch, name: string, place: string, meaning: string): HTMLElement {
     const box = html('input');
     box.type = 'checkbox';
-    box.addEventListener('change', () => this.#change({ ...this.#layers, [key]: box.checked }));
+    box.addEventListener('change', () => this.set({ ...this.#layers, [key]: box.checked }));
     this.#boxes.set(key, box);
     const label = html('label', 'layers-switch', [box, html('span', '', [name]), html('i', `layers-key layer-${key}`)]);
     if (place) label.insertBefore(html('span', 'layers-place', [place]), label.lastChild);
