@@ -71,7 +71,7 @@ export class App {
   state(): MaplessState | undefined {
     const [info, frame, field] = [this.#info, this.#frame, this.#field];
     if (!info || !frame || !field) return undefined;
-    const { buffers: _buffers, path: _path, segments, subgoals, ...rest } = frame;
+    const { buffers: _buffers, path: _path, world_from_sensor: _sensor, segments, subgoals, ...rest } = frame;
     return {
       ...rest,
       scenario: info.scenario,
