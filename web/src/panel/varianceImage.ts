@@ -26,6 +26,7 @@ export class VarianceImage {
   #frame: Frame | undefined;
   #target: Target | undefined;
   #hatch: CanvasPattern | null = null;
+  #waiting = false;
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
     const context = canvas.getContext('2d');
@@ -41,7 +42,7 @@ export class VarianceImage {
     this.#theme = theme;
     this.#hatch = this.#context.createPattern(hatching(theme.muted), 'repeat');
     this.#paintPixels();
-    this.#draw();
+    this.#invalidate();
   }
 
   session(info: SessionInfo): void {
@@ -62,13 +63,14 @@ export class VarianceImage {
       });
       this.#paintPixels();
     }
-    this.#draw();
+    this.#invalidate();
   }
 
   /** Marks what somebody points at. */
   mark(target: Target | undefined): void {
+    if (target === this.#target) return;
     this.#target = target;
-    this.#draw();
+    this.#invalidate();
   }
 
   /** How to find the subgoal, or else the segment, under a place of the window; a subgoal within so many pixels. */
@@ -104,6 +106,16 @@ export class VarianceImage {
       }
     }
     this.#pixels.getContext('2d')?.putImageData(image, 0, 0);
+  }
+
+  /** Draws with the next picture, once however much changes until then. */
+  #invalidate(): void {
+    if (this.#waiting) return;
+    this.#waiting = true;
+    requestAnimationFrame(() => {
+      this.#waiting = false;
+      this.#draw();
+    });
   }
 
   #draw(): void {
