@@ -5,7 +5,7 @@ import { degrees, fixed, wrap } from '../ui/format.ts';
 import { direction } from './decision.ts';
 
 export const VERDICT_WORDS: Record<Verdict, string> = {
-  valid: 'carries subgoals',
+  valid: 'valid',
   too_narrow: 'too narrow',
   too_steep: 'too steep',
   unknown: 'unknown',

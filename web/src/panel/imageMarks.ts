@@ -123,24 +123,28 @@ export function drawSubgoals(context: Context, plot: Plot, subgoals: readonly Su
   }
 }
 
-/** A bright band over the segment and a ring around the subgoal that somebody points at. */
-export function drawTarget(context: Context, plot: Plot, frame: Frame, target: Target, theme: Theme): void {
+/** A bright band over the segment that somebody points at. */
+export function drawMarkedSegment(context: Context, plot: Plot, frame: Frame, target: Target, theme: Theme): void {
   const segment = target.segment === undefined ? undefined : frame.segments[target.segment];
-  const subgoal = target.subgoal === undefined ? undefined : frame.subgoals[target.subgoal];
   context.strokeStyle = css(theme.accent);
   context.fillStyle = css(theme.accent);
   context.lineWidth = 2;
-  if (segment) {
-    visitPlaces(plot, segment, (from, to) => {
-      const left = Math.max(from, plot.left);
-      const width = Math.min(to, plot.left + plot.width) - left;
-      context.globalAlpha = 0.16;
-      context.fillRect(left, plot.top, width, plot.height);
-      context.globalAlpha = 1;
-      context.strokeRect(left + 1, plot.top + 1, width - 2, plot.height - 2);
-    });
-  }
+  if (!segment) return;
+  visitPlaces(plot, segment, (from, to) => {
+    const left = Math.max(from, plot.left);
+    const width = Math.min(to, plot.left + plot.width) - left;
+    context.globalAlpha = 0.16;
+    context.fillRect(left, plot.top, width, plot.height);
+    context.globalAlpha = 1;
+    context.strokeRect(left + 1, plot.top + 1, width - 2, plot.height - 2);
+  });
+}
+
+/** A ring around the subgoal that somebody points at. */
+export function drawMarkedSubgoal(context: Context, plot: Plot, frame: Frame, target: Target, theme: Theme): void {
+  const subgoal = target.subgoal === undefined ? undefined : frame.subgoals[target.subgoal];
   if (!subgoal) return;
+  context.strokeStyle = css(theme.accent);
   context.lineWidth = 3;
   circle(context, plot.x(wrap(subgoal.azimuth_rad)), plot.y(subgoal.elevation_rad), plot.detailed ? 14 : 12);
   context.stroke();

@@ -57,7 +57,7 @@ export function drawAxes(context: CanvasRenderingContext2D, plot: Plot, theme: T
   context.setLineDash([]);
   context.globalAlpha = 1;
   context.textBaseline = 'top';
-  const step_deg = plot.detailed ? 30 : plot.width < 460 ? 90 : 45;
+  const step_deg = plot.detailed && plot.width > 860 ? 30 : plot.width < 460 ? 90 : 45;
   for (let azimuth_deg = 180; azimuth_deg >= -180; azimuth_deg -= step_deg) {
     const x = plot.x((azimuth_deg * Math.PI) / 180);
     const bottom = plot.top + plot.height;

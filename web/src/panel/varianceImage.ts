@@ -9,7 +9,15 @@ import { type Finder, segmentAt, subgoalTarget, type Target } from '../ui/attent
 import { wrap } from '../ui/format.ts';
 import { ramp } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
-import { drawColumns, drawGoal, drawProfile, drawSegments, drawSubgoals, drawTarget } from './imageMarks.ts';
+import {
+  drawColumns,
+  drawGoal,
+  drawMarkedSegment,
+  drawMarkedSubgoal,
+  drawProfile,
+  drawSegments,
+  drawSubgoals,
+} from './imageMarks.ts';
 import { drawAxes, drawScale, hatching, layout, type Plot } from './imagePlot.ts';
 
 /** The variance is kept with this many steps, enough to draw it anew in other colours. */
@@ -140,7 +148,7 @@ export class VarianceImage {
     drawColumns(context, plot, frame.buffers.kinds, theme, this.#hatch);
     drawProfile(context, plot, frame.buffers.profile, theme);
     drawSegments(context, plot, frame.segments, theme);
-    if (this.#target) drawTarget(context, plot, frame, this.#target, theme);
+    if (this.#target) drawMarkedSegment(context, plot, frame, this.#target, theme);
     context.restore();
     drawAxes(context, plot, theme);
     if (plot.detailed) drawScale(context, plot, frame.threshold, theme);
@@ -148,6 +156,7 @@ export class VarianceImage {
     const { pose } = frame;
     drawGoal(context, plot, Math.atan2(goal.y - pose.y, goal.x - pose.x) - pose.yaw, theme);
     drawSubgoals(context, plot, frame.subgoals, theme);
+    if (this.#target) drawMarkedSubgoal(context, plot, frame, this.#target, theme);
   }
 
   /** Rows and columns are centred on their angles: half of each outermost one lies beyond the plot, or on its other side. */
