@@ -15,7 +15,7 @@ test('docs/page-thinking.png', async ({ page }) => {
     .poll(() => page.evaluate(() => window.mapless?.state()?.tick ?? 0), { timeout: 90_000 })
     .toBeGreaterThan(150);
   await page.evaluate(() => window.mapless?.pause());
-  await page.keyboard.press('l');
+  await page.keyboard.press('x');
   const layers = page.locator('#layers');
   for (const name of [/Observed/, /Variance/, /Segments/]) await layers.getByRole('checkbox', { name }).check();
   await page.keyboard.press('Escape');

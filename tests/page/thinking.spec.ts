@@ -50,7 +50,7 @@ test('through the robot’s eye a drag turns the gaze', async ({ mapless: page }
 
 test('each layer changes the view, and back', async ({ mapless: page }) => {
   await pauseAt(page, 10);
-  await page.keyboard.press('l');
+  await page.keyboard.press('x');
   const panel = page.locator('#layers');
   await expect(panel).toBeVisible();
   await page.waitForTimeout(900);
@@ -139,7 +139,7 @@ test('the large image shows more, and a second press makes it small again', asyn
 
 test('the tour goes through by keyboard, pauses for each page and puts everything back', async ({ mapless: page }) => {
   await until(page, (now) => now.tick > 5);
-  await page.keyboard.press('g');
+  await page.keyboard.press('h');
   const card = page.getByRole('dialog', { name: 'Guided tour' });
   await expect(card).toBeVisible();
   const titles = new Set<string>();

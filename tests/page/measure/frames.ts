@@ -50,7 +50,7 @@ async function served<T>(use: (url: string) => Promise<T>): Promise<T> {
 async function showEverything(page: Page): Promise<void> {
   await page.goto('.');
   await page.waitForFunction(() => (window.mapless?.state()?.tick ?? 0) > 5);
-  await page.keyboard.press('l');
+  await page.keyboard.press('x');
   for (const box of await page.locator('#layers').getByRole('checkbox').all()) await box.check();
   await page.locator('#layers').getByRole('combobox').selectOption('ring');
   await page.keyboard.press('Escape');

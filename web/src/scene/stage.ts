@@ -5,22 +5,19 @@ import { type Frame, type Pose, type SessionInfo, TICK_RATE_HZ } from '../core/p
 import type { Finder, Target } from '../ui/attention.ts';
 import { wrap } from '../ui/format.ts';
 import type { Theme } from '../ui/theme.ts';
-import { Bands } from './bands.ts';
 import { Glide } from './glide.ts';
 import type { HeightField, Vector } from './heightfield.ts';
 import { Husky } from './husky.ts';
 import { FIRST_LAYERS, type Layers } from './layers.ts';
-import { Marks } from './marks.ts';
+import { Overlays } from './overlays.ts';
 import { Pacer } from './pacer.ts';
 import { Places } from './places.ts';
-import { nearestMark, projector } from './pointing.ts';
 import { Relief } from './relief.ts';
 import { Returns } from './returns.ts';
 import { Route } from './route.ts';
 import { Subgoals } from './subgoals.ts';
 import { SUN } from './sunlight.ts';
 import { type CameraMode, Viewpoint } from './viewpoint.ts';
-import { Ways } from './ways.ts';
 
 /** Triangles of finer grids cost more than they show; a processor draws far fewer of them than a graphics card. */
 const GRID_VERTICES = { hardware: 512, software: 160 };
@@ -40,16 +37,12 @@ export class Stage {
   readonly #subgoals = new Subgoals();
   readonly #places = new Places();
   readonly #glide = new Glide();
-  readonly #bands: Bands;
-  readonly #ways: Ways;
-  readonly #marks: Marks;
+  readonly #overlays: Overlays;
   readonly #sensor = new Vector3();
   #husky: Husky | undefined;
   #relief: Relief | undefined;
   #theme: Theme;
   #info: SessionInfo | undefined;
-  #frame: Frame | undefined;
-  #layers = FIRST_LAYERS;
   #shown: Pose | undefined;
   #speed = 1;
   #dirty = true;
@@ -63,11 +56,8 @@ export class Stage {
     sun.position.set(...SUN);
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
     this.#scene.add(this.#route.line, this.#returns.points, this.#subgoals.group, this.#places.group);
-    this.#bands = new Bands(theme);
-    this.#ways = new Ways(theme);
-    this.#marks = new Marks(theme);
-    this.#scene.add(this.#bands.group, this.#ways.group, this.#marks.group);
-    this.layers(FIRST_LAYERS);
+    this.#overlays = new Overlays(theme, FIRST_LAYERS, this.#height);
+    this.#scene.add(this.#overlays.group);
     this.theme(theme);
     new ResizeObserver(() => this.#resize()).observe(canvas);
     canvas.addEventListener('webglcontextrestored', () => this.invalidate());
@@ -97,11 +87,8 @@ export class Stage {
 
   theme(theme: Theme): void {
     this.#theme = theme;
-    const overlays = [this.#bands, this.#ways, this.#marks];
-    for (const part of [this.#relief, this.#returns, this.#route, this.#subgoals, this.#places, ...overlays]) {
-      part?.theme(theme);
-    }
-    this.#showOverlays();
+    const marks = [this.#returns, this.#route, this.#subgoals, this.#places];
+    for (const part of [this.#relief, ...marks, this.#overlays]) part?.theme(theme);
     this.invalidate();
   }
 
@@ -112,7 +99,7 @@ export class Stage {
       this.#husky = new Husky(info.sensor_height_m);
       this.#scene.add(this.#husky.group);
     }
-    this.#bands.session(info);
+    this.#overlays.session(info);
     if (field) this.#returns.heights(field.min_m, field.max_m);
     const { start, goal } = info;
     this.#places.show(goal, start, this.#height);
@@ -127,7 +114,6 @@ export class Stage {
 
   frame(frame: Frame): void {
     const { pose, tick } = frame;
-    this.#frame = frame;
     if (tick === 0) {
       this.#viewpoint.reset();
       this.#route.clear();
@@ -137,36 +123,26 @@ export class Stage {
     this.#glide.to(pose, performance.now(), Math.min(1000 / (TICK_RATE_HZ * this.#speed), LONGEST_GLIDE_MS));
     this.#returns.show(frame, this.#radius_m);
     this.#subgoals.show(frame.subgoals, this.#height);
-    this.#bands.show(frame);
-    this.#showOverlays();
+    this.#overlays.show(frame);
+    this.invalidate();
   }
 
   layers(layers: Layers): void {
-    this.#layers = layers;
     this.#returns.colours(layers.points);
     this.#subgoals.group.visible = layers.subgoals;
-    this.#bands.layers(layers);
-    this.#ways.layers(layers);
-    this.#showOverlays();
+    this.#overlays.layers(layers);
+    this.invalidate();
   }
 
   /** Marks what somebody points at. */
   mark(frame: Frame, target: Target | undefined): void {
-    this.#marks.show(frame, target, this.#radius_m, this.#height);
+    this.#overlays.mark(frame, target);
     this.invalidate();
   }
 
   /** How to find the subgoal or segment under a place of the window, within so many pixels. */
   pointedAt(clientX: number, clientY: number, within_px: number): Finder | undefined {
-    const find: Finder = (frame) => {
-      const project = projector(this.#canvas.getBoundingClientRect(), this.#viewpoint.camera);
-      const shown = { ...this.#layers, radius_m: this.#radius_m, height: this.#height };
-      return nearestMark(frame, shown, within_px, (place) => {
-        const at = project(place);
-        return at ? Math.hypot(at.x - clientX, at.y - clientY) : Number.POSITIVE_INFINITY;
-      });
-    };
-    return this.#frame && find(this.#frame) ? find : undefined;
+    return this.#overlays.pointedAt(this.#canvas, this.#viewpoint.camera, clientX, clientY, within_px);
   }
 
   /** The field's heights have changed. */
@@ -223,11 +199,6 @@ export class Stage {
 
   get #radius_m(): number {
     return this.#info?.occupancy_radius_m ?? 0;
-  }
-
-  #showOverlays(): void {
-    if (this.#frame) this.#ways.show(this.#frame, this.#radius_m, this.#height);
-    this.invalidate();
   }
 
   #height = (x: number, y: number): number => this.field?.height(x, y) ?? 0;
@@ -287,7 +258,7 @@ export class Stage {
     if (!pose || pose === before) return;
     this.#shown = pose;
     this.#husky?.pose(pose);
-    this.#bands.pose(pose);
+    this.#overlays.pose(pose);
     if (before) {
       const [east, north] = [pose.x - before.x, pose.y - before.y];
       this.#husky?.roll(east * Math.cos(pose.yaw) + north * Math.sin(pose.yaw), wrap(pose.yaw - before.yaw));

@@ -3,7 +3,6 @@
 import { CATALOGUE } from '../core/catalogue.ts';
 import type { Learning, SessionInfo, Setting } from '../core/protocol.ts';
 import { TOOLS, type Tool } from '../scene/tools.ts';
-import type { CameraMode } from '../scene/viewpoint.ts';
 import { byId, html } from './dom.ts';
 
 export const SPEEDS: readonly number[] = [0.5, 1, 2, 4, Number.POSITIVE_INFINITY];
@@ -17,12 +16,6 @@ export interface Actions {
   load(scenario: string, setting: Setting, seed: number | undefined): void;
   selectTool(tool: Tool): void;
   setBrushRadius(radius_m: number): void;
-  toggleFollow(): void;
-  toggleEye(): void;
-  toggleTop(): void;
-  overview(): void;
-  toggleImage(): void;
-  tour(): void;
   help(): void;
 }
 
@@ -36,11 +29,6 @@ export class Controls {
   readonly #learning = byId('learning', HTMLSelectElement);
   readonly #seed = byId('seed', HTMLInputElement);
   readonly #play = byId('play', HTMLButtonElement);
-  readonly #cameras = {
-    chase: byId('follow', HTMLButtonElement),
-    eye: byId('eye', HTMLButtonElement),
-    top: byId('top', HTMLButtonElement),
-  };
   readonly #brush = byId('brush', HTMLElement);
   readonly #brushSize = byId('brush-size', HTMLInputElement);
   readonly #brushValue = byId('brush-value', HTMLOutputElement);
@@ -62,12 +50,6 @@ export class Controls {
     this.#onClick('play', () => actions.togglePlay());
     this.#onClick('step', () => actions.step());
     this.#onClick('restart', () => actions.restart());
-    this.#onClick('follow', () => actions.toggleFollow());
-    this.#onClick('eye', () => actions.toggleEye());
-    this.#onClick('top', () => actions.toggleTop());
-    this.#onClick('overview', () => actions.overview());
-    this.#onClick('tour-open', () => actions.tour());
-    this.#onClick('enlarge', () => actions.toggleImage());
     this.#onClick('help', () => actions.help());
     this.#onClick('next', () => actions.next());
     for (const input of this.#radios('tool')) {
@@ -85,16 +67,6 @@ export class Controls {
     const label = playing ? 'Pause' : 'Play';
     this.#play.setAttribute('aria-label', label);
     this.#play.title = `${label} (Space)`;
-  }
-
-  showCamera(mode: CameraMode): void {
-    for (const [camera, button] of Object.entries(this.#cameras)) {
-      button.setAttribute('aria-pressed', String(camera === mode));
-    }
-  }
-
-  showImage(large: boolean): void {
-    byId('enlarge', HTMLButtonElement).setAttribute('aria-pressed', String(large));
   }
 
   showSession({ scenario, preset, learning, seed }: SessionInfo): void {

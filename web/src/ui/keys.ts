@@ -10,6 +10,12 @@ export interface KeyActions {
   faster(steps: number): void;
   selectTool(tool: Tool): void;
   growBrush(steps: number): void;
+  /** Puts down the tool and lets go of what was pointed at. */
+  letGo(): void;
+  help(): void;
+}
+
+export interface ThinkingKeys {
   toggleFollow(): void;
   toggleEye(): void;
   toggleTop(): void;
@@ -17,24 +23,21 @@ export interface KeyActions {
   toggleLayers(): void;
   toggleImage(): void;
   tour(): void;
-  /** Puts down the tool and lets go of what was pointed at. */
-  letGo(): void;
-  help(): void;
 }
 
-export function bindKeys(actions: KeyActions): void {
+export function bindKeys(actions: KeyActions, thinking: ThinkingKeys): void {
   const keys: Record<string, () => void> = {
     ' ': () => actions.togglePlay(),
     s: () => actions.step(),
     r: () => actions.restart(),
     n: () => actions.next(),
-    f: () => actions.toggleFollow(),
-    e: () => actions.toggleEye(),
-    t: () => actions.toggleTop(),
-    o: () => actions.overview(),
-    l: () => actions.toggleLayers(),
-    v: () => actions.toggleImage(),
-    g: () => actions.tour(),
+    f: () => thinking.toggleFollow(),
+    e: () => thinking.toggleEye(),
+    t: () => thinking.toggleTop(),
+    o: () => thinking.overview(),
+    x: () => thinking.toggleLayers(),
+    v: () => thinking.toggleImage(),
+    h: () => thinking.tour(),
     ',': () => actions.faster(-1),
     '.': () => actions.faster(1),
     '[': () => actions.growBrush(-1),
