@@ -8,7 +8,9 @@ async function pauseAt(page: Page, tick: number): Promise<void> {
   await page.evaluate(() => window.mapless?.pause());
 }
 
-const picture = async (page: Page) => (await page.locator('#view').screenshot()).toString('base64');
+/** The part of the view that nothing stands before. */
+const CLIP = { x: 100, y: 140, width: 600, height: 400 };
+const picture = async (page: Page) => (await page.screenshot({ clip: CLIP })).toString('base64');
 
 test('each camera shows something else, by key and by button', async ({ mapless: page }) => {
   await pauseAt(page, 10);
@@ -169,10 +171,16 @@ plain.describe('on a phone', () => {
     await until(page, (now) => now.surfaces);
     // The image is scrolled out of sight under the view.
     await page.evaluate(() => window.scrollTo(0, document.documentElement.scrollHeight));
-    await until(page, (now) => !now.surfaces);
-    const { tick } = await state(page);
-    await until(page, (now) => now.tick > tick + 5);
-    expect((await state(page)).surfaces).toBe(false);
+    // Where the machine is slow, single frames lack them anyway.
+    const someOfFive = async () => {
+      for (let frame = 0; frame < 5; frame += 1) {
+        const { tick, surfaces } = await state(page);
+        if (surfaces) return true;
+        await until(page, (now) => now.tick > tick);
+      }
+      return false;
+    };
+    await expect.poll(someOfFive, { timeout: 60_000 }).toBe(false);
     await page.locator('#layers-open').tap();
     await page.getByRole('checkbox', { name: /Variance/ }).check();
     await until(page, (now) => now.surfaces);
