@@ -3,6 +3,7 @@
 // Clippy does not know these functions as tests.
 #![allow(clippy::panic, clippy::unwrap_used, clippy::float_cmp)]
 
+use glam::DVec3;
 use js_sys::{Float32Array, Uint8Array};
 use mapless_wasm::{Session, terrain_of};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -91,10 +92,10 @@ fn returns_lie_on_the_ground() {
     assert_eq!(session.points(&short), 10);
     // Each return leaves the sensor along one of its rings: whole even degrees, but for a little noise of the range.
     let pose = session.world_from_sensor();
-    let dot = |a: [f64; 3], b: &[f64]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let (sensor, up) = (DVec3::from_slice(&pose), DVec3::from_slice(&pose[9..]));
     for point in points.chunks_exact(3) {
-        let ray = [0, 1, 2].map(|i| f64::from(point[i]) - pose[i]);
-        let elevation_deg = (dot(ray, &pose[9..12]) / dot(ray, &ray).sqrt()).asin().to_degrees();
+        let ray = DVec3::new(point[0].into(), point[1].into(), point[2].into()) - sensor;
+        let elevation_deg = 90.0 - ray.angle_between(up).to_degrees();
         assert!(((elevation_deg + 15.0) % 2.0 - 1.0).abs() > 0.99, "{elevation_deg}");
     }
 }
