@@ -7,7 +7,7 @@ import type { App } from './app.ts';
 import type { Brush, Frame, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
 
 /** What the page shows, as plain data. */
-export type MaplessState = Omit<Frame, 'buffers' | 'path' | 'rows' | 'segments' | 'subgoals'> &
+export type MaplessState = Omit<Frame, 'buffers' | 'path' | 'rows' | 'world_from_sensor' | 'segments' | 'subgoals'> &
   Pick<SessionInfo, 'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'goal'> & {
     readonly playing: boolean;
     readonly speed: number;

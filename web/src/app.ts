@@ -41,6 +41,8 @@ export class App {
   /** Whether somebody has used the page: then it does nothing by itself any more. */
   #touched = false;
   #lingering: ReturnType<typeof setInterval> | undefined;
+  /** Whether anything shows the surfaces. */
+  #watching = false;
   #sculpting = 0;
   #recovering = false;
   #waitingDab: Brush | undefined;
@@ -73,7 +75,15 @@ export class App {
   state(): MaplessState | undefined {
     const [info, frame, field] = [this.#info, this.#frame, this.#field];
     if (!info || !frame || !field) return undefined;
-    const { buffers: _buffers, path: _path, rows: _rows, segments, subgoals, ...rest } = frame;
+    const {
+      buffers: _buffers,
+      path: _path,
+      rows: _rows,
+      world_from_sensor: _sensor,
+      segments,
+      subgoals,
+      ...rest
+    } = frame;
     return {
       ...rest,
       scenario: info.scenario,
@@ -88,6 +98,18 @@ export class App {
       segments: segments.length,
       subgoals: subgoals.length,
     };
+  }
+
+  /** The newest frame of a running trial in which something was decided, and what it belongs to. */
+  async decided(): Promise<{ frame: Frame; info: SessionInfo }> {
+    if (this.#frame && this.#frame.outcome !== 'running') await this.restart();
+    if (this.#frame?.tick === 0) await this.step();
+    if (!this.#frame || !this.#info) throw new Error('No scenario is loaded yet.');
+    return { frame: this.#frame, info: this.#info };
+  }
+
+  get playing(): boolean {
+    return this.#playing;
   }
 
   async load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
@@ -181,6 +203,13 @@ export class App {
     return this.#frame?.buffers.points.slice(0, 3 * this.#frame.returns) ?? new Float32Array();
   }
 
+  /** Has the surfaces predicted while anything shows them. */
+  async watch(surfaces: boolean): Promise<void> {
+    if (surfaces === this.#watching) return;
+    this.#watching = surfaces;
+    await this.#core.request({ type: 'watch', surfaces });
+  }
+
   hidden(hidden: boolean): Promise<void> {
     return this.#core.request({ type: 'hidden', hidden });
   }
@@ -272,6 +301,7 @@ export class App {
         return;
       }
       await this.setSpeed(this.#speed);
+      await this.#core.request({ type: 'watch', surfaces: this.#watching });
     } catch {
       this.#views.notice(
         `The simulation stopped on an internal error and could not be started again; reload the page. (${message})`,

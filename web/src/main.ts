@@ -5,17 +5,17 @@ import './style/layout.css';
 import './style/controls.css';
 import './style/measure.css';
 import './style/panels.css';
+import './style/thinking.css';
 import { publish } from './api.ts';
 import { App } from './app.ts';
 import { CATALOGUE, entry, following } from './core/catalogue.ts';
 import { keepOffline } from './offline/register.ts';
 import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
-import { DecisionPanel } from './panel/decision.ts';
 import { Measure } from './panel/measure.ts';
 import { OUTCOME_WORDS, StatusPanel } from './panel/status.ts';
-import { VarianceImage } from './panel/varianceImage.ts';
 import { Stage } from './scene/stage.ts';
 import { GroundTools } from './scene/tools.ts';
+import { Thinking } from './thinking.ts';
 import { Controls } from './ui/controls.ts';
 import { byId, setText } from './ui/dom.ts';
 import { watchFaults, watchGraphics } from './ui/faults.ts';
@@ -26,11 +26,9 @@ import { readTheme, watchTheme } from './ui/theme.ts';
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
 const notice = new Notice();
-const variance = new VarianceImage(byId('variance', HTMLCanvasElement), readTheme());
 const roll = new AttitudeInstrument(ROLL);
 const pitch = new AttitudeInstrument(PITCH);
 element('attitude').append(roll.element, pitch.element);
-const decision = new DecisionPanel(element('candidates'), element('terms'), element('candidate-count'));
 const status = new StatusPanel({
   outcome: element('outcome'),
   time: element('time'),
@@ -54,14 +52,12 @@ try {
 const app = new App({
   session(info, field) {
     stage?.session(info, field);
-    variance.session(info);
+    thinking.session(info, field);
     roll.limit(info.limits.roll_rad);
     pitch.limit(info.limits.pitch_rad);
-    decision.session(info);
     status.session(info);
     measure.session(info);
     controls.showSession(info);
-    controls.showFollowing(stage?.following ?? false);
     const { group, title, lesson } = entry(info.scenario);
     setText(element('scene-title'), `${group}: ${title}`);
     setText(element('scene-lesson'), lesson);
@@ -69,8 +65,7 @@ const app = new App({
   },
   frame(frame) {
     stage?.frame(frame);
-    variance.show(frame);
-    decision.show(frame);
+    thinking.frame(frame);
     measure.frame(frame);
     roll.show(frame.pose.roll, frame.metrics.max_abs_roll_rad);
     pitch.show(frame.pose.pitch, frame.metrics.max_abs_pitch_rad);
@@ -98,7 +93,7 @@ const app = new App({
 });
 
 const measure = new Measure({ record: app.record, view: stage, notice: (message) => notice.show(message) });
-
+const thinking = new Thinking(app, stage, view);
 const tools = stage
   ? new GroundTools(view, stage, {
       setGoal: (goal) => app.attempt(app.setGoal(goal)),
@@ -121,24 +116,20 @@ const actions = {
   },
   setBrushRadius: (radius_m: number) => tools?.radius(radius_m),
   growBrush: (steps: number) => controls.growBrush(steps),
-  toggleFollow() {
-    stage?.toggleFollow();
-    controls.showFollowing(stage?.following ?? false);
-  },
-  overview() {
-    stage?.overview();
-    controls.showFollowing(false);
+  letGo() {
+    actions.selectTool('look');
+    thinking.letGo();
   },
   help: () => help.showModal(),
 };
 const controls = new Controls(actions);
-bindKeys(actions);
+bindKeys(actions, thinking);
 controls.showTool('look');
 controls.showSpeed(1);
 
 watchTheme((theme) => {
   stage?.theme(theme);
-  variance.theme(theme);
+  thinking.theme(theme);
 });
 for (const event of ['pointerdown', 'keydown', 'wheel']) {
   document.addEventListener(event, () => app.touch(), { passive: true, capture: true });

@@ -16,15 +16,27 @@ test('segments get their names and their verdict', () => {
   assert.ok(Number.isNaN(two?.height_m));
 });
 
-test('subgoals carry their terms, and the refused and the goal itself none', () => {
-  const candidate = [0.5, -0.1, 1, 2, 3, 1, 0, 0.1, 0.2, 0.3, 0, 0];
-  const refused = [0.6, -0.1, 1, 2, 3, 0, 1, NaN, NaN, NaN, NaN, NaN];
-  const [first, second] = decodeSubgoals(new Float64Array([...candidate, ...refused]));
+test('subgoals carry their segment, forecast and terms, and the goal itself none of them', () => {
+  const candidate = [0.5, -0.1, 1, 2, 3, 1, 0, 4, 6.5, 0.2, 0.1, 0.15, 2, 0.1, 0.2, 0.3, 0, 0];
+  const refused = [0.6, -0.1, 1, 2, 3, 0, 1, 0, 0.5, 0.9, 0.5, 0.1, 1, ...Array(5).fill(Number.NaN)];
+  const goal = [0.7, -0.1, 1, 2, 3, 0, 0, -1, ...Array(10).fill(Number.NaN)];
+  const [first, second, third] = decodeSubgoals(new Float64Array([...candidate, ...refused, ...goal]));
   assert.equal(first?.chosen, true);
+  assert.equal(first?.segment, 4);
+  assert.deepEqual(first?.forecast, {
+    reach_m: 6.5,
+    mean_risk: 0.2,
+    max_roll_rad: 0.1,
+    max_pitch_rad: 0.15,
+    end: 'unseen',
+  });
   assert.deepEqual(first?.terms, [0.1, 0.2, 0.3, 0, 0]);
   assert.ok(Math.abs((first?.total ?? 0) - 0.6) < 1e-12);
   assert.equal(second?.refusal, 'tilt');
+  assert.equal(second?.forecast?.end, 'tilt');
   assert.equal(second?.terms, undefined);
+  assert.equal(third?.segment, undefined);
+  assert.equal(third?.forecast, undefined);
 });
 
 test('what does not fit the protocol is refused, not guessed', () => {

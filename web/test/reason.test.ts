@@ -12,6 +12,8 @@ const candidate = (azimuth_rad: number, chosen: boolean): Subgoal => ({
   z: 0,
   chosen,
   refusal: 'none',
+  segment: 0,
+  forecast: undefined,
   terms: [0.1, 0.1, 0.1, 0, 0],
   total: 0.3,
 });

@@ -1,5 +1,6 @@
 //! Planner results as flat arrays.
 
+use mapless::forecast::ReachEnd;
 use mapless::profile::Column;
 use mapless::segments::{Segment, Verdict};
 use mapless::subgoals::{Refusal, Subgoal};
@@ -23,19 +24,29 @@ pub(crate) fn segment(segment: &Segment) -> [f64; 6] {
     ]
 }
 
-/// Azimuth and elevation in the sensor frame, world x, y, z, chosen (0 or 1), refusal (0 none, 1 tilt, 2 unseen), the
-/// cost's terms: direction, distance, steepness, commitment, revisit. Without a cost the terms are NaN.
-pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 12] {
+/// Azimuth and elevation in the sensor frame, world x, y, z, chosen (0 or 1), refusal (0 none, 1 tilt, 2 unseen), index of
+/// its segment (-1 for the goal itself); reach, mean risk, largest roll and pitch of the forecast and its end (0 whole,
+/// 1 tilt, 2 unseen), NaN without one; the cost's terms: direction, distance, steepness, commitment, revisit, NaN without one.
+pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 18] {
     let refusal = match subgoal.refusal {
         None => 0.0,
         Some(Refusal::Tilt) => 1.0,
         Some(Refusal::Unseen) => 2.0,
     };
+    let forecast = subgoal.forecast.map_or([f64::NAN; 5], |f| {
+        let end = match f.end {
+            ReachEnd::Whole => 0.0,
+            ReachEnd::Tilt => 1.0,
+            ReachEnd::Unseen => 2.0,
+        };
+        [f.reach_m, f.mean_risk, f.max_roll_rad, f.max_pitch_rad, end]
+    });
     let terms = subgoal
         .cost
         .map_or([f64::NAN; 5], |c| [c.direction, c.distance, c.steepness, c.commitment, c.revisit]);
     let position = subgoal.position_m;
-    [
+    let mut values = [0.0; 18];
+    values[..8].copy_from_slice(&[
         subgoal.azimuth_rad,
         subgoal.elevation_rad,
         position.x,
@@ -43,12 +54,11 @@ pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 12] {
         position.z,
         f64::from(u8::from(chosen)),
         refusal,
-        terms[0],
-        terms[1],
-        terms[2],
-        terms[3],
-        terms[4],
-    ]
+        subgoal.segment.map_or(-1.0, |index| index as f64),
+    ]);
+    values[8..13].copy_from_slice(&forecast);
+    values[13..].copy_from_slice(&terms);
+    values
 }
 
 /// 0 ground, 1 unknown, 2 wall.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use js_sys::{Float32Array, Uint8Array};
-use mapless::occupancy::COLUMNS;
+use mapless::occupancy::{COLUMNS, RINGS};
 use mapless::perception::ROWS;
 use mapless::{Navigator as _, Status, StopReason};
 use mapless_trials::{Preset, Scenario, StartPose, Trial};
@@ -71,7 +71,8 @@ impl Session {
     }
 
     /// What changes only between trials: start x, y, heading; goal x, y; limits of roll and pitch; radius of the occupancy
-    /// surface; height of the sensor; columns and rows of the variance image.
+    /// surface; height of the sensor; columns and rows of the variance image; rings of the sensor; robot width and safety
+    /// margin on it; steepest slope of a segment; whether unknown segments may carry subgoals (0 or 1).
     pub fn scene(&self) -> Vec<f64> {
         let config = self.trial.planner_config();
         let StartPose { position_m, heading_rad } = self.trial.start();
@@ -88,6 +89,11 @@ impl Session {
             config.mount.height_m,
             COLUMNS as f64,
             ROWS as f64,
+            RINGS as f64,
+            config.robot_width_m,
+            config.segments.safety_margin_m,
+            config.segments.max_slope_rad,
+            f64::from(u8::from(config.segments.subgoals_on_unknown)),
         ]
     }
 
@@ -286,16 +292,40 @@ impl Session {
         self.scratch.len() / 3
     }
 
-    /// The variance surface as a share of the signal variance, column by column from straight behind over the right, lowest
-    /// row first; as much as `out` holds. Predicted only now, since a step needs no more than its edge. Where there is no
-    /// posterior, nothing was observed: 1.
-    pub fn variance(&mut self, out: &Float32Array) {
+    /// Where the last scan was taken: the sensor's world position, then the world directions of its x, y and z axes.
+    pub fn world_from_sensor(&self) -> Vec<f64> {
+        let SensorPose { position, world_from_sensor } = self.scanned_from;
+        let axes = world_from_sensor.to_cols_array();
+        position.to_array().into_iter().chain(axes).collect()
+    }
+
+    /// Both surfaces that the Gaussian process predicts, column by column from straight behind over the right, lowest row
+    /// first, as much as each `out` holds: the reconstructed occupancy in metres, and the variance as a share of the signal
+    /// variance. Predicted only now, since a step needs no more than the variance's edge. Where there is no posterior, nothing
+    /// was observed: 0 and 1.
+    pub fn surfaces(&mut self, occupancy_out: &Float32Array, variance_out: &Float32Array) {
+        let sizes = [occupancy_out, variance_out].map(|out| out.length() as usize);
         self.scratch.clear();
-        let size = out.length() as usize;
+        self.scratch.resize(sizes[0], 0.0);
+        let mut variance = vec![1.0; sizes[1]];
         if let Ok(surface) = self.trial.predicted_surface() {
-            self.scratch.extend(surface.relative_variance.iter().take(size).map(|&v| v as f32));
+            narrow(&surface.mean_m, &mut self.scratch);
+            narrow(&surface.relative_variance, &mut variance);
         }
-        self.scratch.resize(size, 1.0);
+        self.send(occupancy_out);
+        variance_out.copy_from(&variance);
+    }
+
+    /// The observed occupancy surface in metres, column by column from straight behind over the right, lowest ring first, NaN
+    /// where there was no return within its radius; as much as `out` holds.
+    pub fn observed(&mut self, out: &Float32Array) {
+        self.scratch.clear();
+        self.scratch.resize(out.length() as usize, f32::NAN);
+        for cell in self.trial.step().observed.cells() {
+            if let Some(place) = self.scratch.get_mut(cell.column * RINGS + cell.ring) {
+                *place = cell.occupancy_m as f32;
+            }
+        }
         self.send(out);
     }
 
@@ -324,13 +354,21 @@ impl Session {
         self.trial.step().segments.iter().flat_map(encode::segment).collect()
     }
 
-    /// Twelve numbers for each subgoal: azimuth and elevation in the sensor frame; world x, y, z; chosen (0 or 1); refusal
-    /// (0 none, 1 tilt, 2 unseen); the weighted costs of direction, distance, steepness, commitment, revisit. The goal
-    /// itself, once in sight, is a subgoal without cost: NaN.
+    /// Eighteen numbers for each subgoal: azimuth and elevation in the sensor frame; world x, y, z; chosen (0 or 1); refusal
+    /// (0 none, 1 tilt, 2 unseen); index of its segment (-1 for the goal itself); the forecast's reach, mean risk, largest
+    /// roll and pitch, and why it ends (0 whole, 1 tilt, 2 unseen), NaN without one; the weighted costs of direction,
+    /// distance, steepness, commitment, revisit. The goal itself, once in sight, is a subgoal without cost: NaN.
     pub fn subgoals(&self) -> Vec<f64> {
         let step = self.trial.step();
         let numbered = step.subgoals.iter().enumerate();
         numbered.flat_map(|(index, one)| encode::subgoal(one, step.chosen == Some(index))).collect()
+    }
+}
+
+/// Copies as many values as fit, in single precision.
+fn narrow(from: &[f64], to: &mut [f32]) {
+    for (to, &from) in to.iter_mut().zip(from) {
+        *to = from as f32;
     }
 }
 

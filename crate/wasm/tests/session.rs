@@ -3,6 +3,7 @@
 // Clippy does not know these functions as tests.
 #![allow(clippy::panic, clippy::unwrap_used, clippy::float_cmp)]
 
+use glam::DVec3;
 use js_sys::{Float32Array, Uint8Array};
 use mapless_wasm::{Session, terrain_of};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -89,6 +90,14 @@ fn returns_lie_on_the_ground() {
     assert!(level.len() > 50 && level.iter().all(|p| p[2].abs() < 0.1));
     let short = Float32Array::new_with_length(30);
     assert_eq!(session.points(&short), 10);
+    // Each return leaves the sensor along one of its rings: whole even degrees, but for a little noise of the range.
+    let pose = session.world_from_sensor();
+    let (sensor, up) = (DVec3::from_slice(&pose), DVec3::from_slice(&pose[9..]));
+    for point in points.chunks_exact(3) {
+        let ray = DVec3::new(point[0].into(), point[1].into(), point[2].into()) - sensor;
+        let elevation_deg = 90.0 - ray.angle_between(up).to_degrees();
+        assert!(((elevation_deg + 15.0) % 2.0 - 1.0).abs() > 0.99, "{elevation_deg}");
+    }
 }
 
 #[wasm_bindgen_test]
@@ -96,10 +105,24 @@ fn the_image_has_the_size_that_the_scene_says() {
     let mut session = session("paper", None);
     tick(&mut session, 1);
     let scene = session.scene();
-    let (columns, rows) = (scene[9] as u32, scene[10] as u32);
-    let variance = Float32Array::new_with_length(columns * rows);
-    session.variance(&variance);
+    let (columns, rows, rings) = (scene[9] as u32, scene[10] as u32, scene[11] as u32);
+    let surface = || Float32Array::new_with_length(columns * rows);
+    let (occupancy, variance) = (surface(), surface());
+    session.surfaces(&occupancy, &variance);
     assert!(variance.to_vec().iter().all(|v| (0.0..=1.0 + 1e-6).contains(v) && *v > 0.0));
+    let observed = Float32Array::new_with_length(columns * rings);
+    session.observed(&observed);
+    let (occupancy, variance, observed) = (occupancy.to_vec(), variance.to_vec(), observed.to_vec());
+    let (mut seen, mut error_m) = (0, 0.0);
+    for (index, observed_m) in observed.iter().enumerate().filter(|(_, v)| !v.is_nan()) {
+        assert!((0.0..=7.0).contains(observed_m));
+        // The image has a row for each ring and one between two.
+        let at = index / rings as usize * rows as usize + 2 * (index % rings as usize);
+        assert!(variance[at] < 0.7, "{}", variance[at]);
+        error_m += f64::from((occupancy[at] - observed_m).abs());
+        seen += 1;
+    }
+    assert!(seen > 1_000 && error_m / f64::from(seen) < 0.3, "{seen} cells, {error_m} m");
     let (profile, kinds) = (Float32Array::new_with_length(columns), Uint8Array::new_with_length(columns));
     session.profile(&profile);
     session.kinds(&kinds);
@@ -108,8 +131,10 @@ fn the_image_has_the_size_that_the_scene_says() {
     }
     assert_eq!(session.segments().len() % 6, 0);
     let subgoals = session.subgoals();
-    let chosen = subgoals.chunks_exact(12).filter(|one| one[5] > 0.5).count();
-    assert_eq!((subgoals.len() % 12, chosen), (0, 1));
+    let chosen = subgoals.chunks_exact(18).filter(|one| one[5] > 0.5).count();
+    assert_eq!((subgoals.len() % 18, chosen), (0, 1));
+    let segments = session.segments().len() as f64 / 6.0;
+    assert!(subgoals.chunks_exact(18).all(|one| (-1.0..segments).contains(&one[7]) && one[8].is_nan()));
 }
 
 #[wasm_bindgen_test]

@@ -1,15 +1,16 @@
 /** The page's end of the worker: requests with answers, events, and a new worker after a panic. */
 
 import { Journal } from './journal.ts';
-import type {
-  Command,
-  Frame,
-  FrameBuffers,
-  FromWorker,
-  Ground,
-  GroundPatch,
-  SessionInfo,
-  ToWorker,
+import {
+  type Command,
+  type Frame,
+  type FrameBuffers,
+  type FromWorker,
+  type Ground,
+  type GroundPatch,
+  type SessionInfo,
+  type ToWorker,
+  transferables,
 } from './protocol.ts';
 
 export interface CoreEvents {
@@ -56,8 +57,7 @@ export class CoreClient {
 
   /** Gives a frame's buffers back; also tells the worker that the page is ready for another frame. */
   recycle(buffers: FrameBuffers): void {
-    const { points, variance, profile, kinds } = buffers;
-    this.#send({ type: 'recycle', buffers }, [points.buffer, variance.buffer, profile.buffer, kinds.buffer]);
+    this.#send({ type: 'recycle', buffers }, transferables(buffers));
   }
 
   #send(message: ToWorker, transfer: Transferable[] = []): void {

@@ -1,6 +1,15 @@
 /** Names for the flat arrays that the core sends; `crate/wasm` documents their order. */
 
-import { COLUMN_KINDS, type ColumnKind, REFUSALS, type Segment, type Subgoal, TERMS, VERDICTS } from './protocol.ts';
+import {
+  COLUMN_KINDS,
+  type ColumnKind,
+  REACH_ENDS,
+  REFUSALS,
+  type Segment,
+  type Subgoal,
+  TERMS,
+  VERDICTS,
+} from './protocol.ts';
 
 /** Order of the scalars in `CoreSession.scene`. */
 export const SCENE = [
@@ -15,6 +24,11 @@ export const SCENE = [
   'sensor_height_m',
   'image_columns',
   'image_rows',
+  'image_rings',
+  'robot_width_m',
+  'safety_margin_m',
+  'max_slope_rad',
+  'subgoals_on_unknown',
 ] as const;
 
 /** Order of the scalars in `CoreSession.status`. */
@@ -41,7 +55,7 @@ export const STATUS = [
 ] as const;
 
 const SEGMENT_STRIDE = 6;
-const SUBGOAL_STRIDE = 7;
+const SUBGOAL_STRIDE = 13;
 
 /** Gives the core's scalars their names. */
 export function named<Name extends string>(names: readonly Name[], values: Float64Array): Record<Name, number> {
@@ -64,7 +78,8 @@ export function decodeSegments(values: Float64Array): Segment[] {
 
 export function decodeSubgoals(values: Float64Array): Subgoal[] {
   return chunks(values, SUBGOAL_STRIDE + TERMS.length).map((chunk) => {
-    const [azimuth_rad = 0, elevation_rad = 0, x = 0, y = 0, z = 0, chosen = 0, refusal = 0] = chunk;
+    const [azimuth_rad = 0, elevation_rad = 0, x = 0, y = 0, z = 0, chosen = 0, refusal = 0, segment = -1] = chunk;
+    const [reach_m = 0, mean_risk = 0, max_roll_rad = 0, max_pitch_rad = 0, end = 0] = chunk.slice(8);
     const terms = chunk.slice(SUBGOAL_STRIDE);
     const total = terms.reduce((sum, term) => sum + term, 0);
     return {
@@ -75,6 +90,10 @@ export function decodeSubgoals(values: Float64Array): Subgoal[] {
       z,
       chosen: chosen === 1,
       refusal: at(REFUSALS, refusal),
+      segment: segment < 0 ? undefined : segment,
+      forecast: Number.isNaN(reach_m)
+        ? undefined
+        : { reach_m, mean_risk, max_roll_rad, max_pitch_rad, end: at(REACH_ENDS, end) },
       terms: Number.isNaN(total) ? undefined : terms,
       total,
     };

@@ -71,8 +71,20 @@ export interface SessionInfo extends Setting {
   readonly occupancy_radius_m: number;
   /** The sensor's height above the ground contact, along the body's z axis. */
   readonly sensor_height_m: number;
-  /** Lattice of the variance image. */
-  readonly image: { readonly columns: number; readonly rows: number };
+  /** Lattice of the predicted surfaces; the observed one has a row for each ring of the sensor. */
+  readonly image: { readonly columns: number; readonly rows: number; readonly rings: number };
+  /** What a segment must be to carry subgoals. */
+  readonly demands: SegmentDemands;
+}
+
+export interface SegmentDemands {
+  /** Wider than the robot's width and the margin on it together. */
+  readonly robot_width_m: number;
+  readonly safety_margin_m: number;
+  /** The skyline no higher and no lower than this, seen from the sensor's foot. */
+  readonly max_slope_rad: number;
+  /** Whether columns without a return may carry subgoals, on ground that earlier scans saw. */
+  readonly subgoals_on_unknown: boolean;
 }
 
 export interface Pose extends Place {
@@ -107,6 +119,20 @@ export interface Segment {
 export const REFUSALS = ['none', 'tilt', 'unseen'] as const;
 export type Refusal = (typeof REFUSALS)[number];
 
+/** Why a forecast ends where it does: at the end of the way, before tilting ground, or before ground never seen. */
+export const REACH_ENDS = ['whole', 'tilt', 'unseen'] as const;
+export type ReachEnd = (typeof REACH_ENDS)[number];
+
+/** What the straight way to a subgoal promises, from the ground that the last scans saw. */
+export interface Forecast {
+  readonly reach_m: number;
+  /** Mean of (tilt / limit)² over the reach. */
+  readonly mean_risk: number;
+  readonly max_roll_rad: number;
+  readonly max_pitch_rad: number;
+  readonly end: ReachEnd;
+}
+
 /** A place where the robot could go next: on the skyline, or the goal itself once it is in sight. */
 export interface Subgoal {
   readonly azimuth_rad: number;
@@ -117,6 +143,10 @@ export interface Subgoal {
   readonly z: number;
   readonly chosen: boolean;
   readonly refusal: Refusal;
+  /** Index of its segment in the frame; nothing for the goal itself. */
+  readonly segment: number | undefined;
+  /** Nothing where the cost judges steepness by the paper's height alone. */
+  readonly forecast: Forecast | undefined;
   /** Weighted cost terms, in the order of `TERMS`; nothing for the refused and for the goal itself. */
   readonly terms: readonly number[] | undefined;
   /** Sum of the terms; NaN without them. */
@@ -143,12 +173,21 @@ export interface Metrics {
 export interface FrameBuffers {
   /** LiDAR returns in the world frame: x, y, z of `Frame.returns` points. */
   readonly points: Float32Array<ArrayBuffer>;
-  /** Predictive variance as a share of the prior's, azimuth-major: column 0 looks backwards (-π), row 0 is the lowest. */
+  /** Observed occupancy in metres, azimuth-major, a value for each ring, NaN without a return. */
+  readonly observed: Float32Array<ArrayBuffer>;
+  /** Predicted occupancy in metres, azimuth-major: column 0 looks backwards (-π), row 0 is the lowest. */
+  readonly occupancy: Float32Array<ArrayBuffer>;
+  /** Predictive variance as a share of the prior's, on the same lattice. */
   readonly variance: Float32Array<ArrayBuffer>;
   /** Elevation of the skyline in each column, in radians; NaN where there is none. */
   readonly profile: Float32Array<ArrayBuffer>;
   /** Index into `COLUMN_KINDS` for each column. */
   readonly kinds: Uint8Array<ArrayBuffer>;
+}
+
+/** Hands a frame's arrays over instead of copying them. */
+export function transferables(buffers: FrameBuffers): ArrayBuffer[] {
+  return Object.values(buffers).map((array: FrameBuffers[keyof FrameBuffers]) => array.buffer);
 }
 
 /** Everything that one planning tick saw, decided and did. At tick 0 there is a scan but no decision yet. */
@@ -164,6 +203,10 @@ export interface Frame {
   readonly omega_rad_s: number;
   readonly command: { readonly v_m_s: number; readonly omega_rad_s: number };
   readonly returns: number;
+  /** Where the scan was taken: the sensor's position, then the directions of its x, y and z axes, in the world. */
+  readonly world_from_sensor: Float64Array;
+  /** Whether the surfaces in `buffers` are this tick's; otherwise nobody watches them, or they are not due again yet. */
+  readonly surfaces: boolean;
   /** Share of the prior variance above which space counts as free. */
   readonly threshold: number;
   readonly segments: readonly Segment[];
@@ -195,6 +238,8 @@ export type Command =
   | { type: 'goal'; goal: Place }
   | { type: 'start'; start: Heading }
   | { type: 'sculpt'; brush: Brush }
+  /** Whether anything shows the surfaces: predicting them costs more than the decision itself. */
+  | { type: 'watch'; surfaces: boolean }
   | { type: 'hidden'; hidden: boolean };
 
 /** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */

@@ -114,18 +114,25 @@ export class Session {
     if (buffers.variance.length === columns * rows) this.#pool.push(buffers);
   }
 
-  frame(path: Float32Array<ArrayBuffer>, rows: Float64Array<ArrayBuffer>): Frame {
+  /** Everything of the present state; the surfaces only on demand, since predicting them takes longer than deciding. */
+  frame(path: Float32Array<ArrayBuffer>, rows: Float64Array<ArrayBuffer>, surfaces: boolean): Frame {
     const core = this.#core;
     const status = this.status();
     const buffers = this.#pool.pop() ?? this.#newBuffers();
     const returns = core.points(buffers.points);
     const decided = status.tick > 0;
+    if (surfaces && decided) {
+      core.observed(buffers.observed);
+      core.surfaces(buffers.occupancy, buffers.variance);
+    } else if (surfaces) {
+      buffers.observed.fill(Number.NaN);
+      buffers.occupancy.fill(0);
+      buffers.variance.fill(1);
+    }
     if (decided) {
-      core.variance(buffers.variance);
       core.profile(buffers.profile);
       core.kinds(buffers.kinds);
     } else {
-      buffers.variance.fill(1);
       buffers.profile.fill(Number.NaN);
       buffers.kinds.fill(0);
     }
@@ -141,6 +148,8 @@ export class Session {
       omega_rad_s: status.omega_rad_s,
       command: { v_m_s: status.command_v_m_s, omega_rad_s: status.command_omega_rad_s },
       returns,
+      world_from_sensor: core.world_from_sensor(),
+      surfaces,
       threshold: status.threshold,
       segments: decided ? decodeSegments(core.segments()) : [],
       subgoals: decided ? decodeSubgoals(core.subgoals()) : [],
@@ -171,14 +180,22 @@ export class Session {
       limits: { roll_rad: scene.roll_limit_rad, pitch_rad: scene.pitch_limit_rad },
       occupancy_radius_m: scene.occupancy_radius_m,
       sensor_height_m: scene.sensor_height_m,
-      image: { columns: scene.image_columns, rows: scene.image_rows },
+      image: { columns: scene.image_columns, rows: scene.image_rows, rings: scene.image_rings },
+      demands: {
+        robot_width_m: scene.robot_width_m,
+        safety_margin_m: scene.safety_margin_m,
+        max_slope_rad: scene.max_slope_rad,
+        subgoals_on_unknown: scene.subgoals_on_unknown === 1,
+      },
     };
   }
 
   #newBuffers(): FrameBuffers {
-    const { columns, rows } = this.#info.image;
+    const { columns, rows, rings } = this.#info.image;
     return {
       points: new Float32Array(3 * MAX_RETURNS),
+      observed: new Float32Array(columns * rings),
+      occupancy: new Float32Array(columns * rows),
       variance: new Float32Array(columns * rows),
       profile: new Float32Array(columns),
       kinds: new Uint8Array(columns),

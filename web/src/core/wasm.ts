@@ -32,12 +32,16 @@ export interface CoreSession {
   digest(): string;
   /** Fills `out` with world-frame returns and returns how many points it wrote. */
   points(out: Float32Array): number;
-  variance(out: Float32Array): void;
+  /** Position and axes of the sensor at the last scan, in the world. */
+  world_from_sensor(): Float64Array;
+  /** Predicts both surfaces of the Gaussian process. */
+  surfaces(occupancy_out: Float32Array, variance_out: Float32Array): void;
+  observed(out: Float32Array): void;
   profile(out: Float32Array): void;
   kinds(out: Uint8Array): void;
   /** Six numbers for each segment. */
   segments(): Float64Array;
-  /** Seven numbers and then one for each cost term, for each subgoal. */
+  /** Thirteen numbers and then one for each cost term, for each subgoal. */
   subgoals(): Float64Array;
 }
 

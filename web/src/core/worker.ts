@@ -1,7 +1,7 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
 import type { Command, Frame, FromWorker, ToWorker } from './protocol.ts';
-import { TICK_RATE_HZ } from './protocol.ts';
+import { TICK_RATE_HZ, transferables } from './protocol.ts';
 import { Session } from './session.ts';
 import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
 
@@ -9,8 +9,12 @@ import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
 const FRAMES_IN_FLIGHT = 3;
 /** How long the loop may simulate before it listens again, in milliseconds. */
 const SLICE_MS = 12;
-/** No frame is posted sooner after the one before than this: each needs the whole variance surface, which ticks do not. */
+/** No frame is posted sooner after the one before than this. */
 const FRAME_INTERVAL_MS = 50;
+/** No surfaces are predicted sooner after those before than this, which lets every tick have its own at normal speed. */
+const SURFACE_INTERVAL_MS = 80;
+/** Part of the time that predicting surfaces may take while the robot drives. */
+const SURFACE_DUTY = 0.25;
 
 let core: CoreModule | undefined;
 let session: Session | undefined;
@@ -23,6 +27,11 @@ let scheduled = false;
 let inFlight = 0;
 let lastFrame_ms = 0;
 let unsent = false;
+/** Whether the page shows the surfaces. */
+let watched = false;
+/** When the next surfaces may be predicted, and whether those that the page has are older than its frame. */
+let surfacesDue_ms = 0;
+let surfacesOld = false;
 let path: number[] = [];
 let rows: number[] = [];
 /** Requests are carried out one after the other: loading waits for files. */
@@ -92,14 +101,20 @@ function showIfDue(): void {
 
 function show(): void {
   if (!session) return;
-  const frame: Frame = session.frame(new Float32Array(path), new Float64Array(rows));
+  const began_ms = performance.now();
+  // What stands still shows everything.
+  const surfaces = watched && (!running() || began_ms >= surfacesDue_ms);
+  const frame: Frame = session.frame(new Float32Array(path), new Float64Array(rows), surfaces);
+  surfacesOld = !surfaces;
+  if (surfaces) {
+    const took_ms = performance.now() - began_ms;
+    surfacesDue_ms = began_ms + Math.max(SURFACE_INTERVAL_MS, took_ms / SURFACE_DUTY);
+  }
   path = [];
   rows = [];
   unsent = false;
   inFlight += 1;
-  const { points, variance, profile, kinds } = frame.buffers;
-  const once = [frame.path.buffer, frame.rows.buffer];
-  post({ type: 'frame', frame }, [points.buffer, variance.buffer, profile.buffer, kinds.buffer, ...once]);
+  post({ type: 'frame', frame }, [...transferables(frame.buffers), frame.path.buffer, frame.rows.buffer]);
 }
 
 function openFromStart(): void {
@@ -123,6 +138,11 @@ async function carryOut(command: Command): Promise<void> {
     openFromStart();
     return;
   }
+  if (command.type === 'watch') {
+    watched = command.surfaces;
+    if (watched && surfacesOld) show();
+    return;
+  }
   if (command.type === 'hidden') {
     hidden = command.hidden;
     due_ms = performance.now();
@@ -133,6 +153,7 @@ async function carryOut(command: Command): Promise<void> {
     case 'play':
       playing = command.playing;
       due_ms = performance.now();
+      if (!playing && watched && surfacesOld) show();
       break;
     case 'speed':
       speed = command.speed;

@@ -1,6 +1,7 @@
 /** Why this subgoal: the cheapest candidates with their cost, term by term. */
 
 import { type Frame, type SessionInfo, type Subgoal, TERMS } from '../core/protocol.ts';
+import { type Attention, type Finder, subgoalTarget, type Target } from '../ui/attention.ts';
 import { costColours } from '../ui/costColours.ts';
 import { html, setText } from '../ui/dom.ts';
 import { fixed } from '../ui/format.ts';
@@ -11,7 +12,7 @@ const SHOWN = 5;
 const PAPER_TERMS = 3;
 
 interface Line {
-  readonly row: HTMLElement;
+  readonly row: HTMLButtonElement;
   readonly dot: HTMLElement;
   readonly where: HTMLElement;
   readonly bars: HTMLElement[];
@@ -22,9 +23,13 @@ export class DecisionPanel {
   readonly #list: HTMLElement;
   readonly #legend: HTMLElement;
   readonly #summary: HTMLElement;
+  readonly #attention: Attention;
   #lines: Line[] = [];
+  /** Index of the subgoal in each line. */
+  #shown: number[] = [];
 
-  constructor(list: HTMLElement, legend: HTMLElement, summary: HTMLElement) {
+  constructor(list: HTMLElement, legend: HTMLElement, summary: HTMLElement, attention: Attention) {
+    this.#attention = attention;
     this.#list = list;
     this.#legend = legend;
     this.#summary = summary;
@@ -36,7 +41,21 @@ export class DecisionPanel {
       ...terms.map((name, index) => html('li', `legend-item term-${index % 6}`, [html('i', 'legend-key'), name])),
     );
     this.#lines = Array.from({ length: SHOWN }, () => newLine(terms.length));
-    this.#list.replaceChildren(...this.#lines.map((line) => line.row));
+    this.#list.replaceChildren(...this.#lines.map(({ row }) => html('li', '', [row])));
+    this.#lines.forEach(({ row }, place) => {
+      const find: Finder = (frame) => subgoalTarget(frame, this.#shown[place] ?? -1);
+      for (const begin of ['pointerenter', 'focus']) row.addEventListener(begin, () => this.#attention.hover(find));
+      for (const end of ['pointerleave', 'blur']) row.addEventListener(end, () => this.#attention.hover(undefined));
+      row.addEventListener('click', () => this.#attention.pin(find));
+    });
+  }
+
+  /** Marks what somebody points at. */
+  mark(target: Target | undefined): void {
+    this.#lines.forEach(({ row }, place) => {
+      const index = this.#shown[place];
+      row.classList.toggle('is-marked', index !== undefined && index === target?.subgoal);
+    });
   }
 
   show({ activity, subgoals, segments }: Frame): void {
@@ -50,10 +69,12 @@ export class DecisionPanel {
     const shown = candidates.slice(0, SHOWN);
     // The choice is always in the list, also when it is the goal itself.
     if (chosen && !shown.includes(chosen)) shown.splice(candidates.length === 0 ? 0 : SHOWN - 1, 1, chosen);
+    this.#shown = shown.map((one) => subgoals.indexOf(one));
     const longest = Math.max(...shown.map(positive), 1e-9);
     this.#lines.forEach((line, index) => {
       const one = shown[index];
       line.row.classList.toggle('is-empty', !one);
+      line.row.disabled = !one;
       line.row.classList.toggle('is-chosen', one?.chosen === true);
       if (!one) return;
       const colour = colourOf(one);
@@ -93,6 +114,7 @@ function newLine(terms: number): Line {
   const where = html('span', 'candidate-where');
   const bars = Array.from({ length: terms }, (_, index) => html('i', `candidate-bar term-${index % 6}`));
   const total = html('span', 'candidate-total');
-  const row = html('li', 'candidate is-empty', [dot, where, html('span', 'candidate-bars', bars), total]);
+  const row = html('button', 'candidate is-empty', [dot, where, html('span', 'candidate-bars', bars), total]);
+  row.type = 'button';
   return { row, dot, where, bars, total };
 }

@@ -9,6 +9,10 @@ import type { Theme } from '../ui/theme.ts';
 export const HALF_TURN = Math.PI;
 const TOP_RAD = (15 * Math.PI) / 180;
 const MARGIN = { left: 34, right: 10, top: 16, bottom: 20 };
+/** Room for the scale beside a large plot. */
+const SCALE_MARGIN = 86;
+/** From this size on the plot has room for widths, finer axes and a scale. */
+const DETAILED = { width: 620, height: 260 };
 
 /** Where azimuth and elevation lie on the canvas, in CSS pixels. */
 export interface Plot {
@@ -16,6 +20,8 @@ export interface Plot {
   readonly top: number;
   readonly width: number;
   readonly height: number;
+  readonly detailed: boolean;
+  azimuth_rad(x: number): number;
   x(azimuth_rad: number): number;
   y(elevation_rad: number): number;
 }
@@ -28,11 +34,19 @@ export function drawAxes(context: CanvasRenderingContext2D, plot: Plot, theme: T
   context.lineWidth = 1;
   context.textAlign = 'right';
   context.textBaseline = 'middle';
-  for (const elevation_deg of [-15, 0, 15]) {
+  for (const elevation_deg of plot.detailed ? [-15, -10, -5, 0, 5, 10, 15] : [-15, 0, 15]) {
     const y = plot.y((elevation_deg * Math.PI) / 180);
     const label = elevation_deg > 0 ? `+${elevation_deg}°` : elevation_deg < 0 ? `\u2212${-elevation_deg}°` : '0°';
     const inside = Math.min(Math.max(y, plot.top + 5), plot.top + plot.height - 5);
     context.fillText(label, plot.left - 6, inside);
+  }
+  if (plot.detailed) {
+    context.save();
+    context.translate(9, plot.top + plot.height / 2);
+    context.rotate(-Math.PI / 2);
+    context.textAlign = 'center';
+    context.fillText('elevation', 0, 0);
+    context.restore();
   }
   context.globalAlpha = 0.5;
   context.setLineDash([2, 5]);
@@ -43,8 +57,8 @@ export function drawAxes(context: CanvasRenderingContext2D, plot: Plot, theme: T
   context.setLineDash([]);
   context.globalAlpha = 1;
   context.textBaseline = 'top';
-  const narrow = plot.width < 460;
-  for (const azimuth_deg of narrow ? [180, 90, 0, -90, -180] : [180, 135, 90, 45, 0, -45, -90, -135, -180]) {
+  const step_deg = plot.detailed && plot.width > 860 ? 30 : plot.width < 460 ? 90 : 45;
+  for (let azimuth_deg = 180; azimuth_deg >= -180; azimuth_deg -= step_deg) {
     const x = plot.x((azimuth_deg * Math.PI) / 180);
     const bottom = plot.top + plot.height;
     context.beginPath();
@@ -52,29 +66,57 @@ export function drawAxes(context: CanvasRenderingContext2D, plot: Plot, theme: T
     context.lineTo(x, bottom + 4);
     context.stroke();
     context.textAlign = azimuth_deg === 180 ? 'left' : azimuth_deg === -180 ? 'right' : 'center';
-    context.fillText(azimuthLabel(azimuth_deg), x, bottom + 6);
+    context.fillText(azimuthLabel(azimuth_deg, plot.detailed), x, bottom + 6);
   }
 }
 
 export const LABEL_FONT = '11px system-ui, sans-serif';
 
-function azimuthLabel(azimuth_deg: number): string {
-  if (azimuth_deg === 0) return 'ahead';
-  if (azimuth_deg === 90) return 'left';
-  if (azimuth_deg === -90) return 'right';
-  if (Math.abs(azimuth_deg) === 180) return 'behind';
-  return `${Math.abs(azimuth_deg)}°`;
+function azimuthLabel(azimuth_deg: number, detailed: boolean): string {
+  const names: Record<number, string> = { 0: 'ahead', 90: 'left', [-90]: 'right', 180: 'behind', [-180]: 'behind' };
+  const name = names[azimuth_deg];
+  const angle = `${azimuth_deg < 0 ? '\u2212' : ''}${Math.abs(azimuth_deg)}°`;
+  if (detailed) return name ? `${name} ${angle}` : angle;
+  return name ?? `${Math.abs(azimuth_deg)}°`;
+}
+
+/** The colours of the variance beside the plot, with the threshold between observed and free. */
+export function drawScale(context: CanvasRenderingContext2D, plot: Plot, threshold: number, theme: Theme): void {
+  const left = plot.left + plot.width + 12;
+  const y = (variance: number) => plot.top + plot.height * (1 - variance);
+  const gradient = context.createLinearGradient(0, y(0), 0, y(1));
+  theme.variance.forEach((colour, index, all) => {
+    gradient.addColorStop(index / (all.length - 1), css(colour));
+  });
+  context.fillStyle = gradient;
+  context.fillRect(left, plot.top, 10, plot.height);
+  context.strokeStyle = css(theme.muted);
+  context.lineWidth = 1;
+  context.strokeRect(left + 0.5, plot.top + 0.5, 9, plot.height - 1);
+  context.font = LABEL_FONT;
+  context.textAlign = 'left';
+  context.textBaseline = 'middle';
+  context.fillStyle = css(theme.muted);
+  context.fillText('1 free', left + 14, y(1) + 5);
+  context.fillText('0 seen', left + 14, y(0) - 5);
+  context.fillStyle = css(theme.goal);
+  context.fillRect(left - 3, y(threshold) - 1, 16, 2);
+  context.fillText(`V_th ${threshold.toFixed(2)}`, left + 15, Math.min(y(threshold), y(0) - 19));
 }
 
 /** The plot within a canvas of this size. */
 export function layout(width: number, height: number): Plot {
-  const left = MARGIN.left;
+  const detailed = width >= DETAILED.width && height >= DETAILED.height;
+  const left = MARGIN.left + (detailed ? 14 : 0);
   const top = MARGIN.top;
-  const inner = { width: width - left - MARGIN.right, height: height - top - MARGIN.bottom };
+  const right = detailed ? SCALE_MARGIN : MARGIN.right;
+  const inner = { width: width - left - right, height: height - top - MARGIN.bottom };
   return {
     left,
     top,
     ...inner,
+    detailed,
+    azimuth_rad: (x) => HALF_TURN - ((x - left) / inner.width) * 2 * HALF_TURN,
     x: (azimuth_rad) => left + (inner.width * (HALF_TURN - azimuth_rad)) / (2 * HALF_TURN),
     y: (elevation_rad) => top + (inner.height * (TOP_RAD - elevation_rad)) / (2 * TOP_RAD),
   };

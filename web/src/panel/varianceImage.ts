@@ -1,25 +1,40 @@
 /**
  * The unfolded variance image, the paper's way to see what the robot sees: azimuth across with the robot's left on the
  * left, elevation up, dark where ground was observed and light where space is free, with the skyline, its segments and
- * the subgoals upon them.
+ * the subgoals upon them. Pointing at it, or stepping through it with the arrow keys, names what is there.
  */
 
-import type { Frame, SessionInfo, Subgoal } from '../core/protocol.ts';
-import { costColours } from '../ui/costColours.ts';
+import type { Frame, SessionInfo } from '../core/protocol.ts';
+import { type Finder, segmentAt, subgoalTarget, type Target } from '../ui/attention.ts';
 import { wrap } from '../ui/format.ts';
-import { css, ramp } from '../ui/scale.ts';
+import { ramp } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
-import { drawAxes, HALF_TURN, hatching, LABEL_FONT, layout, type Plot, visitRuns } from './imagePlot.ts';
+import {
+  drawColumns,
+  drawGoal,
+  drawMarkedSegment,
+  drawMarkedSubgoal,
+  drawProfile,
+  drawSegments,
+  drawSubgoals,
+} from './imageMarks.ts';
+import { drawAxes, drawScale, hatching, layout, type Plot } from './imagePlot.ts';
+
+/** The variance is kept with this many steps, enough to draw it anew in other colours. */
+const STEPS = 256;
 
 export class VarianceImage {
   readonly #canvas: HTMLCanvasElement;
   readonly #context: CanvasRenderingContext2D;
   readonly #pixels = document.createElement('canvas');
   #image: ImageData | undefined;
+  #steps = new Uint8Array();
   #theme: Theme;
   #info: SessionInfo | undefined;
   #frame: Frame | undefined;
+  #target: Target | undefined;
   #hatch: CanvasPattern | null = null;
+  #waiting = false;
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
     const context = canvas.getContext('2d');
@@ -35,39 +50,80 @@ export class VarianceImage {
     this.#theme = theme;
     this.#hatch = this.#context.createPattern(hatching(theme.muted), 'repeat');
     this.#paintPixels();
-    this.#draw();
+    this.#invalidate();
   }
 
   session(info: SessionInfo): void {
     this.#info = info;
     const { columns, rows } = info.image;
+    if (this.#steps.length === columns * rows) return;
     this.#pixels.width = columns;
     this.#pixels.height = rows;
     this.#image = new ImageData(columns, rows);
+    this.#steps = new Uint8Array(columns * rows).fill(STEPS - 1);
   }
 
-  /** The frame's buffers stay readable until the next call. */
   show(frame: Frame): void {
     this.#frame = frame;
-    this.#paintPixels();
-    this.#draw();
+    if (frame.surfaces) {
+      frame.buffers.variance.forEach((value, index) => {
+        this.#steps[index] = Math.min(Math.max(value, 0), 1) * (STEPS - 1);
+      });
+      this.#paintPixels();
+    }
+    this.#invalidate();
+  }
+
+  /** Marks what somebody points at. */
+  mark(target: Target | undefined): void {
+    if (target === this.#target) return;
+    this.#target = target;
+    this.#invalidate();
+  }
+
+  /** How to find the subgoal, or else the segment, under a place of the window; a subgoal within so many pixels. */
+  pointedAt(clientX: number, clientY: number, within_px: number): Finder | undefined {
+    const box = this.#canvas.getBoundingClientRect();
+    const plot = layout(this.#canvas.clientWidth, this.#canvas.clientHeight);
+    const [x, y] = [clientX - box.left, clientY - box.top];
+    if (x < plot.left || x > plot.left + plot.width || y < 0 || y > this.#canvas.clientHeight) return undefined;
+    return (frame) => {
+      let [best, nearest_px] = [-1, within_px];
+      frame.subgoals.forEach((one, index) => {
+        const px = Math.hypot(plot.x(wrap(one.azimuth_rad)) - x, plot.y(one.elevation_rad) - y);
+        if (px < nearest_px) [best, nearest_px] = [index, px];
+      });
+      return subgoalTarget(frame, best) ?? { subgoal: undefined, segment: segmentAt(frame, plot.azimuth_rad(x)) };
+    };
   }
 
   #paintPixels(): void {
     const image = this.#image;
-    if (!image || !this.#frame) return;
-    const { variance } = this.#frame.buffers;
+    if (!image) return;
     const { width: columns, height: rows } = image;
+    const colours = Array.from({ length: STEPS }, (_, step) => ramp(this.#theme.variance, step / (STEPS - 1)));
+    const palette = new Uint32Array(
+      colours.map(([red, green, blue]) => (255 << 24) | (blue << 16) | (green << 8) | red),
+    );
+    const pixels = new Uint32Array(image.data.buffer);
     for (let column = 0; column < columns; column += 1) {
       for (let row = 0; row < rows; row += 1) {
-        const value = variance[column * rows + row] ?? 0;
-        const [red, green, blue] = ramp(this.#theme.variance, value);
         // Column 0 looks backwards on the right; row 0 is the lowest beam.
-        const at = 4 * ((rows - 1 - row) * columns + (columns - 1 - column));
-        image.data.set([red, green, blue, 255], at);
+        const at = (rows - 1 - row) * columns + (columns - 1 - column);
+        pixels[at] = palette[this.#steps[column * rows + row] ?? 0] ?? 0;
       }
     }
     this.#pixels.getContext('2d')?.putImageData(image, 0, 0);
+  }
+
+  /** Draws with the next picture, once however much changes until then. */
+  #invalidate(): void {
+    if (this.#waiting) return;
+    this.#waiting = true;
+    requestAnimationFrame(() => {
+      this.#waiting = false;
+      this.#draw();
+    });
   }
 
   #draw(): void {
@@ -79,8 +135,8 @@ export class VarianceImage {
     const context = this.#context;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
-    const frame = this.#frame;
-    if (!frame || !this.#info) return;
+    const [frame, info, theme] = [this.#frame, this.#info, this.#theme];
+    if (!frame || !info) return;
     const plot = layout(width, height);
     context.save();
     context.beginPath();
@@ -89,13 +145,18 @@ export class VarianceImage {
     context.imageSmoothingEnabled = true;
     context.imageSmoothingQuality = 'high';
     this.#drawPixels(plot);
-    this.#drawColumns(plot, frame.buffers.kinds);
-    this.#drawProfile(plot, frame.buffers.profile);
-    this.#drawSegments(plot, frame);
+    drawColumns(context, plot, frame.buffers.kinds, theme, this.#hatch);
+    drawProfile(context, plot, frame.buffers.profile, theme);
+    drawSegments(context, plot, frame.segments, theme);
+    if (this.#target) drawMarkedSegment(context, plot, frame, this.#target, theme);
     context.restore();
-    drawAxes(context, plot, this.#theme);
-    this.#drawGoal(plot, frame);
-    this.#drawSubgoals(plot, frame.subgoals);
+    drawAxes(context, plot, theme);
+    if (plot.detailed) drawScale(context, plot, frame.threshold, theme);
+    const { goal } = info;
+    const { pose } = frame;
+    drawGoal(context, plot, Math.atan2(goal.y - pose.y, goal.x - pose.x) - pose.yaw, theme);
+    drawSubgoals(context, plot, frame.subgoals, theme);
+    if (this.#target) drawMarkedSubgoal(context, plot, frame, this.#target, theme);
   }
 
   /** Rows and columns are centred on their angles: half of each outermost one lies beyond the plot, or on its other side. */
@@ -107,122 +168,19 @@ export class VarianceImage {
       this.#context.drawImage(this.#pixels, left, plot.top - row / 2, plot.width, plot.height + row);
     }
   }
+}
 
-  /** Unknown columns are hatched; walls carry a solid band along the top. */
-  #drawColumns(plot: Plot, kinds: Uint8Array): void {
-    const context = this.#context;
-    visitRuns(kinds, (kind, from, to) => {
-      const left = plot.x(to);
-      const width = plot.x(from) - left;
-      if (kind === 'unknown') {
-        context.fillStyle = css(this.#theme.surface);
-        context.globalAlpha = 0.55;
-        context.fillRect(left, plot.top, width, plot.height);
-        context.globalAlpha = 1;
-        context.fillStyle = this.#hatch ?? css(this.#theme.muted);
-        context.fillRect(left, plot.top, width, plot.height);
-      } else if (kind === 'wall') {
-        context.fillStyle = css(this.#theme.danger);
-        context.globalAlpha = 0.28;
-        context.fillRect(left, plot.top, width, plot.height);
-        context.globalAlpha = 1;
-        context.fillRect(left, plot.top, width, 5);
-      }
-    });
-  }
-
-  #drawProfile(plot: Plot, profile: Float32Array): void {
-    const context = this.#context;
-    const step = (2 * HALF_TURN) / profile.length;
-    const line = new Path2D();
-    let drawing = false;
-    profile.forEach((elevation_rad, column) => {
-      const ground = !Number.isNaN(elevation_rad);
-      const [x, y] = [plot.x(-HALF_TURN + column * step), plot.y(elevation_rad)];
-      if (ground && drawing) line.lineTo(x, y);
-      else if (ground) line.moveTo(x, y);
-      drawing = ground;
-    });
-    context.lineJoin = 'round';
-    context.strokeStyle = this.#theme.dark ? 'rgb(0 0 0 / 0.5)' : 'rgb(255 255 255 / 0.6)';
-    context.lineWidth = 3.5;
-    context.stroke(line);
-    context.strokeStyle = css(this.#theme.goal);
-    context.lineWidth = 1.5;
-    context.stroke(line);
-  }
-
-  #drawSegments(plot: Plot, frame: Frame): void {
-    const context = this.#context;
-    for (const segment of frame.segments) {
-      if (Number.isNaN(segment.elevation_rad)) continue;
-      const valid = segment.verdict === 'valid';
-      context.strokeStyle = valid ? css(this.#theme.ink) : css(this.#theme.danger);
-      context.lineWidth = valid ? 2.5 : 2;
-      context.setLineDash(valid ? [] : segment.verdict === 'too_narrow' ? [2, 2] : [7, 3]);
-      // A segment across the azimuth behind the robot shows at both ends.
-      for (const turn of [0, -2 * HALF_TURN]) {
-        const [left, right] = [plot.x(segment.end_rad + turn), plot.x(segment.begin_rad + turn)];
-        if (right < plot.left || left > plot.left + plot.width) continue;
-        const y = plot.y(segment.elevation_rad);
-        context.beginPath();
-        context.moveTo(left + 1, y);
-        context.lineTo(right - 1, y);
-        context.stroke();
-      }
-    }
-    context.setLineDash([]);
-  }
-
-  #drawSubgoals(plot: Plot, subgoals: readonly Subgoal[]): void {
-    const context = this.#context;
-    const colourOf = costColours(subgoals);
-    const ordered = [...subgoals].sort((a, b) => Number(a.chosen) - Number(b.chosen));
-    for (const one of ordered) {
-      const [x, y] = [plot.x(wrap(one.azimuth_rad)), plot.y(one.elevation_rad)];
-      const scale = plot.width < 460 ? 0.8 : 1;
-      const radius = scale * (one.chosen ? 7 : colourOf(one) ? 5 : 3.2);
-      context.beginPath();
-      context.arc(x, y, radius, 0, 2 * Math.PI);
-      context.fillStyle = css(colourOf(one) ?? this.#theme.muted);
-      context.fill();
-      context.lineWidth = 1.5;
-      context.strokeStyle = '#0d1014';
-      context.stroke();
-      if (!one.chosen) continue;
-      context.beginPath();
-      context.arc(x, y, radius + 3.5, 0, 2 * Math.PI);
-      context.lineWidth = 2;
-      context.strokeStyle = css(this.#theme.ink);
-      context.stroke();
-    }
-  }
-
-  #drawGoal(plot: Plot, { pose }: Frame): void {
-    const goal = this.#info?.goal;
-    if (!goal) return;
-    const context = this.#context;
-    const x = plot.x(wrap(Math.atan2(goal.y - pose.y, goal.x - pose.x) - pose.yaw));
-    context.strokeStyle = css(this.#theme.goal);
-    context.lineWidth = 1.5;
-    context.setLineDash([1, 4]);
-    context.lineCap = 'round';
-    context.beginPath();
-    context.moveTo(x, plot.top);
-    context.lineTo(x, plot.top + plot.height);
-    context.stroke();
-    context.setLineDash([]);
-    context.lineCap = 'butt';
-    context.fillStyle = css(this.#theme.goal);
-    context.beginPath();
-    context.moveTo(x, plot.top + 2);
-    context.lineTo(x - 5, plot.top - 7);
-    context.lineTo(x + 5, plot.top - 7);
-    context.fill();
-    context.font = LABEL_FONT;
-    context.textBaseline = 'bottom';
-    const room = x < plot.left + plot.width - 40;
-    context.textAlign = room ? 'left' : 'right';
-    context.fillText('goal', room ? x + 8 : x - 8, plot.top - 2);
-  }
+/** The subgoal or the segment beside another one, from the robot's left to its right; after none, the chosen or the first. */
+export function neighbour(frame: Frame, from: Target | undefined, by: 1 | -1, segments: boolean): Target | undefined {
+  const azimuths_rad = segments
+    ? frame.segments.map(({ begin_rad, end_rad }) => wrap((begin_rad + end_rad) / 2))
+    : frame.subgoals.map(({ azimuth_rad }) => wrap(azimuth_rad));
+  const order = azimuths_rad.map((_, index) => index);
+  order.sort((a, b) => (azimuths_rad[b] ?? 0) - (azimuths_rad[a] ?? 0));
+  const current = segments ? from?.segment : from?.subgoal;
+  const chosen = segments ? 0 : order.findIndex((index) => frame.subgoals[index]?.chosen);
+  const place = current === undefined ? Math.max(chosen, 0) : order.indexOf(current) + by;
+  const index = order[(place + order.length) % order.length];
+  if (index === undefined) return undefined;
+  return segments ? { subgoal: undefined, segment: index } : subgoalTarget(frame, index);
 }

@@ -1,18 +1,40 @@
-/** LiDAR returns. Those inside the occupancy radius, the only ones that the planner uses, are bright. */
+/** LiDAR returns, coloured by whether the planner uses them (those inside the occupancy radius), range, height or ring. */
 
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, ShaderMaterial, Vector3 } from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DynamicDrawUsage,
+  Points,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+} from 'three';
+import type { Frame } from '../core/protocol.ts';
+import { VIRIDIS } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
+import { POINT_COLOURS, type PointColours } from './layers.ts';
 import { colour } from './relief.ts';
+import { scaleTexture } from './scaleTexture.ts';
 
 const CAPACITY = 28_800;
+/** Colours by range end here; what is farther has the last one. */
+export const FARTHEST_RANGE_M = 20;
 
 const VERTEX = /* glsl */ `
 uniform vec3 sensor;
 uniform float radius;
 uniform float scale;
+uniform vec3 up;
+uniform vec2 heights;
+uniform int mode;
 varying float near;
+varying float share;
 void main() {
-  near = 1.0 - smoothstep(radius - 0.02, radius + 0.02, distance(position, sensor));
+  vec3 ray = position - sensor;
+  float ring = floor(degrees(asin(dot(normalize(ray), up))) / 2.0 + 8.0);
+  share = mode == 1 ? length(ray) / FARTHEST : mode == 2 ? (position.z - heights.x) / (heights.y - heights.x) : ring / 15.0;
+  near = 1.0 - smoothstep(radius - 0.02, radius + 0.02, length(ray));
   vec4 view = viewMatrix * vec4(position + vec3(0.0, 0.0, 0.02), 1.0);
   gl_Position = projectionMatrix * view;
   gl_PointSize = clamp(scale * mix(0.055, 0.07, near) / -view.z, 1.3, 8.0);
@@ -22,13 +44,17 @@ void main() {
 const FRAGMENT = /* glsl */ `
 uniform vec3 nearColour;
 uniform vec3 farColour;
+uniform sampler2D colours;
+uniform int mode;
 varying float near;
+varying float share;
 void main() {
   float from = length(gl_PointCoord - 0.5);
   float cover = 1.0 - smoothstep(0.36, 0.5, from);
   float opacity = cover * mix(0.42, 0.95, near);
   if (opacity < 0.02) discard;
-  gl_FragColor = linearToOutputTexel(vec4(mix(farColour, nearColour, near), opacity));
+  vec3 measured = texture2D(colours, vec2(clamp(share, 0.0, 1.0), 0.5)).rgb * (from > 0.33 ? 0.25 : 1.0);
+  gl_FragColor = linearToOutputTexel(vec4(mode == 0 ? mix(farColour, nearColour, near) : measured, opacity));
 }
 `;
 
@@ -42,11 +68,16 @@ export class Returns {
     geometry.setDrawRange(0, 0);
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
+      defines: { FARTHEST: FARTHEST_RANGE_M.toFixed(1) },
       fragmentShader: FRAGMENT,
       transparent: true,
       depthWrite: false,
       uniforms: {
         sensor: { value: new Vector3() },
+        up: { value: new Vector3() },
+        heights: { value: new Vector2(0, 1) },
+        mode: { value: 0 },
+        colours: { value: null },
         radius: { value: 7 },
         scale: { value: 900 },
         nearColour: { value: new Color() },
@@ -60,6 +91,10 @@ export class Returns {
   theme(theme: Theme): void {
     this.points.material.uniforms.nearColour?.value.copy(colour(theme.returnNear));
     this.points.material.uniforms.farColour?.value.copy(colour(theme.returnFar));
+    const { colours } = this.points.material.uniforms;
+    colours?.value?.dispose();
+    // The end that is nearest to the ground's own lightness is left out.
+    if (colours) colours.value = scaleTexture(theme.dark ? VIRIDIS.slice(2) : VIRIDIS.slice(0, -1));
   }
 
   /** Device pixels that one metre has, one metre away: points keep a size in metres. */
@@ -68,15 +103,27 @@ export class Returns {
     if (scale) scale.value = pixels;
   }
 
-  show(xyz: Float32Array, count: number, sensor: Vector3, radius_m: number): void {
-    const shown = Math.min(count, CAPACITY);
-    this.#positions.array.set(xyz.subarray(0, 3 * shown));
+  colours(by: PointColours): void {
+    this.points.visible = by !== 'none';
+    const { mode } = this.points.material.uniforms;
+    if (mode) mode.value = POINT_COLOURS.indexOf(by);
+  }
+
+  /** Colours by height run from the lowest to the highest ground. */
+  heights(min_m: number, max_m: number): void {
+    this.points.material.uniforms.heights?.value.set(min_m, Math.max(max_m, min_m + 0.1));
+  }
+
+  show({ buffers, returns, world_from_sensor }: Frame, radius_m: number): void {
+    const shown = Math.min(returns, CAPACITY);
+    this.#positions.array.set(buffers.points.subarray(0, 3 * shown));
     this.#positions.clearUpdateRanges();
     this.#positions.addUpdateRange(0, 3 * shown);
     this.#positions.needsUpdate = true;
     this.points.geometry.setDrawRange(0, shown);
     const { uniforms } = this.points.material;
-    uniforms.sensor?.value.copy(sensor);
+    uniforms.sensor?.value.fromArray(world_from_sensor, 0);
+    uniforms.up?.value.fromArray(world_from_sensor, 9);
     if (uniforms.radius) uniforms.radius.value = radius_m;
   }
 }

@@ -2,11 +2,14 @@
 
 import { AmbientLight, DirectionalLight, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
 import { type Frame, type Pose, type SessionInfo, TICK_RATE_HZ } from '../core/protocol.ts';
+import type { Finder, Target } from '../ui/attention.ts';
 import { wrap } from '../ui/format.ts';
 import type { Theme } from '../ui/theme.ts';
 import { Glide } from './glide.ts';
 import type { HeightField, Vector } from './heightfield.ts';
 import { Husky } from './husky.ts';
+import { FIRST_LAYERS, type Layers } from './layers.ts';
+import { Overlays } from './overlays.ts';
 import { Pacer } from './pacer.ts';
 import { Places } from './places.ts';
 import { Relief } from './relief.ts';
@@ -14,7 +17,7 @@ import { Returns } from './returns.ts';
 import { Route } from './route.ts';
 import { Subgoals } from './subgoals.ts';
 import { SUN } from './sunlight.ts';
-import { Viewpoint } from './viewpoint.ts';
+import { type CameraMode, Viewpoint } from './viewpoint.ts';
 
 /** Triangles of finer grids cost more than they show; a processor draws far fewer of them than a graphics card. */
 const GRID_VERTICES = { hardware: 512, software: 160 };
@@ -34,6 +37,7 @@ export class Stage {
   readonly #subgoals = new Subgoals();
   readonly #places = new Places();
   readonly #glide = new Glide();
+  readonly #overlays: Overlays;
   readonly #sensor = new Vector3();
   #husky: Husky | undefined;
   #relief: Relief | undefined;
@@ -54,6 +58,8 @@ export class Stage {
     sun.position.set(...SUN);
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
     this.#scene.add(this.#route.line, this.#returns.points, this.#subgoals.group, this.#places.group);
+    this.#overlays = new Overlays(theme, FIRST_LAYERS, this.#height);
+    this.#scene.add(this.#overlays.group);
     this.theme(theme);
     new ResizeObserver(() => this.#resize()).observe(canvas);
     canvas.addEventListener('webglcontextrestored', () => this.invalidate());
@@ -69,8 +75,8 @@ export class Stage {
     return this.#shown;
   }
 
-  get following(): boolean {
-    return this.#viewpoint.following;
+  get camera(): CameraMode {
+    return this.#viewpoint.mode;
   }
 
   get viewHeading_rad(): number {
@@ -83,7 +89,8 @@ export class Stage {
 
   theme(theme: Theme): void {
     this.#theme = theme;
-    for (const part of [this.#relief, this.#returns, this.#route, this.#subgoals, this.#places]) part?.theme(theme);
+    const marks = [this.#returns, this.#route, this.#subgoals, this.#places];
+    for (const part of [this.#relief, ...marks, this.#overlays]) part?.theme(theme);
     this.invalidate();
   }
 
@@ -94,31 +101,56 @@ export class Stage {
       this.#husky = new Husky(info.sensor_height_m);
       this.#scene.add(this.#husky.group);
     }
+    this.#overlays.session(info);
+    if (field) this.#returns.heights(field.min_m, field.max_m);
     const { start, goal } = info;
     this.#places.show(goal, start, this.#height);
     if (field) {
       const towards = Math.atan2(goal.y - start.y, goal.x - start.x);
+      this.#viewpoint.reset();
+      if (this.#husky) this.#husky.group.visible = true;
       this.#viewpoint.follow({ ...start, z: this.#height(start.x, start.y) }, towards - FIRST_LOOK_RAD);
     }
     this.invalidate();
   }
 
   frame(frame: Frame): void {
-    const { pose, tick, buffers, returns } = frame;
+    const { pose, tick } = frame;
     if (tick === 0) {
+      this.#viewpoint.reset();
       this.#route.clear();
       this.#glide.reset();
     }
     this.#route.extend(frame.path);
     this.#glide.to(pose, performance.now(), Math.min(1000 / (TICK_RATE_HZ * this.#speed), LONGEST_GLIDE_MS));
-    this.#returns.show(buffers.points, returns, this.#sensorAt(pose), this.#info?.occupancy_radius_m ?? 0);
+    this.#returns.show(frame, this.#radius_m);
     this.#subgoals.show(frame.subgoals, this.#height);
+    this.#overlays.show(frame);
     this.invalidate();
+  }
+
+  layers(layers: Layers): void {
+    this.#returns.colours(layers.points);
+    this.#subgoals.group.visible = layers.subgoals;
+    this.#overlays.layers(layers);
+    this.invalidate();
+  }
+
+  /** Marks what somebody points at. */
+  mark(frame: Frame, target: Target | undefined): void {
+    this.#overlays.mark(frame, target);
+    this.invalidate();
+  }
+
+  /** How to find the subgoal or segment under a place of the window, within so many pixels. */
+  pointedAt(clientX: number, clientY: number, within_px: number): Finder | undefined {
+    return this.#overlays.pointedAt(this.#canvas, this.#viewpoint.camera, clientX, clientY, within_px);
   }
 
   /** The field's heights have changed. */
   sculpted(): void {
     this.#relief?.sculpted();
+    if (this.field) this.#returns.heights(this.field.min_m, this.field.max_m);
     this.#places.settle(this.#height);
     this.invalidate();
   }
@@ -128,15 +160,20 @@ export class Stage {
     this.#speed = speed;
   }
 
-  toggleFollow(): void {
-    if (this.following) this.#viewpoint.release();
-    else if (this.#shown) this.#viewpoint.follow(this.#shown);
-    this.invalidate();
+  /** Looks from elsewhere; `free` from above the whole ground. */
+  view(mode: CameraMode): void {
+    const robot = this.#shown;
+    if (mode === 'free' && this.field) this.#viewpoint.overview(this.field);
+    else if (robot && mode === 'chase') this.#viewpoint.follow(robot, robot.yaw - FIRST_LOOK_RAD);
+    else if (robot && mode === 'top') this.#viewpoint.above(robot);
+    else if (robot && mode === 'eye') this.#viewpoint.eye(robot, this.#sensorAt(robot));
+    if (this.#husky) this.#husky.group.visible = mode !== 'eye';
+    this.#resize();
   }
 
-  overview(): void {
-    if (this.field) this.#viewpoint.overview(this.field);
-    this.invalidate();
+  /** Lets the camera stay where it is while the robot drives on. */
+  release(): void {
+    this.#viewpoint.release();
   }
 
   toolInHand(inHand: boolean): void {
@@ -160,6 +197,10 @@ export class Stage {
     const caster = new Raycaster();
     caster.setFromCamera(at, this.#viewpoint.camera);
     return this.field?.intersect(caster.ray.origin, caster.ray.direction);
+  }
+
+  get #radius_m(): number {
+    return this.#info?.occupancy_radius_m ?? 0;
   }
 
   #height = (x: number, y: number): number => this.field?.height(x, y) ?? 0;
@@ -220,13 +261,13 @@ export class Stage {
     if (!pose || pose === before) return;
     this.#shown = pose;
     this.#husky?.pose(pose);
+    this.#overlays.pose(pose);
     if (before) {
       const [east, north] = [pose.x - before.x, pose.y - before.y];
       this.#husky?.roll(east * Math.cos(pose.yaw) + north * Math.sin(pose.yaw), wrap(pose.yaw - before.yaw));
     }
-    this.#viewpoint.track(pose);
-    this.#sensorAt(pose);
-    this.#relief?.robot(pose.x, pose.y, pose.yaw, this.#info?.occupancy_radius_m ?? 0);
+    this.#viewpoint.track(pose, this.#sensorAt(pose));
+    this.#relief?.robot(pose.x, pose.y, pose.yaw, this.#radius_m);
     this.invalidate();
   }
 }

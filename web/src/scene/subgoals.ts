@@ -22,6 +22,8 @@ import { colour } from './relief.ts';
 
 const CAPACITY = 256;
 const REFUSED = new Color(0x7d8590);
+/** Place in the order of drawing of what must not be veiled. */
+export const MARKS_ORDER = 10;
 
 export class Subgoals {
   readonly group = new Group();
@@ -42,6 +44,12 @@ export class Subgoals {
 
   constructor() {
     this.#spheres.setColorAt(0, REFUSED);
+    // Drawn after the surfaces around the robot, which would veil them.
+    for (const mark of [this.#rims, this.#spheres, this.#halo, this.#stem]) {
+      mark.material.transparent = true;
+      mark.renderOrder = MARKS_ORDER;
+    }
+    this.#line.renderOrder = MARKS_ORDER;
     this.#spheres.frustumCulled = false;
     this.#rims.frustumCulled = false;
     this.#line.frustumCulled = false;

@@ -1,8 +1,14 @@
-/** The camera: orbits by mouse, touch and keys, follows the robot, and stays where it can see. */
+/** The camera: behind the robot, in its eye, above it or free; moved by mouse, touch and keys, and never in the ground. */
 
-import { MathUtils, MOUSE, PerspectiveCamera, TOUCH, Vector3 } from 'three';
+import { MathUtils, MOUSE, PerspectiveCamera, TOUCH } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import type { Pose } from '../core/protocol.ts';
+import { wrap } from '../ui/format.ts';
+import { Gaze } from './gaze.ts';
 import type { HeightField, Vector } from './heightfield.ts';
+
+/** `chase` follows behind the robot, `eye` is its sensor, `top` follows from above with north up, `free` stays. */
+export type CameraMode = 'chase' | 'eye' | 'top' | 'free';
 
 const FIELD_OF_VIEW_DEG = 42;
 const NEAREST_M = 3;
@@ -13,22 +19,33 @@ const FOLLOW_ELEVATION_RAD = 0.45;
 const TARGET_LIFT_M = 0.4;
 /** Room between the camera and the ground under it. */
 const CLEARANCE_M = 0.8;
+/** From above, the circle that the planner looks at and as much again around it. */
+const TOP_DISTANCE_M = 34;
+/** The chasing camera swings behind a turning robot within about this time. */
+const SWING_MS = 900;
 /** How far the camera rises with each picture while a hill hides the robot. */
 const RISE_RAD = 0.03;
 
 export class Viewpoint {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.1, 1500);
   readonly #controls: OrbitControls;
-  #following = true;
+  readonly #gaze: Gaze;
+  readonly #reduced = window.matchMedia('(prefers-reduced-motion: reduce)');
+  #mode: CameraMode = 'chase';
   #dragging = false;
+  /** The robot's heading when it was tracked last, and how much of its turns the camera has still to make. */
+  #heading_rad: number | undefined;
+  #swing_rad = 0;
+  #tracked_ms = 0;
 
   constructor(canvas: HTMLCanvasElement, changed: () => void) {
     this.camera.up.set(0, 0, 1);
+    this.#gaze = new Gaze(canvas, this.camera, changed);
     this.#controls = new OrbitControls(this.camera, canvas);
     this.#controls.maxPolarAngle = MathUtils.degToRad(86);
     this.#controls.minDistance = NEAREST_M;
     this.#controls.maxDistance = FARTHEST_M;
-    this.#controls.enableDamping = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+    this.#controls.enableDamping = !this.#reduced.matches;
     this.#controls.dampingFactor = 0.12;
     this.#controls.addEventListener('change', changed);
     this.#controls.addEventListener('start', () => {
@@ -39,19 +56,20 @@ export class Viewpoint {
     });
   }
 
-  get following(): boolean {
-    return this.#following;
+  get mode(): CameraMode {
+    return this.#mode;
   }
 
   /** Direction in which the viewer looks, in the plane. */
   get heading_rad(): number {
+    if (this.#mode === 'eye') return (this.#heading_rad ?? 0) + this.#gaze.turn_rad;
     const { target } = this.#controls;
     return Math.atan2(target.y - this.camera.position.y, target.x - this.camera.position.x);
   }
 
   /** The window's height in metres, one metre away. */
   get heightAtOneMetre(): number {
-    return 2 * Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
+    return 2 * Math.tan(MathUtils.degToRad(this.camera.fov / 2));
   }
 
   resize(aspect: number): void {
@@ -61,39 +79,86 @@ export class Viewpoint {
 
   /** Lets a drag run out gently. */
   update(): void {
-    this.#controls.update();
+    if (this.#mode !== 'eye') this.#controls.update();
   }
 
   /** Stands behind the robot as seen along `heading_rad`, and follows it from now on. */
   follow(robot: Vector, heading_rad = this.heading_rad): void {
-    this.#following = true;
-    this.#controls.target.set(robot.x, robot.y, robot.z + TARGET_LIFT_M);
+    this.#enter('chase');
+    this.#aim(robot);
     this.#stand(heading_rad + Math.PI, FOLLOW_ELEVATION_RAD, FOLLOW_DISTANCE_M);
+  }
+
+  /** Looks down on the robot, north up, and follows it from now on. */
+  above(robot: Vector): void {
+    this.#enter('top');
+    this.#aim(robot);
+    this.#stand(-Math.PI / 2, Math.PI / 2, TOP_DISTANCE_M);
+  }
+
+  /** Looks through the robot's sensor from now on. */
+  eye(pose: Pose, sensor: Vector): void {
+    this.#enter('eye');
+    this.#gaze.begin();
+    this.track(pose, sensor);
   }
 
   /** Stays where it is while the robot drives on. */
   release(): void {
-    this.#following = false;
+    this.#enter('free');
   }
 
-  /** The robot has moved to here. */
-  track(robot: Vector): void {
-    if (!this.#following) return;
-    const shift = new Vector3(robot.x, robot.y, robot.z + TARGET_LIFT_M).sub(this.#controls.target);
-    this.#controls.target.add(shift);
-    this.camera.position.add(shift);
+  /** The robot and its sensor have moved to here. */
+  track(robot: Pose, sensor: Vector): void {
+    if (this.#mode === 'eye') this.#gaze.stand(robot, sensor);
+    if (this.#mode === 'chase' || this.#mode === 'top') {
+      const before = this.#controls.target.clone();
+      this.#aim(robot);
+      this.camera.position.add(this.#controls.target).sub(before);
+    }
+    const now_ms = performance.now();
+    this.#swing_rad += wrap(robot.yaw - (this.#heading_rad ?? robot.yaw));
+    if (this.#mode !== 'chase' || this.#reduced.matches || this.#dragging) this.#swing_rad = 0;
+    const part_rad = this.#swing_rad * (1 - Math.exp((this.#tracked_ms - now_ms) / SWING_MS));
+    this.#swing_rad -= part_rad;
+    this.#heading_rad = robot.yaw;
+    this.#tracked_ms = now_ms;
+    if (part_rad !== 0) this.nudge(part_rad, 0, 1);
+  }
+
+  /** Forgets the robot: the next place is that of another run. */
+  reset(): void {
+    this.#heading_rad = undefined;
+    this.#swing_rad = 0;
   }
 
   /** The whole ground from the south, from above. */
   overview(field: HeightField): void {
-    this.#following = false;
+    this.#enter('free');
     const width_m = Math.max(field.width_m / Math.min(this.camera.aspect, 1.5), field.depth_m);
     this.#controls.target.set(field.width_m / 2, field.depth_m / 2, field.min_m);
     this.#stand(-Math.PI / 2, 0.85, (1.1 * width_m) / this.heightAtOneMetre);
   }
 
+  #aim(robot: Vector): void {
+    this.#controls.target.set(robot.x, robot.y, robot.z + TARGET_LIFT_M);
+  }
+
+  #enter(mode: CameraMode): void {
+    if (this.#mode === 'eye') this.#gaze.end();
+    this.#mode = mode;
+    this.#swing_rad = 0;
+    this.#controls.enabled = mode !== 'eye';
+    // From above, a drag turns the map and never tilts it.
+    this.#controls.maxPolarAngle = mode === 'top' ? 0 : MathUtils.degToRad(86);
+    if (mode === 'eye' || this.camera.fov === FIELD_OF_VIEW_DEG) return;
+    this.camera.fov = FIELD_OF_VIEW_DEG;
+    this.camera.updateProjectionMatrix();
+  }
+
   /** With a tool in hand the main button and one finger are the tool's; the other button and two fingers move the view. */
   toolInHand(inHand: boolean): void {
+    this.#gaze.toolInHand = inHand;
     this.#controls.mouseButtons = {
       LEFT: inHand ? null : MOUSE.ROTATE,
       MIDDLE: MOUSE.DOLLY,
@@ -104,22 +169,27 @@ export class Viewpoint {
 
   /** Turns, tilts and zooms by steps. */
   nudge(turn_rad: number, tilt_rad: number, zoom: number): void {
+    if (this.#mode === 'eye') {
+      this.#gaze.nudge(-turn_rad, -tilt_rad, zoom);
+      return;
+    }
     const offset = this.camera.position.clone().sub(this.#controls.target);
     const distance_m = offset.length();
     this.#stand(
       Math.atan2(offset.y, offset.x) + turn_rad,
-      MathUtils.clamp(Math.asin(offset.z / distance_m) + tilt_rad, 0.08, 1.54),
+      MathUtils.clamp(Math.asin(offset.z / distance_m) + tilt_rad, 0.08, this.#mode === 'top' ? Math.PI / 2 : 1.54),
       MathUtils.clamp(distance_m * zoom, NEAREST_M, FARTHEST_M),
     );
   }
 
   /** Before each picture: out of the ground, and up while a hill hides the robot that it follows. */
   clear(field: HeightField): void {
+    if (this.#mode === 'eye') return;
     const { position } = this.camera;
     if (field.contains(position.x, position.y)) {
       position.z = Math.max(position.z, field.height(position.x, position.y) + CLEARANCE_M);
     }
-    if (!this.#following || this.#dragging) return;
+    if (this.#mode !== 'chase' || this.#dragging) return;
     const line = this.#controls.target.clone().sub(position);
     const hit = field.intersect(position, line);
     // What the ray meets at the robot or beyond it hides nothing.

@@ -16,8 +16,6 @@ export interface Actions {
   load(scenario: string, setting: Setting, seed: number | undefined): void;
   selectTool(tool: Tool): void;
   setBrushRadius(radius_m: number): void;
-  toggleFollow(): void;
-  overview(): void;
   help(): void;
 }
 
@@ -31,7 +29,6 @@ export class Controls {
   readonly #learning = byId('learning', HTMLSelectElement);
   readonly #seed = byId('seed', HTMLInputElement);
   readonly #play = byId('play', HTMLButtonElement);
-  readonly #follow = byId('follow', HTMLButtonElement);
   readonly #brush = byId('brush', HTMLElement);
   readonly #brushSize = byId('brush-size', HTMLInputElement);
   readonly #brushValue = byId('brush-value', HTMLOutputElement);
@@ -53,8 +50,6 @@ export class Controls {
     this.#onClick('play', () => actions.togglePlay());
     this.#onClick('step', () => actions.step());
     this.#onClick('restart', () => actions.restart());
-    this.#onClick('follow', () => actions.toggleFollow());
-    this.#onClick('overview', () => actions.overview());
     this.#onClick('help', () => actions.help());
     this.#onClick('next', () => actions.next());
     for (const input of this.#radios('tool')) {
@@ -72,10 +67,6 @@ export class Controls {
     const label = playing ? 'Pause' : 'Play';
     this.#play.setAttribute('aria-label', label);
     this.#play.title = `${label} (Space)`;
-  }
-
-  showFollowing(following: boolean): void {
-    this.#follow.setAttribute('aria-pressed', String(following));
   }
 
   showSession({ scenario, preset, learning, seed }: SessionInfo): void {

@@ -10,25 +10,40 @@ export interface KeyActions {
   faster(steps: number): void;
   selectTool(tool: Tool): void;
   growBrush(steps: number): void;
-  toggleFollow(): void;
-  overview(): void;
+  /** Puts down the tool and lets go of what was pointed at. */
+  letGo(): void;
   help(): void;
 }
 
-export function bindKeys(actions: KeyActions): void {
+export interface ThinkingKeys {
+  toggleFollow(): void;
+  toggleEye(): void;
+  toggleTop(): void;
+  overview(): void;
+  toggleLayers(): void;
+  toggleImage(): void;
+  tour(): void;
+}
+
+export function bindKeys(actions: KeyActions, thinking: ThinkingKeys): void {
   const keys: Record<string, () => void> = {
     ' ': () => actions.togglePlay(),
     s: () => actions.step(),
     r: () => actions.restart(),
     n: () => actions.next(),
-    f: () => actions.toggleFollow(),
-    o: () => actions.overview(),
+    f: () => thinking.toggleFollow(),
+    e: () => thinking.toggleEye(),
+    t: () => thinking.toggleTop(),
+    o: () => thinking.overview(),
+    x: () => thinking.toggleLayers(),
+    v: () => thinking.toggleImage(),
+    h: () => thinking.tour(),
     ',': () => actions.faster(-1),
     '.': () => actions.faster(1),
     '[': () => actions.growBrush(-1),
     ']': () => actions.growBrush(1),
     '?': () => actions.help(),
-    escape: () => actions.selectTool('look'),
+    escape: () => actions.letGo(),
   };
   TOOLS.forEach((tool, index) => {
     keys[String(index + 1)] = () => actions.selectTool(tool);
@@ -36,6 +51,8 @@ export function bindKeys(actions: KeyActions): void {
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (document.querySelector('dialog[open]') || takesKey(event)) return;
+    // The browser closes a popover itself.
+    if (event.key === 'Escape' && document.querySelector(':popover-open')) return;
     const act = keys[event.key.toLowerCase()];
     if (!act) return;
     event.preventDefault();
@@ -48,6 +65,6 @@ function takesKey(event: KeyboardEvent): boolean {
   const { target } = event;
   if (target instanceof HTMLSelectElement) return true;
   if (target instanceof HTMLInputElement)
-    return target.type === 'number' || (event.key === ' ' && target.type === 'radio');
+    return target.type === 'number' || (event.key === ' ' && (target.type === 'radio' || target.type === 'checkbox'));
   return event.key === ' ' && (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement);
 }

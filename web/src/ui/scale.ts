@@ -3,7 +3,7 @@
 export type Rgb = readonly [red: number, green: number, blue: number];
 
 /** Nine samples of matplotlib's plasma, without its darkest end, which vanishes on a dark ground. */
-const PLASMA: readonly Rgb[] = [
+export const PLASMA: readonly Rgb[] = [
   [75, 3, 161],
   [106, 0, 168],
   [143, 13, 164],
@@ -13,6 +13,18 @@ const PLASMA: readonly Rgb[] = [
   [242, 132, 75],
   [252, 166, 54],
   [252, 206, 37],
+];
+
+/** Eight samples of matplotlib's viridis, without its darkest end, for what is measured. */
+export const VIRIDIS: readonly Rgb[] = [
+  [71, 44, 122],
+  [59, 81, 139],
+  [44, 113, 142],
+  [33, 144, 141],
+  [39, 173, 129],
+  [92, 200, 99],
+  [170, 220, 50],
+  [253, 231, 37],
 ];
 
 /** Linear interpolation along evenly spaced stops; `t` outside 0 to 1 takes the nearest end. */

@@ -1,0 +1,35 @@
+/** What the 3D view shows of the planner's thinking. */
+
+export const POINT_COLOURS = ['use', 'range', 'height', 'ring', 'none'] as const;
+/** `use` sets the returns that the planner takes off from the others; `none` hides them all. */
+export type PointColours = (typeof POINT_COLOURS)[number];
+
+/** The surfaces around the robot, from the inner to the outer one. */
+export const SURFACES = ['observed', 'occupancy', 'variance'] as const;
+export type Surface = (typeof SURFACES)[number];
+
+export interface Layers {
+  readonly points: PointColours;
+  readonly observed: boolean;
+  readonly occupancy: boolean;
+  readonly variance: boolean;
+  readonly segments: boolean;
+  readonly subgoals: boolean;
+  /** The straight ways to the subgoals, as far as the forecast reaches. */
+  readonly ways: boolean;
+}
+
+export const FIRST_LAYERS: Layers = {
+  points: 'use',
+  observed: false,
+  occupancy: false,
+  variance: false,
+  segments: false,
+  subgoals: true,
+  ways: false,
+};
+
+/** Whether the layers need the surfaces that the worker predicts on demand. */
+export function needsSurfaces(layers: Layers): boolean {
+  return SURFACES.some((surface) => layers[surface]);
+}

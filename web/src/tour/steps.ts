@@ -1,0 +1,113 @@
+/** The paper, step by step, on the live scene. */
+
+import type { Frame, SessionInfo } from '../core/protocol.ts';
+import type { Layers } from '../scene/layers.ts';
+import type { CameraMode } from '../scene/viewpoint.ts';
+import { type Finder, subgoalTarget } from '../ui/attention.ts';
+import { degrees, fixed } from '../ui/format.ts';
+
+export interface Step {
+  readonly title: string;
+  readonly text: (frame: Frame, info: SessionInfo) => string;
+  readonly camera: CameraMode;
+  /** What differs from the bare scene. */
+  readonly layers: Partial<Layers>;
+  /** Whether the variance image is large. */
+  readonly image?: true;
+  /** Whether the robot drives meanwhile. */
+  readonly drives?: true;
+  readonly marks?: Finder;
+}
+
+/** The scene that every step starts from. */
+export const BARE: Layers = {
+  points: 'none',
+  observed: false,
+  occupancy: false,
+  variance: false,
+  segments: false,
+  subgoals: false,
+  ways: false,
+};
+
+export const STEPS: readonly Step[] = [
+  {
+    title: 'A goal, and no map',
+    text: (_, { limits }) =>
+      `The robot knows where it stands and where the flag is, and nothing of the ground between. It must never roll beyond ${degrees(limits.roll_rad)} or pitch beyond ${degrees(limits.pitch_rad)}. So ten times a second it looks around and decides anew where to go.`,
+    camera: 'free',
+    layers: {},
+  },
+  {
+    title: 'It scans the ground',
+    text: ({ returns }, { occupancy_radius_m }) =>
+      `A LiDAR on its mast sends out 16 rings of beams; each ring has its own colour here. ${returns.toLocaleString('en')} beams of this scan came back. The method uses those from within ${metres(occupancy_radius_m)}, inside the dashed circle.`,
+    camera: 'chase',
+    layers: { points: 'ring' },
+  },
+  {
+    title: 'The occupancy surface',
+    text: (_, { occupancy_radius_m }) =>
+      `Every return is projected along its beam onto a surface around the sensor, with the occupancy ${metres(occupancy_radius_m)} minus its range: violet for near ground, yellow for ground almost out of reach. The drawing puts the surface inside the others to come.`,
+    camera: 'chase',
+    layers: { points: 'use', observed: true },
+  },
+  {
+    title: 'A Gaussian process fills the gaps',
+    text: () =>
+      'A sparse Gaussian process learns the occupancy over azimuth and elevation from these few points, and predicts it in every direction between them: the outer of the two surfaces.',
+    camera: 'chase',
+    layers: { observed: true, occupancy: true },
+  },
+  {
+    title: 'Where it is unsure, space is free',
+    text: () =>
+      'The process also says how sure it is. Where beams came back, its variance is low: dark. Where none did, it is high: light, and taken for free space. This outer surface, and not the predicted occupancy, is what the method reads the terrain from.',
+    camera: 'chase',
+    layers: { observed: true, variance: true },
+  },
+  {
+    title: 'Unrolled, it shows the skyline',
+    text: ({ threshold }, { preset }) =>
+      `Below the view, the same variance is unrolled, with what lies ahead in the middle. Where it passes the threshold V_th, ${fixed(threshold, 2)} ${preset === 'paper' ? 'as in the paper' : 'here and 0.70 in the paper'}, the ground ends and free space begins. This line is the terrain’s elevation profile.`,
+    camera: 'chase',
+    layers: { variance: true },
+    image: true,
+  },
+  {
+    title: 'Level segments',
+    text: (_, { demands, occupancy_radius_m }) =>
+      `The profile is cut into segments of one level each. One is good for subgoals when it is wider than the robot and a margin, ${fixed(demands.robot_width_m + demands.safety_margin_m, 2)} m together, and at most ${fixed(occupancy_radius_m * Math.sin(demands.max_slope_rad), 1)} m above or below the robot. Point at any to read why it was taken or refused.`,
+    camera: 'chase',
+    layers: { variance: true, segments: true },
+    image: true,
+    marks: ({ segments }) => {
+      const refused = segments.findIndex(({ verdict }) => verdict !== 'valid');
+      return { subgoal: undefined, segment: Math.max(refused, 0) };
+    },
+  },
+  {
+    title: 'The cheapest subgoal wins',
+    text: (_, { preset }) =>
+      `Subgoals stand on the segments. Each is charged for turning towards it, for what then remains to the goal, and for steepness.${preset === 'paper' ? '' : ' The best planner here also forecasts roll and pitch along the way, refuses ways that would tilt the robot too far, and charges for changing its mind and for ground it has been on.'} Yellow costs least; the ringed one is chosen.`,
+    camera: 'top',
+    layers: { subgoals: true, ways: true },
+    marks: (frame) =>
+      subgoalTarget(
+        frame,
+        frame.subgoals.findIndex(({ chosen }) => chosen),
+      ),
+  },
+  {
+    title: 'Drive, and look again',
+    text: () =>
+      'A PID controller turns the robot towards the subgoal and drives. A tenth of a second later there is another scan, and all of this happens again. Now it is yours: raise a hill in its way, or give it another goal.',
+    camera: 'chase',
+    layers: { points: 'use', subgoals: true },
+    drives: true,
+  },
+];
+
+function metres(length_m: number): string {
+  return `${fixed(length_m, Number.isInteger(length_m) ? 0 : 1)} m`;
+}
