@@ -3,6 +3,7 @@
 import type { MaplessState } from './api.ts';
 import { entry, following } from './core/catalogue.ts';
 import { CoreClient } from './core/client.ts';
+import type { Overrides } from './core/overrides.ts';
 import type { Brush, Frame, Ground, GroundPatch, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
 import { HeightField } from './scene/heightfield.ts';
 import type { Tool } from './scene/tools.ts';
@@ -10,6 +11,8 @@ import { SPEEDS } from './ui/controls.ts';
 
 /** How long the result of a trial stands before the page goes on by itself. */
 const LINGER_S = 8;
+/** One jump along the timeline. */
+const JUMP_S = 5;
 
 export interface Views {
   /** A scenario, goal or start changed; with `field`, the ground is another one. */
@@ -40,6 +43,8 @@ export class App {
   #lingering: ReturnType<typeof setInterval> | undefined;
   #sculpting = 0;
   #waitingDab: Brush | undefined;
+  #seeking = false;
+  #waitingTick: number | undefined;
 
   constructor(views: Views) {
     this.#views = views;
@@ -69,7 +74,7 @@ export class App {
   state(): MaplessState | undefined {
     const [info, frame, field] = [this.#info, this.#frame, this.#field];
     if (!info || !frame || !field) return undefined;
-    const { buffers: _buffers, path: _path, segments, subgoals, ...rest } = frame;
+    const { buffers: _buffers, path: _path, ahead: _ahead, anew: _anew, segments, subgoals, ...rest } = frame;
     return {
       ...rest,
       scenario: info.scenario,
@@ -77,7 +82,9 @@ export class App {
       learning: info.learning,
       seed: info.seed,
       start: info.start,
+      waypoints: info.waypoints,
       goal: info.goal,
+      overrides: info.overrides,
       playing: this.#playing,
       speed: this.#speed,
       ground: { columns: field.columns, rows: field.rows, cell_m: field.cell_m },
@@ -88,7 +95,8 @@ export class App {
 
   async load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'load', scenario, setting: { ...this.setting, ...setting }, seed });
+    const overrides = this.#info?.overrides ?? {};
+    await this.#core.request({ type: 'load', scenario, setting: { ...this.setting, ...setting }, seed, overrides });
     this.#views.clearNotice();
   }
 
@@ -137,9 +145,59 @@ export class App {
     return this.setSpeed(SPEEDS[Math.min(Math.max(index, 0), SPEEDS.length - 1)] ?? 1);
   }
 
-  async setGoal(goal: Place): Promise<void> {
+  /** What is loaded; nothing until the first scenario is. */
+  get info(): SessionInfo | undefined {
+    return this.#info;
+  }
+
+  get ground(): HeightField | undefined {
+    return this.#field;
+  }
+
+  /** The goal, with waypoints to drive to before it. */
+  async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'goal', goal });
+    await this.#core.request({ type: 'goal', goal, waypoints });
+  }
+
+  /** A goal after the present one, which becomes a waypoint. Waypoints behind the robot are left behind. */
+  addGoal(goal: Place): Promise<void> {
+    const { waypoints = [], goal: last } = this.#info ?? {};
+    if (!last) return this.setGoal(goal);
+    const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
+    return this.setGoal(goal, reached ? [] : [...waypoints.slice(this.#frame?.waypointsPassed ?? 0), last]);
+  }
+
+  /** Begins anew with these parameters in place of the scenario's own. */
+  async setOverrides(overrides: Overrides): Promise<void> {
+    this.#stopLingering();
+    await this.#core.request({ type: 'parameters', overrides });
+    this.#views.clearNotice();
+  }
+
+  /** Shows a tick of the run again and pauses there. Of many wishes in a row the last is carried out. */
+  async seek(tick: number): Promise<void> {
+    this.#stopLingering();
+    this.#show(false);
+    this.#waitingTick = tick;
+    if (this.#seeking) return;
+    this.#seeking = true;
+    try {
+      while (this.#waitingTick !== undefined) {
+        const now = this.#waitingTick;
+        this.#waitingTick = undefined;
+        await this.#core.request({ type: 'seek', tick: now });
+      }
+    } finally {
+      this.#seeking = false;
+    }
+  }
+
+  /** Some seconds back or forth along the timeline. */
+  async jump(times: number): Promise<void> {
+    const [info, frame] = [this.#info, this.#frame];
+    if (info && frame)
+      await this.seek((this.#waitingTick ?? frame.tick) + Math.round((times * JUMP_S) / info.period_s));
   }
 
   async setStart(start: Heading): Promise<void> {
@@ -255,6 +313,7 @@ export class App {
       scenario: this.scenario,
       setting: this.setting,
       seed: this.#info?.seed,
+      overrides: this.#info?.overrides ?? {},
     });
     again
       .then(() => this.setSpeed(this.#speed))

@@ -7,6 +7,8 @@ import './style/panels.css';
 import { publish } from './api.ts';
 import { App } from './app.ts';
 import { CATALOGUE, entry, following } from './core/catalogue.ts';
+import { countOverrides } from './core/overrides.ts';
+import type { Lab } from './lab/lab.ts';
 import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
 import { DecisionPanel } from './panel/decision.ts';
 import { MetricsPanel } from './panel/metrics.ts';
@@ -19,6 +21,7 @@ import { byId, setText } from './ui/dom.ts';
 import { bindKeys } from './ui/keys.ts';
 import { Notice } from './ui/notice.ts';
 import { readTheme, watchTheme } from './ui/theme.ts';
+import { TimelineBar } from './ui/timeline.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
@@ -42,6 +45,27 @@ const status = new StatusPanel({
 const result = element('result');
 const help = byId('help-sheet', HTMLDialogElement);
 
+/** The drawer with parameters, comparison and seeds: loaded when it is first opened. */
+let lab: Lab | undefined;
+
+async function openLab(): Promise<void> {
+  if (!lab) {
+    const { Lab } = await import('./lab/lab.ts');
+    lab ??= new Lab(app, byId('lab', HTMLButtonElement));
+  }
+  lab.toggle();
+}
+
+function labCount(count: number): void {
+  const badge = element('lab-count');
+  badge.hidden = count === 0;
+  setText(badge, String(count));
+  byId('lab', HTMLButtonElement).setAttribute(
+    'aria-label',
+    `Parameters, comparison, many seeds${count > 0 ? `; ${count} changed` : ''}`,
+  );
+}
+
 /** Without WebGL the numbers, the image and the controls still work. */
 let stage: Stage | undefined;
 try {
@@ -53,6 +77,9 @@ try {
 const app = new App({
   session(info, field) {
     stage?.session(info, field);
+    timeline.session(info.period_s);
+    labCount(countOverrides(info.overrides));
+    lab?.session(info);
     variance.session(info);
     roll.limit(info.limits.roll_rad);
     pitch.limit(info.limits.pitch_rad);
@@ -67,6 +94,8 @@ const app = new App({
   },
   frame(frame) {
     stage?.frame(frame);
+    timeline.show(frame);
+    lab?.frame(frame);
     variance.show(frame);
     decision.show(frame);
     metrics.show(frame.metrics);
@@ -97,7 +126,7 @@ const app = new App({
 
 const tools = stage
   ? new GroundTools(view, stage, {
-      setGoal: (goal) => app.attempt(app.setGoal(goal)),
+      setGoal: (goal, added) => app.attempt(added ? app.addGoal(goal) : app.setGoal(goal)),
       setStart: (start) => app.attempt(app.setStart(start)),
       sculpt: (brush) => app.attempt(app.dab(brush)),
     })
@@ -126,8 +155,14 @@ const actions = {
     controls.showFollowing(false);
   },
   help: () => help.showModal(),
+  addStops: (adding: boolean) => tools?.adding(adding),
+  clearStops: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
+  jump: (times: number) => app.attempt(app.jump(times)),
+  lab: () => app.attempt(openLab()),
 };
 const controls = new Controls(actions);
+const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
+byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
 bindKeys(actions);
 controls.showTool('look');
 controls.showSpeed(1);

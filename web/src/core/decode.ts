@@ -15,6 +15,7 @@ export const SCENE = [
   'sensor_height_m',
   'image_columns',
   'image_rows',
+  'period_s',
 ] as const;
 
 /** Order of the scalars in `CoreSession.status`. */
@@ -38,6 +39,7 @@ export const STATUS = [
   'mean_vibration_rad_s',
   'mean_elevation_rate_cm_s',
   'curvature_change_rad_m',
+  'waypoints_passed',
 ] as const;
 
 const SEGMENT_STRIDE = 6;

@@ -2,6 +2,8 @@
 
 import { terrainFile } from './catalogue.ts';
 import { decodeSegments, decodeSubgoals, named, SCENE, STATUS } from './decode.ts';
+import { type Overrides, sectionsOf } from './overrides.ts';
+import type { ParameterGroup } from './parameters.ts';
 import type {
   Activity,
   Brush,
@@ -14,6 +16,7 @@ import type {
   Place,
   SessionInfo,
   Setting,
+  Timeline,
 } from './protocol.ts';
 import type { CoreModule, CoreSession } from './wasm.ts';
 
@@ -25,6 +28,8 @@ export class Session {
   readonly #scenario: string;
   readonly #setting: Setting;
   readonly #pool: FrameBuffers[] = [];
+  #overrides: Overrides = {};
+  #parameters: readonly ParameterGroup[] = [];
   #info: SessionInfo;
   #planner_ms = 0;
 
@@ -32,6 +37,7 @@ export class Session {
     this.#core = core;
     this.#scenario = scenario;
     this.#setting = setting;
+    this.#readParameters();
     this.#info = this.#readInfo();
   }
 
@@ -64,9 +70,27 @@ export class Session {
     this.#planner_ms = 0;
   }
 
-  setGoal(goal: Place): void {
-    this.#core.set_goal(goal.x, goal.y);
+  setRoute(waypoints: readonly Place[], goal: Place): void {
+    this.#core.set_route(new Float64Array(waypoints.flatMap(({ x, y }) => [x, y])), goal.x, goal.y);
     this.#info = this.#readInfo();
+  }
+
+  /** Begins anew with these overrides; the ground, the start and the route stay. */
+  setOverrides(overrides: Overrides): void {
+    this.#core.set_parameters(sectionsOf(overrides));
+    this.#overrides = overrides;
+    this.#readParameters();
+    this.#info = this.#readInfo();
+    this.#planner_ms = 0;
+  }
+
+  goBack(tick: number): void {
+    this.#core.go_back(BigInt(tick));
+  }
+
+  get timeline(): Timeline {
+    const [first = 0, end = 0, ...changes] = this.#core.timeline();
+    return { first, end, changes };
   }
 
   setStart(start: Heading): void {
@@ -108,7 +132,7 @@ export class Session {
     if (buffers.variance.length === columns * rows) this.#pool.push(buffers);
   }
 
-  frame(path: Float32Array<ArrayBuffer>): Frame {
+  frame(travelled: Pick<Frame, 'path' | 'anew' | 'ahead'>): Frame {
     const core = this.#core;
     const status = this.status();
     const buffers = this.#pool.pop() ?? this.#newBuffers();
@@ -149,23 +173,38 @@ export class Session {
       planner_ms: this.#planner_ms,
       digest: core.digest(),
       buffers,
-      path,
+      timeline: this.timeline,
+      waypointsPassed: status.waypoints_passed,
+      ...travelled,
     };
   }
 
   #readInfo(): SessionInfo {
-    const scene = named(SCENE, this.#core.scene());
+    const values = this.#core.scene();
+    const scene = named(SCENE, values.subarray(0, SCENE.length));
+    const places = values.subarray(SCENE.length);
     return {
       scenario: this.#scenario,
       ...this.#setting,
       seed: Number(this.#core.seed()),
       start: { x: scene.start_x, y: scene.start_y, heading_rad: scene.start_heading_rad },
+      waypoints: Array.from({ length: places.length / 2 }, (_, at) => ({
+        x: places[2 * at] ?? 0,
+        y: places[2 * at + 1] ?? 0,
+      })),
       goal: { x: scene.goal_x, y: scene.goal_y },
+      period_s: scene.period_s,
+      parameters: this.#parameters,
+      overrides: this.#overrides,
       limits: { roll_rad: scene.roll_limit_rad, pitch_rad: scene.pitch_limit_rad },
       occupancy_radius_m: scene.occupancy_radius_m,
       sensor_height_m: scene.sensor_height_m,
       image: { columns: scene.image_columns, rows: scene.image_rows },
     };
+  }
+
+  #readParameters(): void {
+    this.#parameters = JSON.parse(this.#core.parameters());
   }
 
   #newBuffers(): FrameBuffers {

@@ -1,8 +1,9 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
+import { countOverrides } from './overrides.ts';
 import type { Command, Frame, FromWorker, ToWorker } from './protocol.ts';
-import { TICK_RATE_HZ } from './protocol.ts';
 import { Session } from './session.ts';
+import { Trail } from './trail.ts';
 import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
 
 /** Frames that the page may have at once, the one it shows among them; while it is slower, frames are skipped. */
@@ -23,7 +24,12 @@ let scheduled = false;
 let inFlight = 0;
 let lastFrame_ms = 0;
 let unsent = false;
-let path: number[] = [];
+const trail = new Trail();
+/** The newest tick that the page has seen; nothing after a jump. */
+let seen: number | undefined;
+let rewound = false;
+/** The newest wish to go elsewhere in time: older ones are given up. */
+let newestSeek: number | undefined;
 /** Requests are carried out one after the other: loading waits for files. */
 let queue: Promise<void> = Promise.resolve();
 
@@ -62,7 +68,8 @@ function loop(): void {
     due_ms = Math.max(due_ms, began_ms - 250);
     while (running() && due_ms <= performance.now() && performance.now() - began_ms < SLICE_MS) {
       advance();
-      due_ms = Number.isFinite(speed) ? due_ms + 1000 / (TICK_RATE_HZ * speed) : performance.now();
+      const tick_ms = 1000 * (session?.info.period_s ?? 0);
+      due_ms = Number.isFinite(speed) ? due_ms + tick_ms / speed : performance.now();
     }
     showIfDue();
     schedule();
@@ -74,8 +81,7 @@ function loop(): void {
 function advance(): void {
   if (!session) return;
   session.tick();
-  const { x, y, z } = session.status();
-  path.push(x, y, z);
+  notePlace();
   unsent = true;
 }
 
@@ -91,8 +97,11 @@ function showIfDue(): void {
 
 function show(): void {
   if (!session) return;
-  const frame: Frame = session.frame(new Float32Array(path));
-  path = [];
+  const { tick } = session.status();
+  const anew = seen === undefined;
+  const path = trail.part(seen === undefined ? 0 : seen + 1, tick);
+  const frame: Frame = session.frame({ path, anew, ahead: rewound ? trail.after(tick) : undefined });
+  [seen, rewound] = [tick, false];
   unsent = false;
   inFlight += 1;
   const { points, variance, profile, kinds } = frame.buffers;
@@ -101,17 +110,42 @@ function show(): void {
 
 function openFromStart(): void {
   if (!session) return;
-  path = [];
-  const { x, y, z } = session.status();
-  path.push(x, y, z);
+  const { tick, x, y, z } = session.status();
+  trail.begin(tick, x, y, z);
+  seen = undefined;
   due_ms = performance.now();
   show();
 }
 
-async function carryOut(command: Command): Promise<void> {
+function notePlace(): void {
+  if (!session) return;
+  const { tick, x, y, z } = session.status();
+  trail.put(tick, x, y, z);
+}
+
+/** Goes to a tick: from the nearest copy before it, the ticks in between are run again. */
+async function seek(tick: number, id: number): Promise<void> {
+  if (!session) return;
+  playing = false;
+  const { first, end } = session.timeline;
+  const target = Math.min(Math.max(Math.round(tick), first), end);
+  session.goBack(target);
+  let rested_ms = performance.now();
+  while (session.status().tick < target && session.outcome === 'running' && id === newestSeek) {
+    session.tick();
+    if (performance.now() - rested_ms < SLICE_MS) continue;
+    await new Promise((resolve) => setTimeout(resolve));
+    rested_ms = performance.now();
+  }
+  [seen, rewound] = [undefined, true];
+  show();
+}
+
+async function carryOut(command: Command, id: number): Promise<void> {
   if (command.type === 'load') {
     core ??= await loadCore();
     const opened = await Session.open(core, command.scenario, command.setting, command.seed);
+    if (countOverrides(command.overrides) > 0) opened.setOverrides(command.overrides);
     session?.free();
     session = opened;
     const ground = session.ground();
@@ -144,8 +178,17 @@ async function carryOut(command: Command): Promise<void> {
       post({ type: 'session', info: session.info, ground: undefined });
       openFromStart();
       break;
+    case 'seek':
+      await seek(command.tick, id);
+      break;
+    case 'parameters':
+      session.setOverrides(command.overrides);
+      post({ type: 'session', info: session.info, ground: undefined });
+      openFromStart();
+      break;
     case 'goal':
-      session.setGoal(command.goal);
+      session.setRoute(command.waypoints, command.goal);
+      trail.cut(session.status().tick);
       post({ type: 'session', info: session.info, ground: undefined });
       show();
       break;
@@ -157,6 +200,7 @@ async function carryOut(command: Command): Promise<void> {
       break;
     case 'sculpt': {
       const patch = session.sculpt(command.brush);
+      trail.cut(session.status().tick);
       if (patch) post({ type: 'ground', patch }, [patch.heights_m.buffer]);
       unsent = true;
       showIfDue();
@@ -178,9 +222,10 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
     return;
   }
   const { id, command } = data;
+  if (command.type === 'seek') newestSeek = id;
   queue = queue.then(async () => {
     try {
-      await carryOut(command);
+      await carryOut(command, id);
       post({ type: 'done', id });
     } catch (error) {
       fail(error, id);

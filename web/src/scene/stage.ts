@@ -1,7 +1,7 @@
 /** The 3D view: owns the renderer and shows what frames say. Draws only when something changed. */
 
 import { AmbientLight, DirectionalLight, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
-import { type Frame, type Pose, type SessionInfo, TICK_RATE_HZ } from '../core/protocol.ts';
+import type { Frame, Pose, SessionInfo } from '../core/protocol.ts';
 import { wrap } from '../ui/format.ts';
 import type { Theme } from '../ui/theme.ts';
 import { Glide } from './glide.ts';
@@ -15,6 +15,7 @@ import { Route } from './route.ts';
 import { Subgoals } from './subgoals.ts';
 import { SUN } from './sunlight.ts';
 import { Viewpoint } from './viewpoint.ts';
+import { Waypoints } from './waypoints.ts';
 
 /** Triangles of finer grids cost more than they show; a processor draws far fewer of them than a graphics card. */
 const GRID_VERTICES = { hardware: 512, software: 160 };
@@ -22,6 +23,8 @@ const GRID_VERTICES = { hardware: 512, software: 160 };
 const FIRST_LOOK_RAD = 0.35;
 /** At slow motion the robot still glides no longer than this from tick to tick. */
 const LONGEST_GLIDE_MS = 250;
+/** The way not taken again, or not yet. */
+const PALE = 0.35;
 
 export class Stage {
   readonly #canvas: HTMLCanvasElement;
@@ -31,8 +34,10 @@ export class Stage {
   readonly #scene = new Scene();
   readonly #returns = new Returns();
   readonly #route = new Route();
+  readonly #ahead = new Route(PALE);
   readonly #subgoals = new Subgoals();
   readonly #places = new Places();
+  readonly #waypoints = new Waypoints();
   readonly #glide = new Glide();
   readonly #sensor = new Vector3();
   #husky: Husky | undefined;
@@ -51,6 +56,7 @@ export class Stage {
     const sun = new DirectionalLight(0xfff3df, 3.2);
     sun.position.set(...SUN);
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
+    this.#scene.add(this.#ahead.line, this.#waypoints.group);
     this.#scene.add(this.#route.line, this.#returns.points, this.#subgoals.group, this.#places.group);
     this.theme(theme);
     new ResizeObserver(() => this.#resize()).observe(canvas);
@@ -81,7 +87,8 @@ export class Stage {
 
   theme(theme: Theme): void {
     this.#theme = theme;
-    for (const part of [this.#relief, this.#returns, this.#route, this.#subgoals, this.#places]) part?.theme(theme);
+    const marks = [this.#subgoals, this.#places, this.#waypoints];
+    for (const part of [this.#relief, this.#returns, this.#route, this.#ahead, ...marks]) part?.theme(theme);
     this.invalidate();
   }
 
@@ -94,6 +101,7 @@ export class Stage {
     }
     const { start, goal } = info;
     this.#places.show(goal, start, this.#height);
+    this.#waypoints.show(info.waypoints, this.#height);
     if (field) {
       const towards = Math.atan2(goal.y - start.y, goal.x - start.x);
       this.#viewpoint.follow({ ...start, z: this.#height(start.x, start.y) }, towards - FIRST_LOOK_RAD);
@@ -102,13 +110,20 @@ export class Stage {
   }
 
   frame(frame: Frame): void {
-    const { pose, tick, buffers, returns } = frame;
-    if (tick === 0) {
+    const { pose, buffers, returns } = frame;
+    if (frame.anew) {
       this.#route.clear();
+      this.#ahead.clear();
       this.#glide.reset();
     }
+    if (frame.ahead) this.#ahead.extend(frame.ahead);
+    this.#waypoints.passed(frame.waypointsPassed);
     this.#route.extend(frame.path);
-    this.#glide.to(pose, performance.now(), Math.min(1000 / (TICK_RATE_HZ * this.#speed), LONGEST_GLIDE_MS));
+    this.#glide.to(
+      pose,
+      performance.now(),
+      Math.min((1000 * (this.#info?.period_s ?? 0)) / this.#speed, LONGEST_GLIDE_MS),
+    );
     this.#returns.show(buffers.points, returns, this.#sensorAt(pose), this.#info?.occupancy_radius_m ?? 0);
     this.#subgoals.show(frame.subgoals, this.#height);
     this.invalidate();
@@ -118,6 +133,7 @@ export class Stage {
   sculpted(): void {
     this.#relief?.sculpted();
     this.#places.settle(this.#height);
+    this.#waypoints.settle(this.#height);
     this.invalidate();
   }
 
@@ -207,6 +223,7 @@ export class Stage {
     if (this.field) this.#viewpoint.clear(this.field);
     this.#subgoals.attach(this.#sensor, camera.position);
     this.#places.face(camera.position);
+    this.#waypoints.face(camera.position);
     this.#renderer.render(this.#scene, camera);
     if (this.#pacer.drew(now_ms)) this.#resize();
   }

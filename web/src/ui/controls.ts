@@ -19,6 +19,9 @@ export interface Actions {
   toggleFollow(): void;
   overview(): void;
   help(): void;
+  /** Whether further goals are added to the route. */
+  addStops(adding: boolean): void;
+  clearStops(): void;
 }
 
 const LEARNING: readonly Learning[] = ['fixed', 'once', 'every_scan'];
@@ -33,6 +36,8 @@ export class Controls {
   readonly #play = byId('play', HTMLButtonElement);
   readonly #follow = byId('follow', HTMLButtonElement);
   readonly #brush = byId('brush', HTMLElement);
+  readonly #routeTools = byId('route-tools', HTMLElement);
+  readonly #routeClear = byId('route-clear', HTMLButtonElement);
   readonly #brushSize = byId('brush-size', HTMLInputElement);
   readonly #brushValue = byId('brush-value', HTMLOutputElement);
   readonly #actions: Actions;
@@ -57,6 +62,9 @@ export class Controls {
     this.#onClick('overview', () => actions.overview());
     this.#onClick('help', () => actions.help());
     this.#onClick('next', () => actions.next());
+    this.#onClick('route-clear', () => actions.clearStops());
+    const add = byId('route-add', HTMLInputElement);
+    add.addEventListener('change', () => actions.addStops(add.checked));
     for (const input of this.#radios('tool')) {
       input.addEventListener('change', () => actions.selectTool(TOOLS.find((tool) => tool === input.value) ?? 'look'));
     }
@@ -78,7 +86,8 @@ export class Controls {
     this.#follow.setAttribute('aria-pressed', String(following));
   }
 
-  showSession({ scenario, preset, learning, seed }: SessionInfo): void {
+  showSession({ scenario, preset, learning, seed, waypoints }: SessionInfo): void {
+    this.#routeClear.hidden = waypoints.length === 0;
     this.#scenario.value = scenario;
     this.#preset.value = preset;
     this.#learning.value = learning;
@@ -88,6 +97,7 @@ export class Controls {
 
   showTool(tool: Tool): void {
     for (const input of this.#radios('tool')) input.checked = input.value === tool;
+    this.#routeTools.hidden = tool !== 'goal';
     this.#brush.hidden = tool !== 'raise' && tool !== 'lower' && tool !== 'smooth';
   }
 

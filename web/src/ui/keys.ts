@@ -13,6 +13,9 @@ export interface KeyActions {
   toggleFollow(): void;
   overview(): void;
   help(): void;
+  /** So many jumps along the timeline. */
+  jump(times: number): void;
+  lab(): void;
 }
 
 export function bindKeys(actions: KeyActions): void {
@@ -20,6 +23,9 @@ export function bindKeys(actions: KeyActions): void {
     ' ': () => actions.togglePlay(),
     s: () => actions.step(),
     r: () => actions.restart(),
+    j: () => actions.jump(-1),
+    l: () => actions.jump(1),
+    p: () => actions.lab(),
     n: () => actions.next(),
     f: () => actions.toggleFollow(),
     o: () => actions.overview(),
