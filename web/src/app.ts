@@ -168,10 +168,10 @@ export class App {
     return this.setGoal(goal, reached ? [] : [...waypoints.slice(this.#frame?.waypointsPassed ?? 0), last]);
   }
 
-  /** Begins anew with these parameters in place of the scenario's own. */
-  async setOverrides(overrides: Overrides): Promise<void> {
+  /** Begins anew with these parameters in place of the scenario's own, and another seed if given. */
+  async setOverrides(overrides: Overrides, seed?: number): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'parameters', overrides });
+    await this.#core.request({ type: 'parameters', overrides, seed });
     this.#views.clearNotice();
   }
 

@@ -51,7 +51,7 @@ let lab: Lab | undefined;
 async function openLab(): Promise<void> {
   if (!lab) {
     const { Lab } = await import('./lab/lab.ts');
-    lab ??= new Lab(app, byId('lab', HTMLButtonElement));
+    lab ??= new Lab(app, stage, byId('lab', HTMLButtonElement));
   }
   lab.toggle();
 }
@@ -110,7 +110,10 @@ const app = new App({
     result.dataset.outcome = frame.outcome;
     setText(element('result-words'), OUTCOME_WORDS[frame.outcome]);
   },
-  sculpted: () => stage?.sculpted(),
+  sculpted() {
+    stage?.sculpted();
+    lab?.sculpted();
+  },
   playing: (playing) => controls.showPlaying(playing),
   speed(speed) {
     controls.showSpeed(speed);

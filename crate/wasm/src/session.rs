@@ -103,18 +103,19 @@ impl Session {
     }
 
     /// Begins anew with other parameters: `sections` is TOML with nothing but `[planner]`, `[sensor]` and `[robot]`. Ground,
-    /// start and route stay as they are.
+    /// start and route stay as they are, and so does the seed unless another is given.
     ///
     /// # Errors
     /// A value that makes no sense, with its place and what was expected; nothing then changes.
-    pub fn set_parameters(&mut self, sections: &str) -> Result<(), JsError> {
+    pub fn set_parameters(&mut self, sections: &str, seed: Option<u64>) -> Result<(), JsError> {
         let running = self.file.with_parameters("settings", sections)?;
         let parameters = parameters::json(&parameters::values(&self.file, &running, self.preset)?);
-        let now = &self.now.trial;
-        let mut trial = trial(now.field().clone(), &running, self.preset, self.learning, self.seed)?;
+        let (now, seed) = (&self.now.trial, seed.unwrap_or(self.seed));
+        let mut trial = trial(now.field().clone(), &running, self.preset, self.learning, seed)?;
         trial.set_start(now.start())?;
         trial.set_route(now.waypoints_m().to_vec(), now.goal_m())?;
-        (self.now, self.history, self.parameters) = (Moment::new(trial), None, parameters);
+        (self.now, self.history) = (Moment::new(trial), None);
+        (self.parameters, self.seed) = (parameters, seed);
         Ok(())
     }
 

@@ -214,8 +214,8 @@ export type Command =
   | { type: 'speed'; speed: Speed }
   | { type: 'step' }
   | { type: 'goal'; goal: Place; waypoints: readonly Place[] }
-  /** Begins anew with these overrides in place of all others. */
-  | { type: 'parameters'; overrides: Overrides }
+  /** Begins anew with these overrides in place of all others, on the same ground and route. */
+  | { type: 'parameters'; overrides: Overrides; seed: number | undefined }
   /** Goes to a tick of the timeline and stays there. */
   | { type: 'seek'; tick: number }
   | { type: 'start'; start: Heading }

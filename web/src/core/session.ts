@@ -28,6 +28,8 @@ export class Session {
   readonly #scenario: string;
   readonly #setting: Setting;
   readonly #pool: FrameBuffers[] = [];
+  /** The numbers that the present info was read from. */
+  #scene: Float64Array = new Float64Array();
   #overrides: Overrides = {};
   #parameters: readonly ParameterGroup[] = [];
   #info: SessionInfo;
@@ -75,13 +77,21 @@ export class Session {
     this.#info = this.#readInfo();
   }
 
-  /** Begins anew with these overrides; the ground, the start and the route stay. */
-  setOverrides(overrides: Overrides): void {
-    this.#core.set_parameters(sectionsOf(overrides));
+  /** Begins anew with these overrides, and another seed if given; the ground, the start and the route stay. */
+  setOverrides(overrides: Overrides, seed?: number): void {
+    this.#core.set_parameters(sectionsOf(overrides), seed === undefined ? undefined : BigInt(seed));
     this.#overrides = overrides;
     this.#readParameters();
     this.#info = this.#readInfo();
     this.#planner_ms = 0;
+  }
+
+  /** Going back in time may bring another route back; says whether it did. */
+  followRoute(): boolean {
+    const values = this.#core.scene();
+    const same = values.length === this.#scene.length && values.every((value, index) => value === this.#scene[index]);
+    if (!same) this.#info = this.#readInfo();
+    return !same;
   }
 
   goBack(tick: number): void {
@@ -181,6 +191,7 @@ export class Session {
 
   #readInfo(): SessionInfo {
     const values = this.#core.scene();
+    this.#scene = values;
     const scene = named(SCENE, values.subarray(0, SCENE.length));
     const places = values.subarray(SCENE.length);
     return {

@@ -17,8 +17,8 @@ export interface CoreSession {
   set_start(x: number, y: number, heading_rad: number): void;
   /** The goal, with x and y of each waypoint before it. */
   set_route(waypoints: Float64Array, x: number, y: number): void;
-  /** Begins anew with the sections `[planner]`, `[sensor]` and `[robot]` of a scenario file. */
-  set_parameters(sections: string): void;
+  /** Begins anew with the sections `[planner]`, `[sensor]` and `[robot]` of a scenario file, and another seed if given. */
+  set_parameters(sections: string, seed?: bigint | null): void;
   /** JSON: a list of `ParameterGroup`. */
   parameters(): string;
   /** Goes back to this tick, or to a little before it. */

@@ -97,6 +97,7 @@ function showIfDue(): void {
 
 function show(): void {
   if (!session) return;
+  if (session.followRoute()) post({ type: 'session', info: session.info, ground: undefined });
   const { tick } = session.status();
   const anew = seen === undefined;
   const path = trail.part(seen === undefined ? 0 : seen + 1, tick);
@@ -182,7 +183,7 @@ async function carryOut(command: Command, id: number): Promise<void> {
       await seek(command.tick, id);
       break;
     case 'parameters':
-      session.setOverrides(command.overrides);
+      session.setOverrides(command.overrides, command.seed);
       post({ type: 'session', info: session.info, ground: undefined });
       openFromStart();
       break;

@@ -3,8 +3,11 @@
 import '../style/lab.css';
 import type { App } from '../app.ts';
 import type { Frame, SessionInfo } from '../core/protocol.ts';
+import type { Stage } from '../scene/stage.ts';
 import { html } from '../ui/dom.ts';
+import { CompareTab } from './compareTab.ts';
 import { ParametersTab } from './parametersTab.ts';
+import { SeedsTab } from './seedsTab.ts';
 
 /** One page of the drawer. */
 export interface Tab {
@@ -12,6 +15,8 @@ export interface Tab {
   readonly element: HTMLElement;
   session(info: SessionInfo): void;
   frame?(frame: Frame): void;
+  /** The ground was sculpted. */
+  sculpted?(): void;
 }
 
 export class Lab {
@@ -20,9 +25,9 @@ export class Lab {
   readonly #tabs: readonly Tab[];
   readonly #buttons: readonly HTMLButtonElement[];
 
-  constructor(app: App, opener: HTMLButtonElement) {
+  constructor(app: App, stage: Stage | undefined, opener: HTMLButtonElement) {
     this.#opener = opener;
-    this.#tabs = [new ParametersTab(app)];
+    this.#tabs = [new ParametersTab(app), new CompareTab(app, stage), new SeedsTab(app)];
     this.#buttons = this.#tabs.map((tab, index) => this.#button(tab, index));
     const list = html('div', 'lab-tabs', this.#buttons);
     list.setAttribute('role', 'tablist');
@@ -60,6 +65,10 @@ export class Lab {
 
   frame(frame: Frame): void {
     for (const tab of this.#tabs) tab.frame?.(frame);
+  }
+
+  sculpted(): void {
+    for (const tab of this.#tabs) tab.sculpted?.();
   }
 
   #button({ title, element }: Tab, index: number): HTMLButtonElement {

@@ -4,7 +4,7 @@ import type { Metrics } from '../core/protocol.ts';
 import { html, setText } from '../ui/dom.ts';
 import { fixed } from '../ui/format.ts';
 
-interface Row {
+export interface MetricRow {
   readonly key: keyof Metrics;
   readonly name: string;
   readonly symbol: string;
@@ -13,7 +13,7 @@ interface Row {
   readonly meaning: string;
 }
 
-const ROWS: readonly Row[] = [
+export const METRIC_ROWS: readonly MetricRow[] = [
   { key: 'distance_m', name: 'Distance', symbol: 'D', unit: 'm', decimals: 1, meaning: 'Way driven from the start.' },
   {
     key: 'mean_elevation_rate_cm_s',
@@ -61,7 +61,7 @@ export class MetricsPanel {
   readonly #values = new Map<keyof Metrics, HTMLElement>();
 
   constructor(list: HTMLElement) {
-    for (const row of ROWS) {
+    for (const row of METRIC_ROWS) {
       const value = html('span', 'metric-value', ['–']);
       this.#values.set(row.key, value);
       const item = html('div', 'metric', [
@@ -74,7 +74,7 @@ export class MetricsPanel {
   }
 
   show(metrics: Metrics): void {
-    for (const row of ROWS) {
+    for (const row of METRIC_ROWS) {
       const element = this.#values.get(row.key);
       if (element) setText(element, fixed(metrics[row.key], row.decimals));
     }

@@ -33,6 +33,11 @@ export class Route {
     this.#material.color.copy(colour(theme.accent));
   }
 
+  /** A colour of its own, for the way of another robot. */
+  paint(hex: string): void {
+    this.#material.color.set(hex);
+  }
+
   clear(): void {
     this.#last = undefined;
     this.#count = 0;

@@ -1,6 +1,15 @@
 /** The 3D view: owns the renderer and shows what frames say. Draws only when something changed. */
 
-import { AmbientLight, DirectionalLight, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
+import {
+  AmbientLight,
+  DirectionalLight,
+  type Object3D,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
 import type { Frame, Pose, SessionInfo } from '../core/protocol.ts';
 import { wrap } from '../ui/format.ts';
 import type { Theme } from '../ui/theme.ts';
@@ -79,6 +88,12 @@ export class Stage {
 
   get viewHeading_rad(): number {
     return this.#viewpoint.heading_rad;
+  }
+
+  /** Shows something more, which tells of its changes with `invalidate`. */
+  add(part: Object3D): void {
+    this.#scene.add(part);
+    this.invalidate();
   }
 
   invalidate(): void {
