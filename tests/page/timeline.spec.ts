@@ -92,6 +92,7 @@ test('stops are driven to in order, and cleared again', async ({ mapless: page }
   await until(page, (now) => now.waypointsPassed === 1, 110_000);
   await until(page, (now) => now.outcome === 'reached', 110_000);
 
+  await page.evaluate(() => window.mapless?.pause());
   await page.evaluate(() => window.mapless?.restart());
   await page.getByRole('radio', { name: 'Goal' }).check();
   await page.getByLabel('Add stops').check();

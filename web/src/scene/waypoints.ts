@@ -7,9 +7,9 @@ import type { Theme } from '../ui/theme.ts';
 import type { Vector } from './heightfield.ts';
 import { colour } from './relief.ts';
 
-const SIGN_PX = 96;
-const SIGN_M = 1.3;
-const POLE_M = 2.6;
+const SIGN_PX = 128;
+const SIGN_M = 0.9;
+const POLE_M = 2.2;
 const PASSED_OPACITY = 0.35;
 /** From farther away a sign grows with the distance. */
 const FULL_SIZE_WITHIN_M = 40;
@@ -85,17 +85,17 @@ export class Waypoints {
     if (!context || !this.#theme) return;
     const middle = SIGN_PX / 2;
     context.beginPath();
-    context.arc(middle, middle, middle - 5, 0, 2 * Math.PI);
+    context.arc(middle, middle, middle - 7, 0, 2 * Math.PI);
     context.fillStyle = css(this.#theme.goal);
     context.fill();
-    context.lineWidth = 6;
+    context.lineWidth = 9;
     context.strokeStyle = css(this.#theme.surface);
     context.stroke();
     context.fillStyle = css(this.#theme.surface);
-    context.font = `600 ${number < 10 ? 56 : 44}px system-ui, sans-serif`;
+    context.font = `600 ${number < 10 ? 74 : 58}px system-ui, sans-serif`;
     context.textAlign = 'center';
     context.textBaseline = 'middle';
-    context.fillText(String(number), middle, middle + 3);
+    context.fillText(String(number), middle, middle + 4);
     face.map?.dispose();
     face.map = new CanvasTexture(canvas);
     face.needsUpdate = true;
