@@ -80,9 +80,9 @@ pub fn values(file: &Scenario, running: &Scenario, preset: Preset) -> Result<Tab
     let fault = |error: toml::ser::Error| ScenarioFault::Value(error.to_string());
     let planner = Scenario { planner: file.planner.clone(), ..running.clone() }.planner_config(preset)?;
     Ok(Table::from_iter([
-        ("planner".to_owned(), Value::Table(Table::try_from(&planner).map_err(fault)?)),
-        ("sensor".to_owned(), Value::Table(Table::try_from(&file.sensor).map_err(fault)?)),
-        ("robot".to_owned(), Value::Table(Table::try_from(&file.robot).map_err(fault)?)),
+        ("planner".to_owned(), Value::try_from(&planner).map_err(fault)?),
+        ("sensor".to_owned(), Value::try_from(&file.sensor).map_err(fault)?),
+        ("robot".to_owned(), Value::try_from(&file.robot).map_err(fault)?),
     ]))
 }
 
