@@ -4,11 +4,15 @@
  */
 
 import type { App } from './app.ts';
+import type { Overrides } from './core/overrides.ts';
 import type { Brush, Frame, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
 
+/** Arrays and what only drawing needs stay out. */
+type Drawn = 'buffers' | 'path' | 'rows' | 'anew' | 'ahead' | 'world_from_sensor' | 'segments' | 'subgoals';
+
 /** What the page shows, as plain data. */
-export type MaplessState = Omit<Frame, 'buffers' | 'path' | 'rows' | 'world_from_sensor' | 'segments' | 'subgoals'> &
-  Pick<SessionInfo, 'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'goal'> & {
+export type MaplessState = Omit<Frame, Drawn> &
+  Pick<SessionInfo, 'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'waypoints' | 'goal' | 'overrides'> & {
     readonly playing: boolean;
     readonly speed: number;
     readonly ground: { readonly columns: number; readonly rows: number; readonly cell_m: number };
@@ -29,7 +33,12 @@ export interface MaplessApi {
   restart(): Promise<void>;
   /** Simulated seconds per second; `Infinity` is as fast as it goes. */
   setSpeed(speed: number): Promise<void>;
-  setGoal(goal: Place): Promise<void>;
+  /** The goal, with waypoints that are driven to before it. */
+  setGoal(goal: Place, waypoints?: readonly Place[]): Promise<void>;
+  /** Goes to a tick of the run so far and pauses; the state's `timeline` says which there are. */
+  seek(tick: number): Promise<void>;
+  /** Begins anew with other parameters, as tables with the names of a scenario file: `{ sensor: { range_noise_m: 0.1 } }`. */
+  setOverrides(overrides: Overrides): Promise<void>;
   setStart(start: Heading): Promise<void>;
   sculpt(brush: Brush): Promise<void>;
   /** Height of the ground in metres, nothing outside it. */
@@ -59,7 +68,9 @@ export function publish(app: App): void {
     step: used(() => app.step()),
     restart: used(() => app.restart()),
     setSpeed: used((speed: number) => app.setSpeed(speed)),
-    setGoal: used((goal: Place) => app.setGoal(goal)),
+    setGoal: used((goal: Place, waypoints?: readonly Place[]) => app.setGoal(goal, waypoints)),
+    seek: used((tick: number) => app.seek(tick)),
+    setOverrides: used((overrides: Overrides) => app.setOverrides(overrides)),
     setStart: used((start: Heading) => app.setStart(start)),
     sculpt: used((brush: Brush) => app.sculpt(brush)),
     heightAt: (place) => app.heightAt(place),

@@ -3,6 +3,7 @@
 import type { MaplessState } from './api.ts';
 import { entry, following } from './core/catalogue.ts';
 import { CoreClient } from './core/client.ts';
+import type { Overrides } from './core/overrides.ts';
 import type { Brush, Frame, Ground, GroundPatch, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
 import { RunRecord } from './core/record.ts';
 import { HeightField } from './scene/heightfield.ts';
@@ -11,6 +12,8 @@ import { SPEEDS } from './ui/controls.ts';
 
 /** How long the result of a trial stands before the page goes on by itself. */
 const LINGER_S = 8;
+/** One jump along the timeline. */
+const JUMP_S = 5;
 
 export interface Views {
   /** A scenario, goal or start changed; with `field`, the ground is another one. */
@@ -46,6 +49,8 @@ export class App {
   #sculpting = 0;
   #recovering = false;
   #waitingDab: Brush | undefined;
+  #seeking = false;
+  #waitingTick: number | undefined;
 
   constructor(views: Views) {
     this.#views = views;
@@ -79,6 +84,8 @@ export class App {
       buffers: _buffers,
       path: _path,
       rows: _rows,
+      anew: _anew,
+      ahead: _ahead,
       world_from_sensor: _sensor,
       segments,
       subgoals,
@@ -91,7 +98,9 @@ export class App {
       learning: info.learning,
       seed: info.seed,
       start: info.start,
+      waypoints: info.waypoints,
       goal: info.goal,
+      overrides: info.overrides,
       playing: this.#playing,
       speed: this.#speed,
       ground: { columns: field.columns, rows: field.rows, cell_m: field.cell_m },
@@ -114,7 +123,8 @@ export class App {
 
   async load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'load', scenario, setting: { ...this.setting, ...setting }, seed });
+    const overrides = this.#info?.overrides ?? {};
+    await this.#core.request({ type: 'load', scenario, setting: { ...this.setting, ...setting }, seed, overrides });
     this.#views.clearNotice();
   }
 
@@ -163,9 +173,63 @@ export class App {
     return this.setSpeed(SPEEDS[Math.min(Math.max(index, 0), SPEEDS.length - 1)] ?? 1);
   }
 
-  async setGoal(goal: Place): Promise<void> {
+  /** What is loaded; nothing until the first scenario is. */
+  get info(): SessionInfo | undefined {
+    return this.#info;
+  }
+
+  get ground(): HeightField | undefined {
+    return this.#field;
+  }
+
+  /** The goal, with waypoints to drive to before it. */
+  async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'goal', goal });
+    await this.#core.request({ type: 'goal', goal, waypoints });
+  }
+
+  /** A goal after the present one, which becomes a waypoint. Waypoints behind the robot are left behind. */
+  addGoal(goal: Place): Promise<void> {
+    const { waypoints = [], goal: last } = this.#info ?? {};
+    if (!last) return this.setGoal(goal);
+    const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
+    return this.setGoal(goal, reached ? [] : [...waypoints.slice(this.#frame?.waypointsPassed ?? 0), last]);
+  }
+
+  /** Begins anew with these parameters in place of the scenario's own, and another seed if given. */
+  async setOverrides(overrides: Overrides, seed?: number): Promise<void> {
+    this.#stopLingering();
+    await this.#core.request({ type: 'parameters', overrides, seed });
+    this.#views.clearNotice();
+  }
+
+  /** Shows a tick of the run again and pauses there. Of many wishes in a row the last is carried out. */
+  async seek(tick: number): Promise<void> {
+    this.#stopLingering();
+    this.#show(false);
+    this.#waitingTick = tick;
+    if (this.#seeking) return;
+    this.#seeking = true;
+    try {
+      while (this.#waitingTick !== undefined) {
+        const now = this.#waitingTick;
+        this.#waitingTick = undefined;
+        await this.#core.request({ type: 'seek', tick: now });
+      }
+    } finally {
+      this.#seeking = false;
+    }
+  }
+
+  async seekTime(time_s: number): Promise<void> {
+    if (this.#info) await this.seek(Math.round(time_s / this.#info.period_s));
+  }
+
+  /** Some seconds back or forth along the timeline. */
+  async jump(times: number): Promise<void> {
+    const [info, frame] = [this.#info, this.#frame];
+    if (info && frame)
+      await this.seek((this.#waitingTick ?? frame.tick) + Math.round((times * JUMP_S) / info.period_s));
   }
 
   async setStart(start: Heading): Promise<void> {
@@ -240,8 +304,8 @@ export class App {
   #onFrame(frame: Frame): void {
     const last = this.#frame;
     this.#frame = frame;
-    if (frame.tick === 0) this.record.clear();
     this.record.add(frame.rows);
+    this.record.end(frame.timeline.end);
     this.#views.frame(frame);
     this.#views.status(frame, this.#playing);
     // The newest frame stays readable; the one before goes back.

@@ -9,6 +9,8 @@ import './style/thinking.css';
 import { publish } from './api.ts';
 import { App } from './app.ts';
 import { CATALOGUE, entry, following } from './core/catalogue.ts';
+import { countOverrides } from './core/overrides.ts';
+import type { Lab } from './lab/lab.ts';
 import { keepOffline } from './offline/register.ts';
 import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
 import { Measure } from './panel/measure.ts';
@@ -22,6 +24,7 @@ import { watchFaults, watchGraphics } from './ui/faults.ts';
 import { bindKeys } from './ui/keys.ts';
 import { Notice } from './ui/notice.ts';
 import { readTheme, watchTheme } from './ui/theme.ts';
+import { TimelineBar } from './ui/timeline.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
@@ -41,6 +44,27 @@ const status = new StatusPanel({
 const result = element('result');
 const help = byId('help-sheet', HTMLDialogElement);
 
+/** The drawer with parameters, comparison and seeds: loaded when it is first opened. */
+let lab: Lab | undefined;
+
+async function openLab(): Promise<void> {
+  if (!lab) {
+    const { Lab } = await import('./lab/lab.ts');
+    lab ??= new Lab(app, stage, byId('lab', HTMLButtonElement));
+  }
+  lab.toggle();
+}
+
+function labCount(count: number): void {
+  const badge = element('lab-count');
+  badge.hidden = count === 0;
+  setText(badge, String(count));
+  byId('lab', HTMLButtonElement).setAttribute(
+    'aria-label',
+    `Parameters, comparison, many seeds${count > 0 ? `; ${count} changed` : ''}`,
+  );
+}
+
 /** Without WebGL the numbers, the image and the controls still work. */
 let stage: Stage | undefined;
 try {
@@ -52,6 +76,9 @@ try {
 const app = new App({
   session(info, field) {
     stage?.session(info, field);
+    timeline.session(info.period_s);
+    labCount(countOverrides(info.overrides));
+    lab?.session(info);
     thinking.session(info, field);
     roll.limit(info.limits.roll_rad);
     pitch.limit(info.limits.pitch_rad);
@@ -65,6 +92,8 @@ const app = new App({
   },
   frame(frame) {
     stage?.frame(frame);
+    timeline.show(frame);
+    lab?.frame(frame);
     thinking.frame(frame);
     measure.frame(frame);
     roll.show(frame.pose.roll, frame.metrics.max_abs_roll_rad);
@@ -78,7 +107,10 @@ const app = new App({
     result.dataset.outcome = frame.outcome;
     setText(element('result-words'), OUTCOME_WORDS[frame.outcome]);
   },
-  sculpted: () => stage?.sculpted(),
+  sculpted() {
+    stage?.sculpted();
+    lab?.sculpted();
+  },
   playing: (playing) => controls.showPlaying(playing),
   speed(speed) {
     controls.showSpeed(speed);
@@ -92,11 +124,16 @@ const app = new App({
   clearNotice: () => notice.hide(),
 });
 
-const measure = new Measure({ record: app.record, view: stage, notice: (message) => notice.show(message) });
+const measure = new Measure({
+  record: app.record,
+  view: stage,
+  go: (time_s) => app.attempt(app.seekTime(time_s)),
+  notice: (message) => notice.show(message),
+});
 const thinking = new Thinking(app, stage, view);
 const tools = stage
   ? new GroundTools(view, stage, {
-      setGoal: (goal) => app.attempt(app.setGoal(goal)),
+      setGoal: (goal, added) => app.attempt(added ? app.addGoal(goal) : app.setGoal(goal)),
       setStart: (start) => app.attempt(app.setStart(start)),
       sculpt: (brush) => app.attempt(app.dab(brush)),
     })
@@ -121,8 +158,14 @@ const actions = {
     thinking.letGo();
   },
   help: () => help.showModal(),
+  addStops: (adding: boolean) => tools?.adding(adding),
+  clearStops: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
+  jump: (times: number) => app.attempt(app.jump(times)),
+  lab: () => app.attempt(openLab()),
 };
 const controls = new Controls(actions);
+const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
+byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
 bindKeys(actions, thinking);
 controls.showTool('look');
 controls.showSpeed(1);

@@ -42,6 +42,6 @@ test('subgoals carry their segment, forecast and terms, and the goal itself none
 test('what does not fit the protocol is refused, not guessed', () => {
   assert.throws(() => decodeSegments(new Float64Array(7)), /groups of 6/);
   assert.throws(() => decodeSegments(new Float64Array([0, 0, 0, 0, 0, 9])), /unknown code 9/);
-  assert.throws(() => named(STATUS, new Float64Array(2)), /expects 19/);
+  assert.throws(() => named(STATUS, new Float64Array(2)), /expects 20/);
   assert.throws(() => kindOf(undefined), /ground, unknown, wall/);
 });

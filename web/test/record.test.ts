@@ -19,15 +19,27 @@ test('a record keeps every tick while it grows', () => {
   assert.equal(record.cut, false);
 });
 
-test('a tick that comes again begins another future', () => {
+test('what is run again leaves the rest as it was, until the run goes another way', () => {
   const record = new RunRecord();
   record.add(rows(0, 100));
   record.add(rows(40, 42, 9));
-  assert.equal(record.length, 42);
+  assert.equal(record.length, 100);
   assert.deepEqual(
-    [39, 40, 41].map((row) => record.get(row, 'x')),
-    [0, 9, 9],
+    [39, 40, 41, 42].map((row) => record.get(row, 'x')),
+    [0, 9, 9, 0],
   );
+  record.end(42);
+  assert.equal(record.length, 42);
+  record.add(rows(42, 50, 7));
+  assert.deepEqual([record.length, record.get(49, 'x')], [50, 7]);
+  record.end(0);
+  assert.equal(record.length, 0);
+});
+
+test('a gap is refused', () => {
+  const record = new RunRecord();
+  record.add(rows(0, 10));
+  assert.throws(() => record.add(rows(11, 12)), /Tick 11 does not follow/);
 });
 
 test('an endless run keeps its last three quarters of an hour at least', () => {

@@ -4,12 +4,16 @@
 //! a digest over the whole trajectory shows that two runs had the same bits.
 
 mod digest;
+mod history;
 mod metrics;
+pub mod parameters;
 mod places;
 mod profile_accuracy;
 mod scenario;
+pub mod statistics;
 mod trial;
 
+pub use history::History;
 pub use metrics::Metrics;
 pub use places::StartPose;
 pub use profile_accuracy::{ColumnKind, ProfileAccuracy, profile_accuracy};

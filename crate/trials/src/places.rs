@@ -1,4 +1,4 @@
-//! Start and goal as a scenario file writes them.
+//! Start, waypoints and goal as a scenario file writes them.
 
 use std::fmt;
 
@@ -24,6 +24,15 @@ pub(crate) fn start<'de, D: Deserializer<'de>>(deserializer: D) -> Result<StartP
 pub(crate) fn goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DVec2, D::Error> {
     let [x, y] = deserializer.deserialize_any(Numbers(["x", "y"]))?;
     Ok(DVec2::new(x, y))
+}
+
+/// Reads a list of places, each as [`goal`] does.
+pub(crate) fn waypoints<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<DVec2>, D::Error> {
+    #[derive(serde::Deserialize)]
+    #[serde(transparent)]
+    struct Place(#[serde(deserialize_with = "goal")] DVec2);
+    let places: Vec<Place> = serde::Deserialize::deserialize(deserializer)?;
+    Ok(places.into_iter().map(|place| place.0).collect())
 }
 
 /// `N` finite numbers, in order or by name.

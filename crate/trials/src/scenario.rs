@@ -5,6 +5,7 @@
 //! start = [5.0, 5.0, 0.8]       # x, y in metres, heading in radians
 //! goal = [60.0, 60.0]
 //! seed = 1
+//! waypoints = [[30.0, 20.0]]    # optional: driven to one after the other, before the goal
 //!
 //! [planner.decision]            # any value of the planner, sensor or robot
 //! steepness_weight = 0.8
@@ -72,7 +73,9 @@ pub struct Scenario {
     pub terrain: String,
     /// Where the robot starts.
     pub start: StartPose,
-    /// Where it should go, seen from above, metres.
+    /// Where it should go first, one after the other, seen from above, metres.
+    pub waypoints_m: Vec<DVec2>,
+    /// Where it should go in the end, seen from above, metres.
     pub goal_m: DVec2,
     /// Seed of the sensor's noise.
     pub seed: u64,
@@ -81,7 +84,7 @@ pub struct Scenario {
     /// The robot.
     pub robot: HuskyConfig,
     /// What the `[planner]` section sets.
-    planner: toml::Table,
+    pub(crate) planner: toml::Table,
 }
 
 /// Why a scenario cannot be run: the file and what is wrong with it.
@@ -120,6 +123,8 @@ struct File {
     start: StartPose,
     #[serde(deserialize_with = "places::goal")]
     goal: DVec2,
+    #[serde(default, deserialize_with = "places::waypoints")]
+    waypoints: Vec<DVec2>,
     seed: u64,
     #[serde(default)]
     planner: PlannerConfig,
@@ -127,6 +132,16 @@ struct File {
     sensor: SensorConfig,
     #[serde(default)]
     robot: HuskyConfig,
+}
+
+/// The sections of a scenario file that set parameters.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields, default)]
+#[derive(Default)]
+struct Sections {
+    planner: toml::Table,
+    sensor: toml::Table,
+    robot: toml::Table,
 }
 
 impl Scenario {
@@ -150,12 +165,32 @@ impl Scenario {
         Ok(Self {
             terrain: parsed.terrain,
             start: parsed.start,
+            waypoints_m: parsed.waypoints,
             goal_m: parsed.goal,
             seed: parsed.seed,
             sensor: parsed.sensor,
             robot: parsed.robot,
             planner,
         })
+    }
+
+    /// This scenario with other values of parameters: `sections` is TOML with nothing but `[planner]`, `[sensor]` and
+    /// `[robot]`, named `file` in errors. What the planner's section sets is checked by [`Scenario::planner_config`].
+    ///
+    /// # Errors
+    /// [`ScenarioError`] names the place, the value and what was expected.
+    pub fn with_parameters(&self, file: &str, sections: &str) -> Result<Self, ScenarioError> {
+        let fail = |fault| ScenarioError { file: file.to_owned(), fault };
+        let syntax = |error: mapless_toml::Error| ScenarioFault::Syntax(error.to_string());
+        let sections: Sections = mapless_toml::from_str(sections).map_err(|error| fail(syntax(error)))?;
+        let mut scenario = self.clone();
+        merge(&mut scenario.planner, &sections.planner);
+        scenario.sensor = overridden(&self.sensor, &sections.sensor, "sensor").map_err(fail)?;
+        scenario.robot = overridden(&self.robot, &sections.robot, "robot").map_err(fail)?;
+        let value = |reason: String| fail(ScenarioFault::Value(reason));
+        scenario.sensor.validate().map_err(|e| value(format!("sensor.{e}")))?;
+        scenario.robot.validate().map_err(|e| value(format!("robot.{e}")))?;
+        Ok(scenario)
     }
 
     /// The planner's configuration: the preset, with the geometry of this sensor and robot, with what the scenario sets.
@@ -170,15 +205,26 @@ impl Scenario {
         config.limits.roll_rad = self.robot.roll_limit_rad;
         config.limits.pitch_rad = self.robot.pitch_limit_rad;
 
-        let fault = |reason: &dyn std::fmt::Display| ScenarioFault::Value(format!("planner: {reason}"));
-        let mut table = toml::Table::try_from(&config).map_err(|e| fault(&e))?;
-        merge(&mut table, &self.planner);
-        // By way of text: one reader is enough.
-        let text = toml::to_string(&table).map_err(|e| fault(&e))?;
-        let config: PlannerConfig = mapless_toml::from_str(&text).map_err(|e| fault(&e.message()))?;
+        let config: PlannerConfig = overridden(&config, &self.planner, "planner")?;
         config.validate().map_err(|e| ScenarioFault::Value(e.to_string()))?;
         Ok(config)
     }
+}
+
+/// `config` with the values of `over`; `section` names the place in errors.
+fn overridden<C: serde::Serialize + serde::de::DeserializeOwned>(
+    config: &C,
+    over: &toml::Table,
+    section: &str,
+) -> Result<C, ScenarioFault> {
+    let fault = |reason: &dyn std::fmt::Display| {
+        ScenarioFault::Value(format!("{section}: {}", reason.to_string().trim_end()))
+    };
+    let mut table = toml::Table::try_from(config).map_err(|e| fault(&e))?;
+    merge(&mut table, over);
+    // By way of text: one reader is enough.
+    let text = toml::to_string(&table).map_err(|e| fault(&e))?;
+    mapless_toml::from_str(&text).map_err(|e| fault(&e.message()))
 }
 
 fn merge(base: &mut toml::Table, over: &toml::Table) {
@@ -251,6 +297,42 @@ mod tests {
         assert!((paper.perception.surface_radius_m - 6.0).abs() < 1e-12);
         assert_eq!(paper.perception.kernel, expected.perception.kernel);
         assert_eq!(paper.decision, expected.decision);
+    }
+
+    #[test]
+    fn waypoints_are_read_in_order() {
+        let text = format!("{SCENARIO}waypoints = [[9.0, 8.0], {{ x = 7, y = 6 }}]\n");
+        let scenario = Scenario::parse("x.toml", &text).unwrap();
+        assert_eq!(scenario.waypoints_m, [DVec2::new(9.0, 8.0), DVec2::new(7.0, 6.0)]);
+        assert!(Scenario::parse("x.toml", SCENARIO).unwrap().waypoints_m.is_empty());
+        assert!(error(&format!("{SCENARIO}waypoints = [[1.0]]\n")).contains("expected 2 numbers: x, y"));
+    }
+
+    #[test]
+    fn other_parameters_replace_those_of_the_file_and_keep_the_rest() {
+        let text = format!("{SCENARIO}[planner.decision]\nlook_ticks = 9\n[sensor]\nheight_m = 0.9\n");
+        let scenario = Scenario::parse("x.toml", &text).unwrap();
+        let sections = "[planner.decision]\ndistance_weight = 2\n[sensor]\nrange_noise_m = 0.1\n[robot]\nwidth_m = 0.8\n";
+        let changed = scenario.with_parameters("settings", sections).unwrap();
+        let config = changed.planner_config(Preset::Default).unwrap();
+        assert_eq!(config.decision.look_ticks, 9);
+        assert!((config.decision.distance_weight - 2.0).abs() < 1e-12);
+        assert!((config.mount.height_m - 0.9).abs() < 1e-12);
+        assert!((config.robot_width_m - 0.8).abs() < 1e-12);
+        assert!((changed.sensor.range_noise_m - 0.1).abs() < 1e-12);
+
+        let fault = |sections| scenario.with_parameters("settings", sections).unwrap_err().to_string();
+        let noise = "settings: sensor.range_noise_m = 2: expected a number from 0 to 1";
+        assert_eq!(fault("[sensor]\nrange_noise_m = 2"), noise);
+        assert!(
+            fault("[sensor]\ncolumns = 1.5").contains("`columns`"),
+            "{}",
+            fault("[sensor]\ncolumns = 1.5")
+        );
+        assert!(fault("seed = 1").contains("unknown field `seed`"));
+        let planner = scenario.with_parameters("settings", "[planner]\nperiod_s = -1").unwrap();
+        let fault = planner.planner_config(Preset::Default).unwrap_err().to_string();
+        assert_eq!(fault, "planner.period_s = -1: expected a positive number");
     }
 
     #[test]

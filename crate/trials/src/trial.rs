@@ -1,5 +1,7 @@
 //! One trial: world → scan → planner → command → world.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 use mapless::perception::PredictedSurface;
 use mapless::pose::Pose;
@@ -62,7 +64,7 @@ pub enum TrialError {
     /// A place that is not on the terrain.
     #[error("{what} = ({:.3}, {:.3}) m: expected a place on the terrain, which spans (0, 0) to ({:.3}, {:.3}) m", place_m.x, place_m.y, extent_m.x, extent_m.y)]
     OffTerrain {
-        /// `start` or `goal`.
+        /// `start`, `waypoint` or `goal`.
         what: &'static str,
         /// The place.
         place_m: DVec2,
@@ -77,13 +79,17 @@ pub enum TrialError {
 /// A running trial, driven by this planner or by another navigator.
 #[derive(Clone, Debug)]
 pub struct Trial<N = Planner> {
-    caster: Caster,
+    /// Shared by copies of the trial until one of them changes its ground.
+    caster: Arc<Caster>,
     sensor: Vlp16,
     scan: Scan,
     husky: Husky,
     navigator: N,
     decision: Decision,
     start: StartPose,
+    waypoints_m: Vec<DVec2>,
+    /// Waypoints behind the robot.
+    passed: usize,
     goal_m: DVec2,
     seed: u64,
     tick: u64,
@@ -128,7 +134,9 @@ impl Trial {
     /// # Errors
     /// [`TrialError::Config`] for a brush that makes no sense.
     pub fn sculpt(&mut self, brush: &Brush) -> Result<Option<SampleRect>, TrialError> {
-        let changed = self.caster.sculpt(brush).map_err(|e| TrialError::Config(format!("brush.{e}")))?;
+        let changed = Arc::make_mut(&mut self.caster)
+            .sculpt(brush)
+            .map_err(|e| TrialError::Config(format!("brush.{e}")))?;
         if changed.is_some() {
             self.navigator.reset();
         }
@@ -173,10 +181,10 @@ impl<N: Navigator> Trial<N> {
         let sensor: SensorConfig = scenario.sensor.clone();
         let sensor = Vlp16::new(sensor).map_err(|e| TrialError::Config(e.to_string()))?;
         let husky = place(&field, scenario.robot.clone(), scenario.start)?;
-        on_terrain(&field, "goal", scenario.goal_m)?;
+        check_route(&field, &scenario.waypoints_m, scenario.goal_m)?;
         let mut trial = Self {
             metrics: MetricsRecorder::new(sample_of(&husky)),
-            caster: Caster::new(field),
+            caster: Arc::new(Caster::new(field)),
             sensor,
             scan: Scan::default(),
             anchor: (scenario.start.position_m, 0),
@@ -184,6 +192,8 @@ impl<N: Navigator> Trial<N> {
             navigator,
             decision: Decision { status: Status::Looking, command: Command::STOP },
             start: scenario.start,
+            waypoints_m: scenario.waypoints_m.clone(),
+            passed: 0,
             goal_m: scenario.goal_m,
             seed,
             tick: 0,
@@ -218,7 +228,7 @@ impl<N: Navigator> Trial<N> {
     /// Lets the navigator decide on the last scan.
     pub fn plan(&mut self) -> Decision {
         let pose = self.pose();
-        self.decision = self.navigator.navigate(&self.scan.points, &pose, self.goal_m);
+        self.decision = self.navigator.navigate(&self.scan.points, &pose, self.target_m());
         self.decision
     }
 
@@ -226,6 +236,12 @@ impl<N: Navigator> Trial<N> {
     pub fn act(&mut self) -> Option<Outcome> {
         let Decision { status, command } = self.decision;
         self.outcome = match status {
+            Status::Arrived if self.passed < self.waypoints_m.len() => {
+                self.passed += 1;
+                self.anchor = (self.husky.state().position, self.tick);
+                self.allow_time();
+                self.drive(command)
+            }
             Status::Arrived => Some(Outcome::Reached),
             Status::Stopped(_) => Some(Outcome::NoSubgoal),
             Status::Driving | Status::Looking => self.drive(command),
@@ -271,7 +287,7 @@ impl<N: Navigator> Trial<N> {
     }
 
     fn allow_time(&mut self) {
-        let straight = (self.goal_m - self.husky.state().position).length();
+        let straight = (self.target_m() - self.husky.state().position).length();
         let speed = self.navigator.max_speed_m_s().min(self.husky.config().max_speed_m_s);
         self.time_limit_s = self.time_s() + BASE_TIME_LIMIT_S + STRAIGHT_TIMES * straight / speed;
     }
@@ -281,8 +297,16 @@ impl<N: Navigator> Trial<N> {
     /// # Errors
     /// [`TrialError::OffTerrain`]; the goal then stays as it was.
     pub fn set_goal(&mut self, goal_m: DVec2) -> Result<(), TrialError> {
-        on_terrain(self.caster.field(), "goal", goal_m)?;
-        self.goal_m = goal_m;
+        self.set_route(Vec::new(), goal_m)
+    }
+
+    /// As [`Trial::set_goal`], with waypoints to drive to before, one after the other.
+    ///
+    /// # Errors
+    /// [`TrialError::OffTerrain`]; the route then stays as it was.
+    pub fn set_route(&mut self, waypoints_m: Vec<DVec2>, goal_m: DVec2) -> Result<(), TrialError> {
+        check_route(self.caster.field(), &waypoints_m, goal_m)?;
+        (self.waypoints_m, self.passed, self.goal_m) = (waypoints_m, 0, goal_m);
         self.resume();
         Ok(())
     }
@@ -294,6 +318,7 @@ impl<N: Navigator> Trial<N> {
     pub fn set_start(&mut self, start: StartPose) -> Result<(), TrialError> {
         self.husky = place(self.caster.field(), self.husky.config().clone(), start)?;
         self.start = start;
+        self.passed = 0;
         self.tick = 0;
         self.metrics = MetricsRecorder::new(sample_of(&self.husky));
         self.digest = TrajectoryDigest::default();
@@ -375,9 +400,24 @@ impl<N: Navigator> Trial<N> {
         self.start
     }
 
-    /// Where it should go.
+    /// Where it should go in the end.
     pub fn goal_m(&self) -> DVec2 {
         self.goal_m
+    }
+
+    /// Where it should go before, one after the other.
+    pub fn waypoints_m(&self) -> &[DVec2] {
+        &self.waypoints_m
+    }
+
+    /// How many of the waypoints it has been to.
+    pub fn waypoints_passed(&self) -> usize {
+        self.passed
+    }
+
+    /// Where it goes now: the next waypoint, or the goal.
+    pub fn target_m(&self) -> DVec2 {
+        self.waypoints_m.get(self.passed).copied().unwrap_or(self.goal_m)
     }
 
     /// Planning periods run.
@@ -407,6 +447,11 @@ fn place(field: &HeightField, robot: HuskyConfig, start: StartPose) -> Result<Hu
         place_m: start.position_m,
         extent_m: field.extent_m(),
     })
+}
+
+fn check_route(field: &HeightField, waypoints_m: &[DVec2], goal_m: DVec2) -> Result<(), TrialError> {
+    waypoints_m.iter().try_for_each(|&place_m| on_terrain(field, "waypoint", place_m))?;
+    on_terrain(field, "goal", goal_m)
 }
 
 fn on_terrain(field: &HeightField, what: &'static str, place_m: DVec2) -> Result<(), TrialError> {

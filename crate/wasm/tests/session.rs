@@ -176,7 +176,7 @@ fn a_place_off_the_terrain_changes_nothing() {
     let mut session = session("default", None);
     tick(&mut session, 2);
     let before = (session.scene(), session.digest());
-    assert!(session.set_goal(-1.0, 8.0).is_err());
+    assert!(session.set_route(&[], -1.0, 8.0).is_err());
     assert!(session.set_start(f64::NAN, 8.0, 0.0).is_err());
     assert_eq!((session.scene(), session.digest()), before);
 }
@@ -184,7 +184,7 @@ fn a_place_off_the_terrain_changes_nothing() {
 #[wasm_bindgen_test]
 fn reaches_a_goal_nearby() {
     let mut session = session("default", None);
-    assert!(session.set_goal(9.0, 8.0).is_ok());
+    assert!(session.set_route(&[], 9.0, 8.0).is_ok());
     tick(&mut session, 120);
     assert_eq!((session.outcome(), session.activity()), ("reached".into(), "arrived".into()));
 }

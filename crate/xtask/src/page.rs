@@ -31,7 +31,8 @@ pub(crate) fn demo(sh: &Shell, port: u16) -> anyhow::Result<()> {
     become_command(command.into())
 }
 
-/// Builds the wasm core and its JavaScript bindings into `web/src/wasm/`, and reports its size.
+/// Builds the wasm modules and their JavaScript bindings into `web/src/wasm/`, and reports the size of the first: the page
+/// opens with it, and loads the baselines when somebody asks for them.
 fn bindings(sh: &Shell) -> anyhow::Result<()> {
     setup::wasm_target(sh)?;
     let wasm_bindgen = setup::wasm_bindgen(sh)?.join("wasm-bindgen");
@@ -40,15 +41,16 @@ fn bindings(sh: &Shell) -> anyhow::Result<()> {
     let cargo_home = env::var_os("CARGO_HOME").map_or(home, PathBuf::from);
     let flags = ["--remap-path-prefix".to_owned(), format!("{}=cargo", cargo_home.display())];
     let flags = format!("target.wasm32-unknown-unknown.rustflags={flags:?}");
-    cmd!(
-        sh,
-        "cargo build --config {flags} --profile page --package mapless-wasm --target wasm32-unknown-unknown"
-    )
-    .run()?;
-    let built = setup::target_dir(sh).join("wasm32-unknown-unknown/page/mapless_wasm.wasm");
+    let packages = ["--package", "mapless-wasm", "--package", "mapless-wasm-baselines"];
+    cmd!(sh, "cargo build --config {flags} --profile page {packages...} --target wasm32-unknown-unknown")
+        .run()?;
+    let built = setup::target_dir(sh).join("wasm32-unknown-unknown/page");
     // Without its names the file is 7 % smaller (brotli); wasm-opt would take another 1.5 %, and no time off a step.
     let strip = ["--remove-name-section", "--remove-producers-section"];
-    cmd!(sh, "{wasm_bindgen} --target web {strip...} --out-dir web/src/wasm {built}").run()?;
+    for module in ["mapless_wasm.wasm", "mapless_wasm_baselines.wasm"] {
+        let module = built.join(module);
+        cmd!(sh, "{wasm_bindgen} --target web {strip...} --out-dir web/src/wasm {module}").run()?;
+    }
     report_size(sh, "web/src/wasm/mapless_wasm_bg.wasm")
 }
 

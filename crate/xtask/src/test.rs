@@ -122,7 +122,10 @@ fn clippy_wasm(sh: &Shell) -> anyhow::Result<Count> {
     let libraries = ["mapless", "mapless-world", "mapless-trials", "mapless-baselines", "mapless-bench"]
         .map(|library| format!("--package={library}"));
     check(cmd!(sh, "cargo clippy --target {target} {libraries...} -- --deny warnings"))?;
-    check(cmd!(sh, "cargo clippy --target {target} -p mapless-wasm --all-targets -- --deny warnings"))
+    check(cmd!(
+        sh,
+        "cargo clippy --target {target} -p mapless-wasm -p mapless-wasm-baselines --all-targets -- --deny warnings"
+    ))
 }
 
 fn documentation(sh: &Shell) -> anyhow::Result<Count> {

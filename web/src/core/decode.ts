@@ -29,6 +29,7 @@ export const SCENE = [
   'safety_margin_m',
   'max_slope_rad',
   'subgoals_on_unknown',
+  'period_s',
 ] as const;
 
 /** Order of the scalars in `CoreSession.status`. */
@@ -52,6 +53,7 @@ export const STATUS = [
   'mean_vibration_rad_s',
   'mean_elevation_rate_cm_s',
   'curvature_change_rad_m',
+  'waypoints_passed',
 ] as const;
 
 const SEGMENT_STRIDE = 6;

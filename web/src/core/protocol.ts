@@ -5,6 +5,9 @@
  * Pitch is positive nose-up, roll positive with the left side up. Azimuths are positive to the robot's left.
  */
 
+import type { Overrides } from './overrides.ts';
+import type { ParameterGroup } from './parameters.ts';
+
 /** How a trial stands: `running`, or how it ended. */
 export type Outcome = 'running' | 'reached' | 'tilt_limit' | 'stuck' | 'no_subgoal' | 'left_terrain' | 'timeout';
 
@@ -65,7 +68,14 @@ export interface SessionInfo extends Setting {
   readonly scenario: string;
   readonly seed: number;
   readonly start: Heading;
+  /** Driven to one after the other, before the goal. */
+  readonly waypoints: readonly Place[];
   readonly goal: Place;
+  /** Time between two ticks. */
+  readonly period_s: number;
+  /** Every parameter, with the value that holds unless it is overridden. */
+  readonly parameters: readonly ParameterGroup[];
+  readonly overrides: Overrides;
   readonly limits: { readonly roll_rad: number; readonly pitch_rad: number };
   /** Radius of the occupancy surface: what lies farther is not looked at. */
   readonly occupancy_radius_m: number;
@@ -190,6 +200,16 @@ export function transferables(buffers: FrameBuffers): ArrayBuffer[] {
   return Object.values(buffers).map((array: FrameBuffers[keyof FrameBuffers]) => array.buffer);
 }
 
+/** Where in time one can go, in ticks. */
+export interface Timeline {
+  readonly first: number;
+  readonly end: number;
+  /** Where the route was changed. */
+  readonly changes: readonly number[];
+}
+
+export const TIMELINE_START: Timeline = { first: 0, end: 0, changes: [] };
+
 /** Everything that one planning tick saw, decided and did. At tick 0 there is a scan but no decision yet. */
 export interface Frame {
   readonly tick: number;
@@ -217,25 +237,32 @@ export interface Frame {
   /** Digest of the whole trajectory so far; the command line prints the same one. */
   readonly digest: string;
   readonly buffers: FrameBuffers;
-  /** x, y, z after each tick since the frame before. */
+  /** x, y, z after each tick since the frame before; after a jump in time, since the beginning. */
   readonly path: Float32Array<ArrayBuffer>;
   /** The ticks since the frame before, as rows of the record (record.ts). */
   readonly rows: Float64Array<ArrayBuffer>;
+  /** Whether `path` takes the place of all before: after a jump in time or a new start. */
+  readonly anew: boolean;
+  /** After a jump back: x, y, z of what came next. */
+  readonly ahead: Float32Array<ArrayBuffer> | undefined;
+  readonly timeline: Timeline;
+  readonly waypointsPassed: number;
 }
-
-/** Ticks per second of simulated time. */
-export const TICK_RATE_HZ = 10;
 
 /** Simulated seconds per second; `Infinity` is as fast as it goes. */
 export type Speed = number;
 
 export type Command =
-  | { type: 'load'; scenario: string; setting: Setting; seed: number | undefined }
+  | { type: 'load'; scenario: string; setting: Setting; seed: number | undefined; overrides: Overrides }
   | { type: 'restart' }
   | { type: 'play'; playing: boolean }
   | { type: 'speed'; speed: Speed }
   | { type: 'step' }
-  | { type: 'goal'; goal: Place }
+  | { type: 'goal'; goal: Place; waypoints: readonly Place[] }
+  /** Begins anew with these overrides in place of all others, on the same ground and route. */
+  | { type: 'parameters'; overrides: Overrides; seed: number | undefined }
+  /** Goes to a tick of the timeline and stays there. */
+  | { type: 'seek'; tick: number }
   | { type: 'start'; start: Heading }
   | { type: 'sculpt'; brush: Brush }
   /** Whether anything shows the surfaces: predicting them costs more than the decision itself. */

@@ -49,21 +49,32 @@ export class RunRecord {
     return this.#dropped;
   }
 
-  clear(): void {
-    this.#rows = 0;
-    this.#dropped = false;
-  }
-
-  /** Takes whole rows. A tick that the record already has begins another future: what was there from it on is dropped. */
+  /** Takes whole rows. A tick that the record already has was run again, which gives the same values. */
   add(rows: Float64Array): void {
     if (rows.length % STRIDE !== 0) throw new Error(`A record of ${rows.length} values was sent in rows of ${STRIDE}.`);
     for (let at = 0; at < rows.length; at += STRIDE) {
       const tick = rows[at] ?? 0;
-      while (this.#rows > 0 && this.get(this.#rows - 1, 'tick') >= tick) this.#rows -= 1;
-      this.#makeRoom();
-      this.#values.set(rows.subarray(at, at + STRIDE), this.#rows * STRIDE);
-      this.#rows += 1;
+      const first = this.#rows > 0 ? this.get(0, 'tick') : tick;
+      // The beginning of a long run is gone.
+      if (tick < first) continue;
+      if (tick > first + this.#rows) throw new Error(`Tick ${tick} does not follow the record.`);
+      const again = tick < first + this.#rows;
+      if (!again) this.#makeRoom();
+      this.#values.set(rows.subarray(at, at + STRIDE), (again ? tick - first : this.#rows) * STRIDE);
+      if (!again) this.#rows += 1;
     }
+  }
+
+  /** Forgets `tick` and all after it: the run goes on otherwise from there. */
+  end(tick: number): void {
+    this.#rows = this.before(tick);
+    if (this.#rows === 0) this.#dropped = false;
+  }
+
+  /** How many rows come before `tick`. */
+  before(tick: number): number {
+    const first = this.#rows > 0 ? this.get(0, 'tick') : 0;
+    return Math.min(Math.max(tick - first, 0), this.#rows);
   }
 
   get(row: number, name: RowName): number {

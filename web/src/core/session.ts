@@ -2,6 +2,8 @@
 
 import { terrainFile } from './catalogue.ts';
 import { decodeSegments, decodeSubgoals, named, SCENE, STATUS } from './decode.ts';
+import { type Overrides, sectionsOf } from './overrides.ts';
+import type { ParameterGroup } from './parameters.ts';
 import type {
   Activity,
   Brush,
@@ -14,6 +16,7 @@ import type {
   Place,
   SessionInfo,
   Setting,
+  Timeline,
 } from './protocol.ts';
 import type { CoreModule, CoreSession } from './wasm.ts';
 
@@ -25,6 +28,10 @@ export class Session {
   readonly #scenario: string;
   readonly #setting: Setting;
   readonly #pool: FrameBuffers[] = [];
+  /** The numbers that the present info was read from. */
+  #scene: Float64Array = new Float64Array();
+  #overrides: Overrides = {};
+  #parameters: readonly ParameterGroup[] = [];
   #info: SessionInfo;
   #planner_ms = 0;
 
@@ -32,6 +39,7 @@ export class Session {
     this.#core = core;
     this.#scenario = scenario;
     this.#setting = setting;
+    this.#readParameters();
     this.#info = this.#readInfo();
   }
 
@@ -64,9 +72,35 @@ export class Session {
     this.#planner_ms = 0;
   }
 
-  setGoal(goal: Place): void {
-    this.#core.set_goal(goal.x, goal.y);
+  setRoute(waypoints: readonly Place[], goal: Place): void {
+    this.#core.set_route(new Float64Array(waypoints.flatMap(({ x, y }) => [x, y])), goal.x, goal.y);
     this.#info = this.#readInfo();
+  }
+
+  /** Begins anew with these overrides, and another seed if given; the ground, the start and the route stay. */
+  setOverrides(overrides: Overrides, seed?: number): void {
+    this.#core.set_parameters(sectionsOf(overrides), seed === undefined ? undefined : BigInt(seed));
+    this.#overrides = overrides;
+    this.#readParameters();
+    this.#info = this.#readInfo();
+    this.#planner_ms = 0;
+  }
+
+  /** Going back in time may bring another route back; says whether it did. */
+  followRoute(): boolean {
+    const values = this.#core.scene();
+    const same = values.length === this.#scene.length && values.every((value, index) => value === this.#scene[index]);
+    if (!same) this.#info = this.#readInfo();
+    return !same;
+  }
+
+  goBack(tick: number): void {
+    this.#core.go_back(BigInt(tick));
+  }
+
+  get timeline(): Timeline {
+    const [first = 0, end = 0, ...changes] = this.#core.timeline();
+    return { first, end, changes };
   }
 
   setStart(start: Heading): void {
@@ -115,7 +149,7 @@ export class Session {
   }
 
   /** Everything of the present state; the surfaces only on demand, since predicting them takes longer than deciding. */
-  frame(path: Float32Array<ArrayBuffer>, rows: Float64Array<ArrayBuffer>, surfaces: boolean): Frame {
+  frame(since: Pick<Frame, 'path' | 'anew' | 'ahead' | 'rows'>, surfaces: boolean): Frame {
     const core = this.#core;
     const status = this.status();
     const buffers = this.#pool.pop() ?? this.#newBuffers();
@@ -164,19 +198,30 @@ export class Session {
       planner_ms: this.#planner_ms,
       digest: core.digest(),
       buffers,
-      path,
-      rows,
+      timeline: this.timeline,
+      waypointsPassed: status.waypoints_passed,
+      ...since,
     };
   }
 
   #readInfo(): SessionInfo {
-    const scene = named(SCENE, this.#core.scene());
+    const values = this.#core.scene();
+    this.#scene = values;
+    const scene = named(SCENE, values.subarray(0, SCENE.length));
+    const places = values.subarray(SCENE.length);
     return {
       scenario: this.#scenario,
       ...this.#setting,
       seed: Number(this.#core.seed()),
       start: { x: scene.start_x, y: scene.start_y, heading_rad: scene.start_heading_rad },
+      waypoints: Array.from({ length: places.length / 2 }, (_, at) => ({
+        x: places[2 * at] ?? 0,
+        y: places[2 * at + 1] ?? 0,
+      })),
       goal: { x: scene.goal_x, y: scene.goal_y },
+      period_s: scene.period_s,
+      parameters: this.#parameters,
+      overrides: this.#overrides,
       limits: { roll_rad: scene.roll_limit_rad, pitch_rad: scene.pitch_limit_rad },
       occupancy_radius_m: scene.occupancy_radius_m,
       sensor_height_m: scene.sensor_height_m,
@@ -188,6 +233,10 @@ export class Session {
         subgoals_on_unknown: scene.subgoals_on_unknown === 1,
       },
     };
+  }
+
+  #readParameters(): void {
+    this.#parameters = JSON.parse(this.#core.parameters());
   }
 
   #newBuffers(): FrameBuffers {

@@ -1,7 +1,16 @@
-/** Lets the page be checked before the core is built; where the generated types exist, they win. */
+/** Lets the page be checked before the wasm modules are built; where the generated types exist, they win. */
 declare module '*/mapless_wasm.js' {
   const start: () => Promise<unknown>;
   export default start;
   export const Session: import('./wasm.ts').CoreModule['Session'];
   export const terrain_of: import('./wasm.ts').CoreModule['terrain_of'];
+}
+
+declare module '*/mapless_wasm_baselines.js' {
+  const start: () => Promise<unknown>;
+  export default start;
+  export const Ground: import('../trials/wasm.ts').TrialsModule['Ground'];
+  export const Runner: import('../trials/wasm.ts').TrialsModule['Runner'];
+  export const wilson: import('../trials/wasm.ts').TrialsModule['wilson'];
+  export const mean_and_deviation: import('../trials/wasm.ts').TrialsModule['mean_and_deviation'];
 }

@@ -6,7 +6,7 @@
 export interface CoreSession {
   free(): void;
   seed(): bigint;
-  /** Scalars in the order of `SCENE` in decode.ts. */
+  /** Scalars in the order of `SCENE` in decode.ts, then x and y of each waypoint. */
   scene(): Float64Array;
   columns(): number;
   rows(): number;
@@ -15,7 +15,16 @@ export interface CoreSession {
   heights(column: number, row: number, columns: number, rows: number): Float32Array;
   restart(): void;
   set_start(x: number, y: number, heading_rad: number): void;
-  set_goal(x: number, y: number): void;
+  /** The goal, with x and y of each waypoint before it. */
+  set_route(waypoints: Float64Array, x: number, y: number): void;
+  /** Begins anew with the sections `[planner]`, `[sensor]` and `[robot]` of a scenario file, and another seed if given. */
+  set_parameters(sections: string, seed?: bigint | null): void;
+  /** JSON: a list of `ParameterGroup`. */
+  parameters(): string;
+  /** Goes back to this tick, or to a little before it. */
+  go_back(tick: bigint): void;
+  /** First and last tick that can be gone to, then those at which the route was changed. */
+  timeline(): Float64Array;
   /** Column, row, columns and rows of the rectangle that changed. */
   sculpt(x: number, y: number, radius_m: number, strength_m: number, kind: string): Uint32Array | undefined;
   /** A tick is `look`, `plan`, `act`; the last returns whether the trial goes on. */

@@ -1,8 +1,10 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
+import { countOverrides } from './overrides.ts';
 import type { Command, Frame, FromWorker, ToWorker } from './protocol.ts';
-import { TICK_RATE_HZ, transferables } from './protocol.ts';
+import { transferables } from './protocol.ts';
 import { Session } from './session.ts';
+import { Trail } from './trail.ts';
 import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
 
 /** Frames that the page may have at once, the one it shows among them; while it is slower, frames are skipped. */
@@ -32,7 +34,13 @@ let watched = false;
 /** When the next surfaces may be predicted, and whether those that the page has are older than its frame. */
 let surfacesDue_ms = 0;
 let surfacesOld = false;
-let path: number[] = [];
+const trail = new Trail();
+/** The newest tick that the page has seen; nothing after a jump. */
+let seen: number | undefined;
+let rewound = false;
+/** The newest wish to go elsewhere in time: older ones are given up. */
+let newestSeek: number | undefined;
+/** Rows of the record since the newest frame. */
 let rows: number[] = [];
 /** Requests are carried out one after the other: loading waits for files. */
 let queue: Promise<void> = Promise.resolve();
@@ -72,7 +80,8 @@ function loop(): void {
     due_ms = Math.max(due_ms, began_ms - 250);
     while (running() && due_ms <= performance.now() && performance.now() - began_ms < SLICE_MS) {
       advance();
-      due_ms = Number.isFinite(speed) ? due_ms + 1000 / (TICK_RATE_HZ * speed) : performance.now();
+      const tick_ms = 1000 * (session?.info.period_s ?? 0);
+      due_ms = Number.isFinite(speed) ? due_ms + tick_ms / speed : performance.now();
     }
     showIfDue();
     schedule();
@@ -84,8 +93,7 @@ function loop(): void {
 function advance(): void {
   if (!session) return;
   rows.push(...session.tick());
-  const { x, y, z } = session.status();
-  path.push(x, y, z);
+  notePlace();
   unsent = true;
 }
 
@@ -101,16 +109,21 @@ function showIfDue(): void {
 
 function show(): void {
   if (!session) return;
+  if (session.followRoute()) post({ type: 'session', info: session.info, ground: undefined });
   const began_ms = performance.now();
   // What stands still shows everything.
   const surfaces = watched && (!running() || began_ms >= surfacesDue_ms);
-  const frame: Frame = session.frame(new Float32Array(path), new Float64Array(rows), surfaces);
+  const { tick } = session.status();
+  const anew = seen === undefined;
+  const path = trail.part(seen === undefined ? 0 : seen + 1, tick);
+  const ahead = rewound ? trail.after(tick) : undefined;
+  const frame: Frame = session.frame({ path, anew, ahead, rows: new Float64Array(rows) }, surfaces);
   surfacesOld = !surfaces;
   if (surfaces) {
     const took_ms = performance.now() - began_ms;
     surfacesDue_ms = began_ms + Math.max(SURFACE_INTERVAL_MS, took_ms / SURFACE_DUTY);
   }
-  path = [];
+  [seen, rewound] = [tick, false];
   rows = [];
   unsent = false;
   inFlight += 1;
@@ -119,18 +132,44 @@ function show(): void {
 
 function openFromStart(): void {
   if (!session) return;
-  path = [];
+  const { tick, x, y, z } = session.status();
+  trail.begin(tick, x, y, z);
+  seen = undefined;
   rows = [];
-  const { x, y, z } = session.status();
-  path.push(x, y, z);
   due_ms = performance.now();
   show();
 }
 
-async function carryOut(command: Command): Promise<void> {
+function notePlace(): void {
+  if (!session) return;
+  const { tick, x, y, z } = session.status();
+  trail.put(tick, x, y, z);
+}
+
+/** Goes to a tick: from the nearest copy before it, the ticks in between are run again. */
+async function seek(tick: number, id: number): Promise<void> {
+  if (!session) return;
+  playing = false;
+  const { first, end } = session.timeline;
+  const target = Math.min(Math.max(Math.round(tick), first), end);
+  session.goBack(target);
+  let rested_ms = performance.now();
+  while (session.status().tick < target && session.outcome === 'running' && id === newestSeek) {
+    // The record has these ticks already.
+    session.tick();
+    if (performance.now() - rested_ms < SLICE_MS) continue;
+    await new Promise((resolve) => setTimeout(resolve));
+    rested_ms = performance.now();
+  }
+  [seen, rewound] = [undefined, true];
+  show();
+}
+
+async function carryOut(command: Command, id: number): Promise<void> {
   if (command.type === 'load') {
     core ??= await loadCore();
     const opened = await Session.open(core, command.scenario, command.setting, command.seed);
+    if (countOverrides(command.overrides) > 0) opened.setOverrides(command.overrides);
     session?.free();
     session = opened;
     const ground = session.ground();
@@ -169,8 +208,17 @@ async function carryOut(command: Command): Promise<void> {
       post({ type: 'session', info: session.info, ground: undefined });
       openFromStart();
       break;
+    case 'seek':
+      await seek(command.tick, id);
+      break;
+    case 'parameters':
+      session.setOverrides(command.overrides, command.seed);
+      post({ type: 'session', info: session.info, ground: undefined });
+      openFromStart();
+      break;
     case 'goal':
-      session.setGoal(command.goal);
+      session.setRoute(command.waypoints, command.goal);
+      trail.cut(session.status().tick);
       post({ type: 'session', info: session.info, ground: undefined });
       show();
       break;
@@ -182,6 +230,7 @@ async function carryOut(command: Command): Promise<void> {
       break;
     case 'sculpt': {
       const patch = session.sculpt(command.brush);
+      trail.cut(session.status().tick);
       if (patch) post({ type: 'ground', patch }, [patch.heights_m.buffer]);
       unsent = true;
       showIfDue();
@@ -203,9 +252,10 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
     return;
   }
   const { id, command } = data;
+  if (command.type === 'seek') newestSeek = id;
   queue = queue.then(async () => {
     try {
-      await carryOut(command);
+      await carryOut(command, id);
       post({ type: 'done', id });
     } catch (error) {
       fail(error, id);

@@ -29,7 +29,7 @@ export async function mcapFile(run: Run): Promise<Blob> {
 
   const begin_s = record.length > 0 ? record.get(0, 'time_s') : frame.time_s;
   await goal(begin_s, inWorld(begin_s, { ...info.goal, z: 0 }, LEVEL));
-  for (let row = 0; row < record.length; row += 1) {
+  for (let row = 0; row < record.before(frame.tick); row += 1) {
     const value = (name: (typeof ROW)[number]) => record.get(row, name);
     const time_s = value('time_s');
     const position = { x: value('x'), y: value('y'), z: value('z') };

@@ -5,7 +5,7 @@ import type { RunRecord } from '../core/record.ts';
 
 export interface Run {
   readonly info: SessionInfo;
-  /** Where the run stands now. */
+  /** Where the run stands now: files end there, though the record may know what comes next. */
   readonly frame: Frame;
   readonly record: RunRecord;
 }
@@ -15,7 +15,7 @@ export function trajectoryCsv({ frame, record }: Run): string {
   const lines = [
     'time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,speed_m_s,turn_rate_rad_s,command_speed_m_s,command_turn_rate_rad_s,subgoal_x_m,subgoal_y_m,status',
   ];
-  for (let row = 0; row < record.length; row += 1) {
+  for (let row = 0; row < record.before(frame.tick); row += 1) {
     const motion = MOTION.map((name) => decimals(record.get(row, name)));
     const [x, y] = [record.get(row, 'subgoal_x'), record.get(row, 'subgoal_y')];
     const subgoal = Number.isNaN(x) ? ',' : `${decimals(x)},${decimals(y)}`;
@@ -52,7 +52,9 @@ function decimals(value: number): string {
 /** The result as `mapless run --json` prints it; the outcome of a run that has not ended is `running`. */
 export function runJson({ frame, record }: Run): string {
   const { outcome, stopReason, metrics, tick, time_s, digest } = frame;
-  const times_ms = Float64Array.from({ length: record.length }, (_, row) => record.get(row, 'planner_ms')).sort();
+  const times_ms = Float64Array.from({ length: record.before(frame.tick) }, (_, row) =>
+    record.get(row, 'planner_ms'),
+  ).sort();
   const result = {
     outcome,
     reason: stopReason ?? null,

@@ -16,38 +16,40 @@ const THANKS_MS = 1600;
 export interface MeasureOptions {
   readonly record: RunRecord;
   readonly view: Drawn | undefined;
+  /** Takes the run to another time. */
+  go(time_s: number): void;
   notice(message: string): void;
 }
 
 export class Measure {
-  readonly plots: TimePlots;
+  readonly #plots: TimePlots;
   readonly #metrics = new MetricsPanel(byId('metrics', HTMLElement));
   readonly #timing = new TimingPanel();
   readonly #record: RunRecord;
   #info: SessionInfo | undefined;
   #frame: Frame | undefined;
 
-  constructor({ record, view, notice }: MeasureOptions) {
+  constructor({ record, view, go, notice }: MeasureOptions) {
     this.#record = record;
-    this.plots = new TimePlots(record);
-    byId('plots', HTMLElement).append(this.plots.element);
+    this.#plots = new TimePlots(record, go);
+    byId('plots', HTMLElement).append(this.#plots.element);
     this.#enlarges();
     this.#copiesDigest(notice);
-    new TakeAway({ run: () => this.#run(), plots: (title) => this.plots.file(title), view, notice });
+    new TakeAway({ run: () => this.#run(), plots: (title) => this.#plots.file(title), view, notice });
   }
 
   session(info: SessionInfo): void {
     this.#info = info;
     const paper = published(info.scenario);
     this.#metrics.session(paper);
-    this.plots.session(info, paper);
+    this.#plots.session(info, paper);
   }
 
   frame(frame: Frame): void {
     this.#frame = frame;
     this.#metrics.show(frame.metrics);
     this.#timing.show(this.#record);
-    this.plots.update();
+    this.#plots.update(frame);
   }
 
   #run() {
@@ -60,10 +62,10 @@ export class Measure {
     const sheet = byId('plots-sheet', HTMLDialogElement);
     const large = byId('plots-large', HTMLElement);
     byId('plots-enlarge', HTMLButtonElement).addEventListener('click', () => {
-      large.append(this.plots.element);
+      large.append(this.#plots.element);
       sheet.showModal();
     });
-    sheet.addEventListener('close', () => byId('plots', HTMLElement).append(this.plots.element));
+    sheet.addEventListener('close', () => byId('plots', HTMLElement).append(this.#plots.element));
   }
 
   #copiesDigest(notice: (message: string) => void): void {

@@ -5,7 +5,7 @@ import { html, setText } from '../ui/dom.ts';
 import { fixed } from '../ui/format.ts';
 import type { Published } from './published.ts';
 
-interface Row {
+export interface MetricRow {
   readonly key: keyof Metrics;
   readonly name: string;
   readonly symbol: string;
@@ -14,7 +14,7 @@ interface Row {
   readonly meaning: string;
 }
 
-const ROWS: readonly Row[] = [
+export const METRIC_ROWS: readonly MetricRow[] = [
   { key: 'distance_m', name: 'Distance', symbol: 'D', unit: 'm', decimals: 1, meaning: 'Way driven from the start.' },
   {
     key: 'mean_elevation_rate_cm_s',
@@ -63,7 +63,7 @@ export class MetricsPanel {
   readonly #papers = new Map<keyof Metrics, HTMLElement>();
 
   constructor(list: HTMLElement) {
-    for (const row of ROWS) {
+    for (const row of METRIC_ROWS) {
       const value = html('span', 'metric-value', ['–']);
       const paper = html('dd', 'metric-paper');
       this.#values.set(row.key, value);
@@ -80,7 +80,7 @@ export class MetricsPanel {
 
   /** What the paper reports for its own route, on which the scenario is modelled. */
   session(paper: Published | undefined): void {
-    for (const { key, decimals } of ROWS) {
+    for (const { key, decimals } of METRIC_ROWS) {
       const element = this.#papers.get(key);
       const spread = paper?.deviation ? ` ± ${fixed(paper.deviation[key], decimals)}` : '';
       if (element) setText(element, paper ? `paper ${fixed(paper.mean[key], decimals)}${spread}` : '');
@@ -88,7 +88,7 @@ export class MetricsPanel {
   }
 
   show(metrics: Metrics): void {
-    for (const row of ROWS) {
+    for (const row of METRIC_ROWS) {
       const element = this.#values.get(row.key);
       if (element) setText(element, fixed(metrics[row.key], row.decimals));
     }

@@ -15,11 +15,12 @@ const LIFT_M = 0.07;
 export class Route {
   readonly line: LineSegments2;
   readonly #buffer = new InstancedInterleavedBuffer(new Float32Array(6 * CAPACITY), 6, 1);
-  readonly #material = new LineMaterial({ linewidth: 3.5, transparent: true, opacity: 0.95 });
+  readonly #material: LineMaterial;
   #last: [number, number, number] | undefined;
   #count = 0;
 
-  constructor() {
+  constructor(opacity = 0.95) {
+    this.#material = new LineMaterial({ linewidth: 3.5, transparent: true, opacity });
     const geometry = new LineSegmentsGeometry();
     geometry.setAttribute('instanceStart', new InterleavedBufferAttribute(this.#buffer, 3, 0));
     geometry.setAttribute('instanceEnd', new InterleavedBufferAttribute(this.#buffer, 3, 3));
@@ -30,6 +31,11 @@ export class Route {
 
   theme(theme: Theme): void {
     this.#material.color.copy(colour(theme.accent));
+  }
+
+  /** A colour of its own, for the way of another robot. */
+  paint(hex: string): void {
+    this.#material.color.set(hex);
   }
 
   clear(): void {

@@ -1,7 +1,16 @@
 /** The 3D view: owns the renderer and shows what frames say. Draws only when something changed. */
 
-import { AmbientLight, DirectionalLight, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
-import { type Frame, type Pose, type SessionInfo, TICK_RATE_HZ } from '../core/protocol.ts';
+import {
+  AmbientLight,
+  DirectionalLight,
+  type Object3D,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import type { Frame, Pose, SessionInfo } from '../core/protocol.ts';
 import type { Finder, Target } from '../ui/attention.ts';
 import { wrap } from '../ui/format.ts';
 import type { Theme } from '../ui/theme.ts';
@@ -18,6 +27,7 @@ import { Route } from './route.ts';
 import { Subgoals } from './subgoals.ts';
 import { SUN } from './sunlight.ts';
 import { type CameraMode, Viewpoint } from './viewpoint.ts';
+import { Waypoints } from './waypoints.ts';
 
 /** Triangles of finer grids cost more than they show; a processor draws far fewer of them than a graphics card. */
 const GRID_VERTICES = { hardware: 512, software: 160 };
@@ -25,6 +35,8 @@ const GRID_VERTICES = { hardware: 512, software: 160 };
 const FIRST_LOOK_RAD = 0.35;
 /** At slow motion the robot still glides no longer than this from tick to tick. */
 const LONGEST_GLIDE_MS = 250;
+/** The way not taken again, or not yet. */
+const PALE = 0.35;
 
 export class Stage {
   readonly #canvas: HTMLCanvasElement;
@@ -34,8 +46,10 @@ export class Stage {
   readonly #scene = new Scene();
   readonly #returns = new Returns();
   readonly #route = new Route();
+  readonly #ahead = new Route(PALE);
   readonly #subgoals = new Subgoals();
   readonly #places = new Places();
+  readonly #waypoints = new Waypoints();
   readonly #glide = new Glide();
   readonly #overlays: Overlays;
   readonly #sensor = new Vector3();
@@ -57,6 +71,7 @@ export class Stage {
     const sun = new DirectionalLight(0xfff3df, 3.2);
     sun.position.set(...SUN);
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
+    this.#scene.add(this.#ahead.line, this.#waypoints.group);
     this.#scene.add(this.#route.line, this.#returns.points, this.#subgoals.group, this.#places.group);
     this.#overlays = new Overlays(theme, FIRST_LAYERS, this.#height);
     this.#scene.add(this.#overlays.group);
@@ -83,13 +98,19 @@ export class Stage {
     return this.#viewpoint.heading_rad;
   }
 
+  /** Shows something more, which tells of its changes with `invalidate`. */
+  add(part: Object3D): void {
+    this.#scene.add(part);
+    this.invalidate();
+  }
+
   invalidate(): void {
     this.#dirty = true;
   }
 
   theme(theme: Theme): void {
     this.#theme = theme;
-    const marks = [this.#returns, this.#route, this.#subgoals, this.#places];
+    const marks = [this.#returns, this.#route, this.#ahead, this.#subgoals, this.#places, this.#waypoints];
     for (const part of [this.#relief, ...marks, this.#overlays]) part?.theme(theme);
     this.invalidate();
   }
@@ -105,6 +126,7 @@ export class Stage {
     if (field) this.#returns.heights(field.min_m, field.max_m);
     const { start, goal } = info;
     this.#places.show(goal, start, this.#height);
+    this.#waypoints.show(info.waypoints, this.#height);
     if (field) {
       const towards = Math.atan2(goal.y - start.y, goal.x - start.x);
       this.#viewpoint.reset();
@@ -115,14 +137,20 @@ export class Stage {
   }
 
   frame(frame: Frame): void {
-    const { pose, tick } = frame;
-    if (tick === 0) {
-      this.#viewpoint.reset();
+    const { pose } = frame;
+    if (frame.anew) {
       this.#route.clear();
+      this.#ahead.clear();
       this.#glide.reset();
     }
+    if (frame.ahead) this.#ahead.extend(frame.ahead);
+    this.#waypoints.passed(frame.waypointsPassed);
     this.#route.extend(frame.path);
-    this.#glide.to(pose, performance.now(), Math.min(1000 / (TICK_RATE_HZ * this.#speed), LONGEST_GLIDE_MS));
+    this.#glide.to(
+      pose,
+      performance.now(),
+      Math.min((1000 * (this.#info?.period_s ?? 0)) / this.#speed, LONGEST_GLIDE_MS),
+    );
     this.#returns.show(frame, this.#radius_m);
     this.#subgoals.show(frame.subgoals, this.#height);
     this.#overlays.show(frame);
@@ -152,6 +180,7 @@ export class Stage {
     this.#relief?.sculpted();
     if (this.field) this.#returns.heights(this.field.min_m, this.field.max_m);
     this.#places.settle(this.#height);
+    this.#waypoints.settle(this.#height);
     this.invalidate();
   }
 
@@ -250,6 +279,7 @@ export class Stage {
     if (this.field) this.#viewpoint.clear(this.field);
     this.#subgoals.attach(this.#sensor, camera.position);
     this.#places.face(camera.position);
+    this.#waypoints.face(camera.position);
     this.#renderer.render(this.#scene, camera);
     this.drawn?.(this.#canvas);
     if (this.#pacer.drew(now_ms)) this.#resize();

@@ -7,7 +7,8 @@ export const TOOLS = ['look', 'goal', 'start', 'raise', 'lower', 'smooth'] as co
 export type Tool = (typeof TOOLS)[number];
 
 export interface ToolActions {
-  setGoal(goal: Place): void;
+  /** `added`: after the present goal, which is driven to first. */
+  setGoal(goal: Place, added: boolean): void;
   setStart(start: Heading): void;
   sculpt(brush: Brush): void;
 }
@@ -31,6 +32,7 @@ export class GroundTools {
   readonly #actions: ToolActions;
   #tool: Tool = 'look';
   #radius_m = 2;
+  #adding = false;
   #pointer: number | undefined;
   #touches = 0;
   #pressed: Place | undefined;
@@ -59,6 +61,11 @@ export class GroundTools {
     this.#stage.toolInHand(tool !== 'look');
     this.#canvas.dataset.tool = tool;
     this.#ring();
+  }
+
+  /** Whether goals are added to the route without the Shift key. */
+  adding(adding: boolean): void {
+    this.#adding = adding;
   }
 
   radius(radius_m: number): void {
@@ -104,7 +111,9 @@ export class GroundTools {
     const [pressed, cursor] = [this.#pressed, this.#cursor];
     this.#stop();
     if (!done || !pressed || !cursor) return;
-    if (this.#tool === 'goal') this.#actions.setGoal({ x: cursor.x, y: cursor.y });
+    if (this.#tool === 'goal') {
+      this.#actions.setGoal({ x: cursor.x, y: cursor.y }, this.#adding || event.shiftKey);
+    }
     if (this.#tool === 'start') {
       const [east, north] = [cursor.x - pressed.x, cursor.y - pressed.y];
       const dragged = Math.hypot(east, north) > HEADING_DRAG_M;
@@ -126,7 +135,7 @@ export class GroundTools {
       return;
     }
     if (step) this.#moveCursor(step[0] ?? 0, step[1] ?? 0, event.shiftKey ? 5 : 1);
-    else if (event.key === 'Enter') this.#apply();
+    else if (event.key === 'Enter') this.#apply(event.shiftKey);
     else return;
     event.preventDefault();
   }
@@ -144,10 +153,10 @@ export class GroundTools {
     this.#ring();
   }
 
-  #apply(): void {
+  #apply(shifted: boolean): void {
     const at = this.#cursor ?? this.#stage.robot;
     if (!at) return;
-    if (this.#tool === 'goal') this.#actions.setGoal({ x: at.x, y: at.y });
+    if (this.#tool === 'goal') this.#actions.setGoal({ x: at.x, y: at.y }, this.#adding || shifted);
     else if (this.#tool === 'start') {
       this.#actions.setStart({ x: at.x, y: at.y, heading_rad: this.#stage.viewHeading_rad });
     } else {

@@ -17,6 +17,9 @@ export interface Actions {
   selectTool(tool: Tool): void;
   setBrushRadius(radius_m: number): void;
   help(): void;
+  /** Whether further goals are added to the route. */
+  addStops(adding: boolean): void;
+  clearStops(): void;
 }
 
 const LEARNING: readonly Learning[] = ['fixed', 'once', 'every_scan'];
@@ -30,6 +33,8 @@ export class Controls {
   readonly #seed = byId('seed', HTMLInputElement);
   readonly #play = byId('play', HTMLButtonElement);
   readonly #brush = byId('brush', HTMLElement);
+  readonly #routeTools = byId('route-tools', HTMLElement);
+  readonly #routeClear = byId('route-clear', HTMLButtonElement);
   readonly #brushSize = byId('brush-size', HTMLInputElement);
   readonly #brushValue = byId('brush-value', HTMLOutputElement);
   readonly #actions: Actions;
@@ -52,6 +57,9 @@ export class Controls {
     this.#onClick('restart', () => actions.restart());
     this.#onClick('help', () => actions.help());
     this.#onClick('next', () => actions.next());
+    this.#onClick('route-clear', () => actions.clearStops());
+    const add = byId('route-add', HTMLInputElement);
+    add.addEventListener('change', () => actions.addStops(add.checked));
     for (const input of this.#radios('tool')) {
       input.addEventListener('change', () => actions.selectTool(TOOLS.find((tool) => tool === input.value) ?? 'look'));
     }
@@ -69,7 +77,8 @@ export class Controls {
     this.#play.title = `${label} (Space)`;
   }
 
-  showSession({ scenario, preset, learning, seed }: SessionInfo): void {
+  showSession({ scenario, preset, learning, seed, waypoints }: SessionInfo): void {
+    this.#routeClear.hidden = waypoints.length === 0;
     this.#scenario.value = scenario;
     this.#preset.value = preset;
     this.#learning.value = learning;
@@ -79,6 +88,7 @@ export class Controls {
 
   showTool(tool: Tool): void {
     for (const input of this.#radios('tool')) input.checked = input.value === tool;
+    this.#routeTools.hidden = tool !== 'goal';
     this.#brush.hidden = tool !== 'raise' && tool !== 'lower' && tool !== 'smooth';
   }
 

@@ -13,6 +13,9 @@ export interface KeyActions {
   /** Puts down the tool and lets go of what was pointed at. */
   letGo(): void;
   help(): void;
+  /** So many jumps along the timeline. */
+  jump(times: number): void;
+  lab(): void;
 }
 
 export interface ThinkingKeys {
@@ -30,6 +33,9 @@ export function bindKeys(actions: KeyActions, thinking: ThinkingKeys): void {
     ' ': () => actions.togglePlay(),
     s: () => actions.step(),
     r: () => actions.restart(),
+    j: () => actions.jump(-1),
+    l: () => actions.jump(1),
+    p: () => actions.lab(),
     n: () => actions.next(),
     f: () => thinking.toggleFollow(),
     e: () => thinking.toggleEye(),

@@ -6,7 +6,6 @@ mod faults;
 mod figures;
 mod oracle;
 mod published;
-mod stats;
 mod tables;
 mod trajectory;
 mod worst;
@@ -18,6 +17,7 @@ use std::path::{Path, PathBuf};
 use crate::error::CampaignError;
 use crate::files::write_atomically;
 use crate::results::{Manifest, TrialRow};
+use mapless_trials::statistics as stats;
 
 /// The figures stand in a folder of this name beside the report.
 const FIGURES: &str = "results";

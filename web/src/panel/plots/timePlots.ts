@@ -1,6 +1,6 @@
 /** The plots over time: zoomed by wheel, pinch, buttons and keys, with a cursor that is a time of the run. */
 
-import type { SessionInfo } from '../../core/protocol.ts';
+import type { Frame, SessionInfo } from '../../core/protocol.ts';
 import type { RunRecord } from '../../core/record.ts';
 import { html } from '../../ui/dom.ts';
 import { clock } from '../../ui/format.ts';
@@ -14,28 +14,29 @@ const DEGREES = 180 / Math.PI;
 /** The eye follows no faster, and the page has more to do. */
 const REDRAW_MS = 200;
 const ZOOM_STEP = 0.6;
-const TICK_S = 0.1;
 
 export class TimePlots {
   readonly element: HTMLElement;
-  /** Called when somebody points out a time. */
-  onTime: (time_s: number) => void = () => {};
   readonly #record: RunRecord;
+  readonly #go: (time_s: number) => void;
   readonly #figure = new PlotFigure();
   readonly #surface: HTMLElement;
   readonly #pointers = new Map<number, number>();
   #references: References = {};
   /** The span zoomed to; without it, the whole run so far. */
   #zoomed: Span | undefined;
-  /** The time that the cursor holds; without it, the newest. */
+  #period_s = 0.1;
+  /** The time that the run was taken back to; without it, the newest. */
   #pinned_s: number | undefined;
   #hovered_s: number | undefined;
   #drawn_ms = 0;
   #scheduled = false;
   #visible = false;
 
-  constructor(record: RunRecord) {
+  /** `go` is called when somebody chooses a time of the run. */
+  constructor(record: RunRecord, go: (time_s: number) => void) {
     this.#record = record;
+    this.#go = go;
     this.#surface = html('div', 'plots-surface', [this.#figure.svg]);
     const zoomButton = (label: string, text: string, act: () => void) => {
       const button = html('button', 'plain plots-zoom', [text]);
@@ -62,20 +63,15 @@ export class TimePlots {
       vibration: published ? { paper: published.mean.mean_vibration_rad_s } : {},
       curvature: {},
     };
+    this.#period_s = info.period_s;
     this.#zoomed = undefined;
-    this.#pinned_s = undefined;
     this.#schedule();
   }
 
-  /** The record has grown. */
-  update(): void {
+  /** The record has grown, or the run was taken back to another time. */
+  update({ tick, time_s, timeline }: Frame): void {
+    this.#pinned_s = tick < timeline.end ? time_s : undefined;
     this.#schedule();
-  }
-
-  /** Puts the cursor on a time of the run, or on the newest. */
-  showTime(time_s: number | undefined): void {
-    this.#pinned_s = time_s;
-    this.#draw();
   }
 
   /** The plots as they stand, as an SVG file. */
@@ -138,10 +134,8 @@ export class TimePlots {
     this.#draw();
   }
 
-  /** The whole run, with the cursor on the newest. */
   #whole(): void {
     this.#zoomed = undefined;
-    this.#pinned_s = undefined;
     this.#draw();
   }
 
@@ -157,7 +151,7 @@ export class TimePlots {
       this.#zoomed = pan(this.#zoomed, beyond_s, this.#whole_s);
     }
     this.#draw();
-    this.onTime(this.#pinned_s);
+    this.#go(this.#pinned_s);
   }
 
   #listen(): void {
@@ -189,7 +183,7 @@ export class TimePlots {
   #key(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const now_s = Math.min(this.#time_s, this.#whole_s.to_s);
-    const step_s = event.shiftKey ? 10 * TICK_S : TICK_S;
+    const step_s = (event.shiftKey ? 10 : 1) * this.#period_s;
     const keys: Record<string, () => void> = {
       ArrowLeft: () => this.#choose(now_s - step_s),
       ArrowDown: () => this.#choose(now_s - step_s),

@@ -1,7 +1,8 @@
-//! The statistics of the report.
+//! Statistics over many trials: what reports and the page print.
 
 /// Mean and sample standard deviation; no deviation of a single value, nothing of none.
-pub(super) fn mean_and_deviation(values: &[f64]) -> Option<(f64, Option<f64>)> {
+#[must_use]
+pub fn mean_and_deviation(values: &[f64]) -> Option<(f64, Option<f64>)> {
     let mean = mean(values)?;
     let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
     let deviation = (values.len() > 1).then(|| (squares / (values.len() - 1) as f64).sqrt());
@@ -9,12 +10,14 @@ pub(super) fn mean_and_deviation(values: &[f64]) -> Option<(f64, Option<f64>)> {
 }
 
 /// The mean; nothing of none.
-pub(super) fn mean(values: &[f64]) -> Option<f64> {
+#[must_use]
+pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
 /// The median; nothing of none.
-pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
+#[must_use]
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;
     let upper = *values.get(middle)?;
@@ -25,7 +28,8 @@ pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
 const Z: f64 = 1.959_963_984_540_054;
 
 /// Wilson's 95 % interval of the rate behind `successes` of `trials` (Wilson 1927, without continuity correction).
-pub(super) fn wilson(successes: usize, trials: usize) -> (f64, f64) {
+#[must_use]
+pub fn wilson(successes: usize, trials: usize) -> (f64, f64) {
     if trials == 0 {
         return (0.0, 1.0);
     }
@@ -39,7 +43,8 @@ pub(super) fn wilson(successes: usize, trials: usize) -> (f64, f64) {
 
 /// Success weighted by path length (Anderson et al. 2018): the mean over all trials of what the shortest path is to the
 /// driven one, with nothing for a failure. Each trial gives the driven length where it succeeded, and the shortest.
-pub(super) fn spl(trials: &[(Option<f64>, f64)]) -> Option<f64> {
+#[must_use]
+pub fn spl(trials: &[(Option<f64>, f64)]) -> Option<f64> {
     let shares: Vec<f64> = trials
         .iter()
         .map(|&(driven_m, shortest_m)| driven_m.map_or(0.0, |driven_m| shortest_m / driven_m.max(shortest_m)))

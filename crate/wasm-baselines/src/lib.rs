@@ -1,0 +1,135 @@
+//! Whole trials of every navigator, for the page's ghosts and batches. A module of its own: the page opens without it.
+
+#[path = "../../wasm/src/panic.rs"]
+mod panic;
+
+use glam::DVec2;
+use mapless::Navigator;
+use mapless_baselines::NavigatorKind;
+use mapless_trials::{Scenario, StartPose, Trial, statistics};
+use mapless_world::HeightField;
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+/// Runs once when the page loads the module.
+#[wasm_bindgen(start)]
+pub fn start() {
+    panic::install_hook();
+}
+
+/// The names of all navigators.
+#[wasm_bindgen]
+pub fn planners() -> Vec<String> {
+    NavigatorKind::ALL.iter().map(|kind| kind.name().to_owned()).collect()
+}
+
+/// Wilson's 95 % interval of the rate behind `successes` of `trials`.
+#[wasm_bindgen]
+pub fn wilson(successes: usize, trials: usize) -> Vec<f64> {
+    let (low, high) = statistics::wilson(successes, trials);
+    vec![low, high]
+}
+
+/// Mean and sample standard deviation; NaN where there is none.
+#[wasm_bindgen]
+pub fn mean_and_deviation(values: &[f64]) -> Vec<f64> {
+    let (mean, deviation) = statistics::mean_and_deviation(values).unwrap_or((f64::NAN, None));
+    vec![mean, deviation.unwrap_or(f64::NAN)]
+}
+
+/// The ground that trials run on, as the page has it now.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Ground {
+    field: HeightField,
+}
+
+#[wasm_bindgen]
+impl Ground {
+    /// A height field, row by row from the south-west.
+    ///
+    /// # Errors
+    /// Heights that make no field.
+    #[wasm_bindgen(constructor)]
+    pub fn new(columns: usize, rows: usize, cell_m: f64, heights_m: Vec<f32>) -> Result<Ground, JsError> {
+        Ok(Ground { field: HeightField::new(columns, rows, cell_m, heights_m)? })
+    }
+}
+
+/// One trial of one navigator.
+#[wasm_bindgen]
+#[allow(missing_debug_implementations)]
+pub struct Runner {
+    trial: Trial<Box<dyn Navigator>>,
+}
+
+#[wasm_bindgen]
+impl Runner {
+    /// Puts the scenario's robot on the ground with the navigator of the name `planner`; `parameters` is TOML with nothing
+    /// but `[planner]`, `[sensor]` and `[robot]`.
+    ///
+    /// # Errors
+    /// A fault in the scenario or a value that makes no sense, with its place and what was expected.
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        ground: &Ground,
+        scenario_file: &str,
+        scenario_toml: &str,
+        parameters: &str,
+        planner: &str,
+        seed: u64,
+    ) -> Result<Runner, JsError> {
+        let scenario =
+            Scenario::parse(scenario_file, scenario_toml)?.with_parameters("settings", parameters)?;
+        let kind: NavigatorKind = planner.parse()?;
+        let navigator = kind.build(&ground.field, &scenario, seed)?;
+        Ok(Runner { trial: Trial::with_navigator(ground.field.clone(), &scenario, navigator, seed)? })
+    }
+
+    /// Another start than the scenario's.
+    ///
+    /// # Errors
+    /// A start off the terrain.
+    pub fn set_start(&mut self, x: f64, y: f64, heading_rad: f64) -> Result<(), JsError> {
+        Ok(self.trial.set_start(StartPose { position_m: DVec2::new(x, y), heading_rad })?)
+    }
+
+    /// Another goal, with waypoints (x, y of each) before it.
+    ///
+    /// # Errors
+    /// A place off the terrain.
+    pub fn set_route(&mut self, waypoints: &[f64], x: f64, y: f64) -> Result<(), JsError> {
+        let waypoints_m = waypoints.chunks_exact(2).map(DVec2::from_slice).collect();
+        Ok(self.trial.set_route(waypoints_m, DVec2::new(x, y))?)
+    }
+
+    /// One planning period; returns whether the trial goes on.
+    pub fn tick(&mut self) -> bool {
+        self.trial.tick().is_none()
+    }
+
+    /// How the trial ended, or `running`.
+    pub fn outcome(&self) -> String {
+        self.trial.outcome().map_or("running", |outcome| outcome.name()).to_owned()
+    }
+
+    /// Tick, time; x, y, z, roll, pitch, yaw; then the six metrics in the order of [`mapless_trials::Metrics`].
+    pub fn status(&self) -> Vec<f64> {
+        let metrics = self.trial.metrics();
+        let mut values = vec![self.trial.ticks() as f64, self.trial.time_s()];
+        values.extend(&self.trial.motion()[..6]);
+        values.extend([
+            metrics.distance_m,
+            metrics.max_abs_roll_rad,
+            metrics.max_abs_pitch_rad,
+            metrics.mean_vibration_rad_s,
+            metrics.mean_elevation_rate_cm_s,
+            metrics.curvature_change_rad_m,
+        ]);
+        values
+    }
+
+    /// Digest of the trajectory so far.
+    pub fn digest(&self) -> String {
+        self.trial.digest()
+    }
+}

@@ -1,0 +1,142 @@
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import type { Page } from '@playwright/test';
+import { expect, state, test, until } from './page.ts';
+
+async function openLab(page: Page, tab: string): Promise<void> {
+  await page.getByRole('button', { name: /^Parameters, comparison/ }).click();
+  await page.getByRole('tab', { name: tab }).click();
+}
+
+/** A short course, at tick 0. */
+async function shortCourse(page: Page, ahead_m: number, left_m = 0): Promise<void> {
+  await page.evaluate(() => window.mapless?.pause());
+  await page.evaluate(() => window.mapless?.restart());
+  const { pose } = await state(page);
+  const goal = {
+    x: pose.x + ahead_m * Math.cos(pose.yaw) - left_m * Math.sin(pose.yaw),
+    y: pose.y + ahead_m * Math.sin(pose.yaw) + left_m * Math.cos(pose.yaw),
+  };
+  await page.evaluate((place) => window.mapless?.setGoal(place), goal);
+  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+}
+
+test('a parameter is found, changed, refused with the reason at its field, and reset', async ({ mapless: page }) => {
+  await openLab(page, 'Parameters');
+  await page.getByRole('searchbox', { name: 'Search parameters' }).fill('noise metre');
+  await expect(page.locator('.parameter:visible')).toHaveCount(0);
+  await page.getByRole('searchbox', { name: 'Search parameters' }).fill('range noise');
+  await expect(page.locator('.parameter:visible')).toHaveCount(1);
+  const noise = page.getByRole('spinbutton', { name: 'range noise' });
+  await noise.fill('0.1');
+  await noise.press('Enter');
+  await until(page, (now) => JSON.stringify(now.overrides) === '{"sensor":{"range_noise_m":0.1}}');
+  await expect(page.locator('#lab-count')).toHaveText('1');
+
+  await noise.fill('7');
+  await noise.press('Enter');
+  await expect(page.locator('.parameter:visible .parameter-fault')).toHaveText(
+    'sensor.range_noise_m = 7: expected a number from 0 to 1',
+  );
+  expect((await state(page)).overrides).toEqual({ sensor: { range_noise_m: 0.1 } });
+
+  await page.getByRole('button', { name: 'Reset range noise' }).click();
+  await until(page, (now) => Object.keys(now.overrides).length === 0);
+  await expect(noise).toHaveValue('0.02');
+  await expect(page.locator('.parameter:visible .parameter-fault')).toBeHidden();
+});
+
+test('every kind of parameter is set, and the command line drives the same way with them', async ({
+  mapless: page,
+}) => {
+  test.setTimeout(400_000);
+  await shortCourse(page, 4);
+  const overrides = {
+    sensor: { dropout_probability: 0.2, columns: 900 },
+    robot: { max_speed_m_s: 0.6 },
+    planner: {
+      segments: { subgoals_on_unknown: false },
+      decision: { cost_model: 'paper' },
+      perception: { kernel: { length_scales_rad: [0.12, 0.05] } },
+    },
+  };
+  await page.evaluate((values) => window.mapless?.setOverrides(values), overrides);
+  await page.evaluate(() => window.mapless?.play());
+  await until(page, (now) => now.outcome !== 'running', 200_000);
+  const { start, goal, seed, digest, tick } = await state(page);
+
+  const scenario = `terrain = "${resolve('terrains/cht.toml')}"
+start = [${start.x}, ${start.y}, ${start.heading_rad}]
+goal = [${goal.x}, ${goal.y}]
+seed = ${seed}
+[sensor]
+dropout_probability = 0.2
+columns = 900
+[robot]
+max_speed_m_s = 0.6
+[planner.segments]
+subgoals_on_unknown = false
+[planner.decision]
+cost_model = "paper"
+[planner.perception.kernel]
+length_scales_rad = [0.12, 0.05]
+`;
+  const file = join(mkdtempSync(join(tmpdir(), 'mapless-')), 'scenario.toml');
+  writeFileSync(file, scenario);
+  const run = spawnSync('target/release/mapless', ['run', file, '--json'], { encoding: 'utf8' });
+  expect(run.stdout, run.stderr).not.toBe('');
+  expect(JSON.parse(run.stdout)).toMatchObject({ digest, ticks: tick });
+});
+
+test('the table of parameters and the drawer work by keyboard', async ({ mapless: page }) => {
+  await page.keyboard.press('p');
+  const first = page.getByRole('tab', { name: 'Parameters' });
+  await expect(first).toBeFocused();
+  await page.keyboard.press('ArrowRight');
+  await expect(page.getByRole('tab', { name: 'Compare' })).toBeFocused();
+  await expect(page.getByRole('tabpanel', { name: 'Compare' })).toBeVisible();
+  await page.keyboard.press('Escape');
+  await expect(page.getByRole('button', { name: /^Parameters, comparison/ })).toBeFocused();
+});
+
+test('ghosts drive the same course: the same planner gives the same digest, another one another way', async ({
+  mapless: page,
+}) => {
+  test.setTimeout(300_000);
+  await shortCourse(page, 4, 3);
+  await openLab(page, 'Compare');
+  await page.getByRole('checkbox', { name: /^Best/ }).check();
+  await page.getByRole('checkbox', { name: /^Direct/ }).check();
+  await page.evaluate(() => window.mapless?.play());
+  await until(page, (now) => now.outcome === 'reached', 200_000);
+  const table = page.locator('.comparison').first();
+  const row = (name: string) => table.getByRole('row', { name });
+  await expect(row('Outcome').getByText('Goal reached')).toHaveCount(3, { timeout: 120_000 });
+  // Distance, roll, …: no difference of the same planner with the same seed.
+  for (const name of ['Distance', 'Largest roll', 'Vibration']) {
+    await expect(row(name).getByRole('cell').nth(1)).toHaveText(/\(0\.0+\)$/);
+  }
+  await expect(row('Curvature change').getByRole('cell').nth(2)).not.toHaveText(/\(0\.0+\)$/);
+});
+
+test('many seeds run beside the page, are summed up, replayed and cancelled', async ({ mapless: page }) => {
+  test.setTimeout(400_000);
+  await shortCourse(page, 3);
+  await openLab(page, 'Seeds');
+  await page.getByLabel('How many').fill('3');
+  await page.getByLabel('From seed').fill('41');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await expect(page.locator('.seeds-table tbody tr')).toHaveCount(3, { timeout: 200_000 });
+  await expect(page.locator('.seeds-summary')).toContainText('3 of 3 (95 %: 44 % to 100 %)');
+  const time = await page.locator('.seeds-table tbody tr').nth(1).getByRole('cell').nth(1).textContent();
+  await page.getByRole('button', { name: 'Show seed 42' }).click();
+  await until(page, (now) => now.seed === 42 && now.outcome === 'reached', 200_000);
+  await expect(page.locator('#time')).toHaveText(time ?? '');
+
+  await page.getByLabel('How many').fill('200');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.getByRole('button', { name: 'Cancel' }).click();
+  await expect(page.getByRole('status').filter({ hasText: /^Cancelled after \d+ of 200/ })).toBeVisible();
+});

@@ -1,0 +1,51 @@
+/** What the core tells of each parameter (`mapless_trials::parameters`). */
+
+import type { OverrideValue } from './overrides.ts';
+
+interface Described {
+  readonly name: string;
+  readonly unit: string;
+  readonly text: string;
+  /** That of the scenario's file, or the planner's own. */
+  readonly value: OverrideValue;
+  /** What the paper gives, where it gives one. */
+  readonly paper?: OverrideValue;
+}
+
+export type Parameter = Described &
+  (
+    | { readonly kind: 'number' | 'whole' | 'pair'; readonly range: readonly [low: number, high: number] }
+    | { readonly kind: 'switch' }
+    | { readonly kind: 'choice'; readonly choices: readonly string[] }
+  );
+
+export interface ParameterGroup {
+  readonly table: string;
+  readonly title: string;
+  readonly parameters: readonly Parameter[];
+}
+
+const UNITS = /_(m|m2|rad|s|m_s|m_s2|rad_s|rad_s2|ticks|length_scales)$/;
+
+/** A parameter's name as people read it: `max_slope_rad` is “max slope”. */
+export function label(name: string): string {
+  return name.replace(UNITS, '').replaceAll('_', ' ');
+}
+
+/** A value as it is written in a field or a sentence. */
+export function shown(value: OverrideValue): string {
+  if (typeof value === 'boolean') return value ? 'on' : 'off';
+  if (typeof value === 'string') return value.replaceAll('_', ' ');
+  return typeof value === 'number' ? String(value) : value.join(', ');
+}
+
+/** The parameter that a message of the core complains about, as `table.name`. */
+export function complaintAbout(message: string, groups: readonly ParameterGroup[]): string | undefined {
+  const paths = groups.flatMap(({ table, parameters }) =>
+    parameters.map(({ name }) => ({ name, path: `${table}.${name}` })),
+  );
+  const full = paths.find(({ path }) => message.includes(`${path} = `));
+  if (full) return full.path;
+  // A value of the wrong kind is only told with its own name.
+  return paths.find(({ name }) => message.includes(`\`${name}\``))?.path;
+}

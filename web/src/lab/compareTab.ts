@@ -1,0 +1,165 @@
+/** Other planners on the same course, in step with the robot of the page: ghosts in the view, differences in a table. */
+
+import type { App } from '../app.ts';
+import type { Frame, SessionInfo } from '../core/protocol.ts';
+import { Ghosts } from '../scene/ghosts.ts';
+import type { Stage } from '../scene/stage.ts';
+import { type RunningJob, startJob } from '../trials/client.ts';
+import { courseOf } from '../trials/course.ts';
+import { GhostRun } from '../trials/ghostRun.ts';
+import type { FromTrials } from '../trials/protocol.ts';
+import { html, setText } from '../ui/dom.ts';
+import { ComparisonTable } from './comparisonTable.ts';
+import type { Tab } from './lab.ts';
+import { RIVALS, type Rival } from './planners.ts';
+
+/** More at once would starve each other, and the table would not fit. */
+const MOST = 3;
+/** Strokes come many in a row: the ghosts begin anew when they have ended. */
+const SCULPTING_MS = 600;
+/** Beyond the page's own run, ghosts run to their end. */
+const TO_THE_END = 1e9;
+
+export class CompareTab implements Tab {
+  readonly title = 'Compare';
+  readonly element = html('div');
+  readonly #app: App;
+  readonly #stage: Stage | undefined;
+  readonly #ghosts = new Ghosts();
+  readonly #boxes: readonly { rival: Rival; box: HTMLInputElement; label: HTMLLabelElement }[];
+  readonly #note = html('p', 'lab-note');
+  readonly #fault = html('p', 'parameter-fault');
+  readonly #table = new ComparisonTable();
+  #job: RunningJob | undefined;
+  #chosen: readonly Rival[] = [];
+  #runs = new Map<string, GhostRun>();
+  #course = '';
+  #frame: Frame | undefined;
+  #sculpted: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(app: App, stage: Stage | undefined) {
+    this.#app = app;
+    this.#stage = stage;
+    stage?.add(this.#ghosts.group);
+    this.#boxes = RIVALS.map((rival) => this.#box(rival));
+    const choice = html('fieldset', 'rivals', [
+      html('legend', 'hidden-text', ['Planners to compare with']),
+      ...this.#boxes.map(({ label }) => label),
+    ]);
+    this.#fault.setAttribute('role', 'alert');
+    this.#fault.hidden = true;
+    this.element.append(choice, this.#note, this.#fault, this.#table.element);
+    this.#tellChoice();
+  }
+
+  session(info: SessionInfo): void {
+    this.#table.session(info);
+    // A restart changes nothing: what the ghosts have driven is still right.
+    const { parameters: _parameters, ...course } = info;
+    const now = JSON.stringify(course);
+    if (now === this.#course) return;
+    this.#course = now;
+    this.#begin();
+  }
+
+  sculpted(): void {
+    clearTimeout(this.#sculpted);
+    this.#sculpted = setTimeout(() => this.#begin(), SCULPTING_MS);
+  }
+
+  frame(frame: Frame): void {
+    this.#frame = frame;
+    const ended = frame.outcome !== 'running';
+    this.#job?.send({ type: 'until', tick: ended ? TO_THE_END : frame.timeline.end });
+    this.#show();
+  }
+
+  #box(rival: Rival) {
+    const box = html('input');
+    box.type = 'checkbox';
+    box.value = rival.planner;
+    box.addEventListener('change', () => this.#choose());
+    const swatch = html('i', 'swatch');
+    swatch.style.setProperty('--swatch', rival.colour);
+    const label = html('label', 'rival', [
+      box,
+      swatch,
+      html('span', 'rival-name', [rival.name]),
+      html('span', 'rival-meaning', [rival.meaning]),
+    ]);
+    return { rival, box, label };
+  }
+
+  #choose(): void {
+    this.#app.touch();
+    this.#chosen = this.#boxes.filter(({ box }) => box.checked).map(({ rival }) => rival);
+    this.#tellChoice();
+    this.#begin();
+  }
+
+  #tellChoice(): void {
+    const full = this.#chosen.length >= MOST;
+    for (const { box } of this.#boxes) box.disabled = full && !box.checked;
+    const how = `They drive the same course from its start, with the same seed and parameters. At most ${MOST} at once.`;
+    setText(this.#note, how);
+  }
+
+  /** All ghosts from the start of the course as it is now. */
+  #begin(): void {
+    this.#job?.stop();
+    this.#job = undefined;
+    this.#runs = new Map();
+    this.#fault.hidden = true;
+    this.#ghosts.set([], 0);
+    this.#stage?.invalidate();
+    const [course, info] = [courseOf(this.#app), this.#app.info];
+    if (course && info && this.#chosen.length > 0) {
+      const planners = this.#chosen.map(({ planner }) => planner);
+      this.#job = startJob({ type: 'ghosts', course, planners, seed: info.seed }, (message) => this.#hear(message));
+      if (this.#frame) this.#job.send({ type: 'until', tick: this.#frame.timeline.end });
+    }
+    this.#table.choose(this.#chosen);
+    this.#show();
+  }
+
+  #hear(message: FromTrials): void {
+    if (message.type === 'ghost') {
+      const { planner } = message.result;
+      const run = this.#runs.get(planner);
+      if (run) run.extend(message.poses, message.result);
+      else this.#enter(planner, new GhostRun(message.poses, message.result));
+      this.#show();
+    } else if (message.type === 'refused' || message.type === 'failed') {
+      setText(this.#fault, message.message);
+      this.#fault.hidden = false;
+    }
+  }
+
+  #enter(planner: string, run: GhostRun): void {
+    this.#runs.set(planner, run);
+    const tracks = this.#running().map(([rival, known]) => ({
+      colour: rival.colour,
+      pose: (tick: number) => known.pose(tick),
+    }));
+    this.#ghosts.set(tracks, this.#app.info?.sensor_height_m ?? 0);
+  }
+
+  #running(): [Rival, GhostRun][] {
+    return this.#chosen.flatMap((rival) => {
+      const run = this.#runs.get(rival.planner);
+      return run ? [[rival, run] as [Rival, GhostRun]] : [];
+    });
+  }
+
+  #show(): void {
+    const frame = this.#frame;
+    if (!frame || this.#chosen.length === 0) return;
+    const running = this.#running();
+    // Once the page's robot has ended, those that are still on their way are shown as far as they are.
+    const ended = frame.outcome !== 'running';
+    this.#ghosts.show(running.map(([, run]) => (ended ? run.lastTick : Math.min(frame.tick, run.lastTick))));
+    this.#stage?.invalidate();
+    if (!this.element.hidden)
+      this.#table.show(frame, new Map(running.map(([rival, run]) => [rival.planner, run.result])));
+  }
+}

@@ -1,0 +1,145 @@
+/** Every parameter of sensor, robot and planner, made from the core's own table. A change begins the run anew, same seed. */
+
+import type { App } from '../app.ts';
+import { countOverrides, type Overrides, type OverrideValue, override, withOverride } from '../core/overrides.ts';
+import { complaintAbout, type ParameterGroup } from '../core/parameters.ts';
+import type { Learning, SessionInfo } from '../core/protocol.ts';
+import { html, setText } from '../ui/dom.ts';
+import { ParameterField } from './field.ts';
+import type { Tab } from './lab.ts';
+
+/** This one is chosen in the bar; the field here and the bar are the same setting. */
+const LEARNING_MODE = 'planner.perception.learning.mode';
+
+interface Section {
+  readonly group: ParameterGroup;
+  readonly element: HTMLDetailsElement;
+  readonly count: HTMLElement;
+  readonly fields: readonly ParameterField[];
+}
+
+export class ParametersTab implements Tab {
+  readonly title = 'Parameters';
+  readonly element = html('div');
+  readonly #app: App;
+  readonly #search = html('input');
+  readonly #resetAll = html('button', 'plain', ['Reset all']);
+  readonly #summary = html('p', 'lab-note');
+  readonly #fault = html('p', 'parameter-fault');
+  readonly #list = html('div', 'parameter-list');
+  #sections: readonly Section[] = [];
+  #made = '';
+
+  constructor(app: App) {
+    this.#app = app;
+    this.#search.type = 'search';
+    this.#search.placeholder = 'Search, e.g. noise';
+    this.#search.setAttribute('aria-label', 'Search parameters');
+    this.#search.addEventListener('input', () => this.#find());
+    this.#resetAll.type = 'button';
+    this.#resetAll.addEventListener('click', () => void this.#apply({}, undefined));
+    this.#fault.setAttribute('role', 'alert');
+    this.#fault.hidden = true;
+    const top = html('div', 'lab-row', [this.#search, this.#resetAll]);
+    this.element.append(top, this.#summary, this.#fault, this.#list);
+  }
+
+  session(info: SessionInfo): void {
+    // The table stays as it is while somebody only changes values, so that the focus stays, too.
+    const made = JSON.stringify(info.parameters);
+    if (made !== this.#made) this.#build(info.parameters);
+    this.#made = made;
+    for (const { group, fields, count } of this.#sections) {
+      let changed = 0;
+      for (const [index, field] of fields.entries()) {
+        const { name, value: own } = group.parameters[index] ?? { name: '', value: '' };
+        const set = override(info.overrides, group.table, name);
+        const value = field.path === LEARNING_MODE && info.learning !== own ? info.learning : set;
+        field.show(value);
+        if (value !== undefined) changed += 1;
+      }
+      setText(count, changed > 0 ? `${changed} changed` : '');
+    }
+    const total = countOverrides(info.overrides);
+    this.#resetAll.disabled = total === 0;
+    const kept = total === 0 ? 'All values are the scenario’s own.' : `${total} changed.`;
+    setText(this.#summary, `${kept} A change begins the run anew with the same seed.`);
+    this.#complain(undefined);
+  }
+
+  #build(groups: readonly ParameterGroup[]): void {
+    const [open, focused] = [new Set(this.#openTables()), document.activeElement?.id];
+    if (open.size === 0) open.add('sensor');
+    // What people try first stands first: the world's faults, then the planner in the order of the method.
+    const ordered = [...groups].sort(
+      (a, b) => Number(a.table.startsWith('planner')) - Number(b.table.startsWith('planner')),
+    );
+    this.#sections = ordered.map((group) => this.#section(group, open.has(group.table)));
+    this.#list.replaceChildren(...this.#sections.map(({ element }) => element));
+    if (focused) document.getElementById(focused)?.focus();
+    this.#find();
+  }
+
+  #openTables(): string[] {
+    return this.#sections.filter(({ element }) => element.open).map(({ group }) => group.table);
+  }
+
+  #section(group: ParameterGroup, open: boolean): Section {
+    const count = html('span', 'parameter-count');
+    const fields = group.parameters.map(
+      (parameter) =>
+        new ParameterField(group.table, parameter, {
+          change: (value) => void this.#change(group.table, parameter.name, value),
+        }),
+    );
+    const element = html('details', 'parameter-group', [
+      html('summary', '', [html('h3', '', [group.title]), count]),
+      ...fields.map((field) => field.element),
+    ]);
+    element.open = open;
+    return { group, element, count, fields };
+  }
+
+  async #change(table: string, name: string, value: OverrideValue | undefined): Promise<void> {
+    const path = `${table}.${name}`;
+    const { info } = this.#app;
+    if (!info) return;
+    if (path === LEARNING_MODE) {
+      const learning = (value ?? 'fixed') as Learning;
+      this.#app.attempt(this.#app.run(info.scenario, { learning }, info.seed));
+      return;
+    }
+    await this.#apply(withOverride(info.overrides, table, name, value), path);
+  }
+
+  /** Tries other values; a message of the core is shown at the field it speaks of, and nothing changes. */
+  async #apply(overrides: Overrides, path: string | undefined): Promise<void> {
+    try {
+      this.#app.touch();
+      await this.#app.setOverrides(overrides);
+      await this.#app.play();
+    } catch (error) {
+      const message = (error instanceof Error ? error.message : String(error)).replace(/^settings: /, '');
+      const groups = this.#sections.map(({ group }) => group);
+      const about = complaintAbout(message, groups) ?? path;
+      const field = this.#sections.flatMap(({ fields }) => fields).find((one) => one.path === about);
+      if (field) field.complain(message);
+      else this.#complain(message);
+    }
+  }
+
+  #complain(message: string | undefined): void {
+    setText(this.#fault, message ?? '');
+    this.#fault.hidden = message === undefined;
+  }
+
+  #find(): void {
+    const words = this.#search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    for (const { element, fields } of this.#sections) {
+      const found = fields.filter((field) => field.matches(words));
+      for (const field of fields) field.element.hidden = !found.includes(field);
+      element.hidden = found.length === 0;
+      if (words.length > 0) element.open = true;
+    }
+  }
+}

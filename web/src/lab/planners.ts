@@ -1,0 +1,19 @@
+/** What can drive beside the page's own planner: names, words and colours that colour-blind readers tell apart. */
+
+export interface Rival {
+  readonly planner: string;
+  readonly name: string;
+  readonly meaning: string;
+  readonly colour: string;
+}
+
+export const RIVALS: readonly Rival[] = [
+  { planner: 'default', name: 'Best', meaning: 'the best mapless planner of this project', colour: '#b58900' },
+  { planner: 'paper', name: 'Paper', meaning: 'the paper’s text taken literally', colour: '#d55e00' },
+  { planner: 'flat', name: 'Flat', meaning: 'the paper without its steepness cost', colour: '#cc79a7' },
+  { planner: 'direct', name: 'Direct', meaning: 'straight at the goal', colour: '#7f7f7f' },
+  { planner: 'vgf', name: 'VGF', meaning: 'the paper’s baseline, with a map, as published', colour: '#009e73' },
+  { planner: 'vgf_tuned', name: 'VGF tuned', meaning: 'the same with a better search', colour: '#56b4e9' },
+  { planner: 'putn', name: 'PUTN', meaning: 'plane-fitting RRT*, with a map', colour: '#7b5cd6' },
+  { planner: 'oracle', name: 'Oracle', meaning: 'the shortest safe path over the known ground', colour: '#0072b2' },
+];

@@ -1,0 +1,194 @@
+/** Many seeds of the present setting, run in the background: how often the goal is reached, and the metrics. */
+
+import type { App } from '../app.ts';
+import type { Overrides } from '../core/overrides.ts';
+import type { SessionInfo } from '../core/protocol.ts';
+import { METRIC_ROWS } from '../panel/metrics.ts';
+import { OUTCOME_WORDS } from '../panel/status.ts';
+import { type RunningJob, startJob } from '../trials/client.ts';
+import { courseOf } from '../trials/course.ts';
+import type { FromTrials, Summary, TrialResult } from '../trials/protocol.ts';
+import { html, setText } from '../ui/dom.ts';
+import { clock, fixed } from '../ui/format.ts';
+import type { Tab } from './lab.ts';
+
+const MOST_SEEDS = 500;
+const MAX_SEED = 0xffff_ffff;
+
+export class SeedsTab implements Tab {
+  readonly title = 'Seeds';
+  readonly element = html('div');
+  readonly #app: App;
+  readonly #count = numberInput('How many', 1, MOST_SEEDS, 10);
+  readonly #first = numberInput('From seed', 0, MAX_SEED, 1);
+  readonly #start = html('button', 'lab-action', ['Run']);
+  readonly #cancel = html('button', 'plain', ['Cancel']);
+  readonly #progress = html('progress', 'lab-progress');
+  readonly #note = html('p', 'lab-note');
+  readonly #stand = html('p', 'lab-note');
+  readonly #fault = html('p', 'parameter-fault');
+  readonly #summary = html('table', 'comparison seeds-summary');
+  readonly #rows = html('tbody');
+  readonly #table = html('table', 'comparison seeds-table');
+  #job: RunningJob | undefined;
+  /** The course that the table stands for. */
+  #course: { key: string; overrides: Overrides } | undefined;
+  #total = 0;
+
+  constructor(app: App) {
+    this.#app = app;
+    this.#start.type = 'button';
+    this.#cancel.type = 'button';
+    this.#start.addEventListener('click', () => this.#begin());
+    this.#cancel.addEventListener('click', () =>
+      this.#end(`Cancelled after ${this.#rows.childElementCount} of ${this.#total}.`),
+    );
+    this.#note.setAttribute('role', 'status');
+    this.#fault.setAttribute('role', 'alert');
+    this.#fault.hidden = true;
+    this.#progress.setAttribute('aria-label', 'Trials done');
+    const head = ['Seed', 'Outcome', 'Time', 'Distance', 'Roll', 'Pitch'].map((name) => {
+      const cell = html('th', '', [name]);
+      cell.scope = 'col';
+      return cell;
+    });
+    this.#table.append(html('thead', '', [html('tr', '', head)]), this.#rows);
+    const row = html('div', 'lab-row', [...labelled(this.#count), ...labelled(this.#first), this.#start, this.#cancel]);
+    this.element.append(row, this.#progress, this.#note, this.#stand, this.#fault, this.#summary, this.#table);
+    this.#idle();
+    setText(this.#note, 'Each seed is another noise of the sensor. They run beside the page, which stays as it is.');
+  }
+
+  session(info: SessionInfo): void {
+    if (this.#course && courseKey(info) !== this.#course.key) this.#stale();
+  }
+
+  sculpted(): void {
+    if (this.#course) this.#stale();
+  }
+
+  /** What the table says still holds, but for another course than the one in view. */
+  #stale(): void {
+    this.#course = undefined;
+    for (const button of this.#rows.querySelectorAll('button')) button.disabled = true;
+    setText(this.#stand, 'The course has changed since; these trials ran on the one before.');
+  }
+
+  #idle(): void {
+    for (const part of [this.#cancel, this.#progress]) part.hidden = true;
+    const empty = this.#rows.childElementCount === 0;
+    for (const part of [this.#summary, this.#table]) part.hidden = empty;
+    this.#start.disabled = false;
+  }
+
+  #begin(): void {
+    if (![this.#count, this.#first].every((input) => input.reportValidity())) return;
+    const [course, info] = [courseOf(this.#app), this.#app.info];
+    if (!course || !info) return;
+    this.#app.touch();
+    const first = this.#first.valueAsNumber;
+    const seeds = Array.from({ length: this.#count.valueAsNumber }, (_, index) => (first + index) % (MAX_SEED + 1));
+    this.#rows.replaceChildren();
+    this.#summary.replaceChildren();
+    this.#fault.hidden = true;
+    this.#course = { key: courseKey(info), overrides: info.overrides };
+    setText(this.#stand, '');
+    this.#total = seeds.length;
+    this.#progress.max = seeds.length;
+    this.#progress.value = 0;
+    for (const part of [this.#cancel, this.#progress, this.#summary, this.#table]) part.hidden = false;
+    this.#start.disabled = true;
+    setText(this.#note, `0 of ${seeds.length} done.`);
+    this.#job = startJob({ type: 'seeds', course, planner: info.preset, seeds }, (message) => this.#hear(message));
+  }
+
+  #hear(message: FromTrials): void {
+    if (message.type === 'trial') {
+      this.#add(message.result);
+      this.#sum(message.summary);
+      const done = message.summary.trials;
+      this.#progress.value = done;
+      setText(this.#note, `${done} of ${this.#total} done.`);
+      if (done === this.#total) this.#end(`${done} trials. Press a seed to see it driven.`);
+    } else if (message.type === 'failed') {
+      setText(this.#fault, message.message);
+      this.#fault.hidden = false;
+      this.#end('');
+    }
+  }
+
+  #end(words: string): void {
+    this.#job?.stop();
+    this.#job = undefined;
+    setText(this.#note, words);
+    this.#idle();
+  }
+
+  #add({ seed, outcome, time_s, metrics }: TrialResult): void {
+    const replay = html('button', 'plain', [String(seed)]);
+    replay.type = 'button';
+    replay.setAttribute('aria-label', `Show seed ${seed}`);
+    replay.addEventListener('click', () => this.#app.attempt(this.#replay(seed)));
+    const end = html('td', '', [OUTCOME_WORDS[outcome]]);
+    end.dataset.outcome = outcome;
+    const head = html('th', '', [replay]);
+    head.scope = 'row';
+    const cells = [
+      clock(time_s),
+      fixed(metrics.distance_m, 1),
+      fixed(metrics.max_abs_roll_rad, 3),
+      fixed(metrics.max_abs_pitch_rad, 3),
+    ];
+    this.#rows.append(html('tr', '', [head, end, ...cells.map((words) => html('td', '', [words]))]));
+  }
+
+  #sum({ reached, trials, low, high, metrics }: Summary): void {
+    const percent = (share: number) => `${fixed(100 * share, 0)} %`;
+    const lines: [string, string][] = [
+      ['Goal reached', `${reached} of ${trials} (95 %: ${percent(low)} to ${percent(high)})`],
+      ...METRIC_ROWS.map(({ key, name, unit, decimals }): [string, string] => {
+        const [mean, deviation] = metrics[key];
+        return [name, `${fixed(mean, decimals)} ± ${fixed(deviation, decimals)} ${unit}`];
+      }),
+    ];
+    const rows = lines.map(([name, words]) => {
+      const head = html('th', '', [name]);
+      head.scope = 'row';
+      return html('tr', '', [head, html('td', '', [words])]);
+    });
+    const caption = html('caption', 'lab-note', [
+      'Metrics: mean ± standard deviation of the trials that reached the goal',
+    ]);
+    this.#summary.replaceChildren(caption, html('tbody', '', rows));
+  }
+
+  /** Drives a seed of the table in the view, on the ground and route that are there. */
+  async #replay(seed: number): Promise<void> {
+    this.#app.touch();
+    if (!this.#course) return;
+    await this.#app.setOverrides(this.#course.overrides, seed);
+    await this.#app.play();
+  }
+}
+
+/** All that trials with other seeds have in common. */
+function courseKey({ scenario, preset, learning, overrides, start, waypoints, goal }: SessionInfo): string {
+  return JSON.stringify([scenario, preset, learning, overrides, start, waypoints, goal]);
+}
+
+function numberInput(name: string, min: number, max: number, value: number): HTMLInputElement {
+  const input = html('input');
+  input.type = 'number';
+  input.id = `seeds-${name.toLowerCase().replaceAll(' ', '-')}`;
+  input.required = true;
+  input.step = '1';
+  [input.min, input.max, input.value] = [String(min), String(max), String(value)];
+  input.setAttribute('aria-label', name);
+  return input;
+}
+
+function labelled(input: HTMLInputElement): [HTMLElement, HTMLInputElement] {
+  const label = html('label', '', [input.getAttribute('aria-label') ?? '']);
+  label.htmlFor = input.id;
+  return [label, input];
+}

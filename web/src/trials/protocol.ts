@@ -1,0 +1,54 @@
+/** What the page and a worker that runs whole trials say to each other. The worker does one job and is then ended. */
+
+import type { Overrides } from '../core/overrides.ts';
+import type { Ground, Heading, Learning, Metrics, Outcome, Place } from '../core/protocol.ts';
+
+/** Everything that all trials of a job have in common. */
+export interface Course {
+  readonly scenario: string;
+  readonly overrides: Overrides;
+  readonly learning: Learning;
+  readonly start: Heading;
+  readonly waypoints: readonly Place[];
+  readonly goal: Place;
+  readonly ground: Ground;
+}
+
+export interface TrialResult {
+  readonly planner: string;
+  readonly seed: number;
+  readonly outcome: Outcome;
+  readonly tick: number;
+  readonly time_s: number;
+  readonly metrics: Metrics;
+  readonly digest: string;
+}
+
+export type Job =
+  /** Several planners on the course, no farther than asked for. */
+  | { type: 'ghosts'; course: Course; planners: readonly string[]; seed: number }
+  /** One planner with many seeds, each to its end. */
+  | { type: 'seeds'; course: Course; planner: string; seeds: readonly number[] };
+
+export type ToTrials = Job | { type: 'until'; tick: number };
+
+/** Numbers in one row of `poses`: x, y, z, roll, pitch, yaw. */
+export const POSE_STRIDE = 6;
+
+/** Mean and standard deviation over the trials that reached the goal; NaN where there is none. */
+export interface Summary {
+  readonly reached: number;
+  readonly trials: number;
+  /** Wilson's 95 % interval of the share that reaches the goal. */
+  readonly low: number;
+  readonly high: number;
+  readonly metrics: Readonly<Record<keyof Metrics, readonly [mean: number, deviation: number]>>;
+}
+
+export type FromTrials =
+  /** A ghost's poses since the message before, one row for each tick. */
+  | { type: 'ghost'; poses: Float32Array<ArrayBuffer>; result: TrialResult }
+  | { type: 'trial'; result: TrialResult; summary: Summary }
+  /** A planner that cannot drive this course. */
+  | { type: 'refused'; planner: string; message: string }
+  | { type: 'failed'; message: string };

@@ -1,0 +1,38 @@
+/** The face of the wasm module with all planners (`crate/wasm-baselines`). Loaded in a worker, when it is wanted. */
+
+export interface WasmGround {
+  free(): void;
+  [Symbol.dispose](): void;
+}
+
+export interface WasmRunner {
+  free(): void;
+  set_start(x: number, y: number, heading_rad: number): void;
+  set_route(waypoints: Float64Array, x: number, y: number): void;
+  /** One tick; whether the trial goes on. */
+  tick(): boolean;
+  outcome(): string;
+  /** Tick, time, pose, metrics: see `RUNNER_STATUS` in runner.ts. */
+  status(): Float64Array;
+  digest(): string;
+}
+
+export interface TrialsModule {
+  Ground: new (columns: number, rows: number, cell_m: number, heights_m: Float32Array) => WasmGround;
+  Runner: new (
+    ground: WasmGround,
+    scenario_file: string,
+    scenario_toml: string,
+    parameters: string,
+    planner: string,
+    seed: bigint,
+  ) => WasmRunner;
+  wilson(successes: number, trials: number): Float64Array;
+  mean_and_deviation(values: Float64Array): Float64Array;
+}
+
+export async function loadTrials(): Promise<TrialsModule> {
+  const module = await import('../wasm/mapless_wasm_baselines.js');
+  await module.default();
+  return module;
+}

@@ -1,0 +1,85 @@
+/** The worker of ghosts and batches: runs whole trials beside the page's own, and tells how they stand. */
+
+import { panicMessage } from '../core/wasm.ts';
+import type { FromTrials, Job, ToTrials, TrialResult } from './protocol.ts';
+import { Garage, type Runner, summary } from './runner.ts';
+import { loadTrials } from './wasm.ts';
+
+/** How long it runs before it listens and tells again, in milliseconds. */
+const SLICE_MS = 40;
+
+let until = 0;
+let wake: (() => void) | undefined;
+
+function post(message: FromTrials, transfer: Transferable[] = []): void {
+  self.postMessage(message, { transfer });
+}
+
+function words(error: unknown): string {
+  const plain = error instanceof Error ? error.message : String(error);
+  return (error instanceof WebAssembly.RuntimeError ? panicMessage() : undefined) ?? plain;
+}
+
+/** Lets messages in. */
+function rest(): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve));
+}
+
+async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' }>): Promise<void> {
+  const garage = await Garage.open(await loadTrials(), course);
+  let running: { runner: Runner; tick: number }[] = [];
+  for (const planner of planners) {
+    try {
+      const runner = garage.runner(planner, seed);
+      running.push({ runner, tick: 0 });
+      post({ type: 'ghost', poses: new Float32Array(runner.pose), result: runner.result });
+    } catch (error) {
+      if (error instanceof WebAssembly.RuntimeError) throw error;
+      post({ type: 'refused', planner, message: words(error) });
+    }
+  }
+  while (running.length > 0) {
+    // The one that is farthest behind comes first, so that all stay in step.
+    running.sort((a, b) => a.tick - b.tick);
+    const [next] = running;
+    if (!next || next.tick >= until) {
+      await new Promise<void>((resolve) => {
+        wake = resolve;
+      });
+      continue;
+    }
+    const began_ms = performance.now();
+    const poses: number[] = [];
+    while (next.runner.running && next.tick < until && performance.now() - began_ms < SLICE_MS) {
+      next.runner.tick();
+      next.tick += 1;
+      poses.push(...next.runner.pose);
+    }
+    post({ type: 'ghost', poses: new Float32Array(poses), result: next.runner.result });
+    running = running.filter(({ runner }) => runner.running);
+    await rest();
+  }
+}
+
+async function seeds({ course, planner, seeds }: Extract<Job, { type: 'seeds' }>): Promise<void> {
+  const module = await loadTrials();
+  const garage = await Garage.open(module, course);
+  const results: TrialResult[] = [];
+  for (const seed of seeds) {
+    const runner = garage.runner(planner, seed);
+    while (runner.running) runner.tick();
+    results.push(runner.result);
+    runner.free();
+    post({ type: 'trial', result: results[results.length - 1] as TrialResult, summary: summary(module, results) });
+  }
+}
+
+self.onmessage = ({ data }: MessageEvent<ToTrials>) => {
+  if (data.type === 'until') {
+    until = data.tick;
+    wake?.();
+    return;
+  }
+  const job = data.type === 'ghosts' ? ghosts(data) : seeds(data);
+  job.catch((error: unknown) => post({ type: 'failed', message: words(error) }));
+};
