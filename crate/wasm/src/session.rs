@@ -6,25 +6,16 @@ use mapless::occupancy::COLUMNS;
 use mapless::perception::ROWS;
 use mapless::{Status, StopReason};
 use mapless_trials::{Preset, Scenario, StartPose, Trial};
-use mapless_world::{Brush, BrushKind, SensorPose, load_terrain_bytes};
+use mapless_world::SensorPose;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-use crate::encode;
-
-/// The terrain file that a scenario names, relative to the scenario's own folder.
-///
-/// # Errors
-/// The scenario's fault, with file, place, value and expectation.
-#[wasm_bindgen]
-pub fn terrain_of(scenario_file: &str, scenario_toml: &str) -> Result<String, JsError> {
-    Ok(Scenario::parse(scenario_file, scenario_toml)?.terrain)
-}
+use crate::{encode, ground};
 
 /// A running trial and the places where its numbers are gathered.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Session {
-    trial: Trial,
+    pub(crate) trial: Trial,
     seed: u64,
     /// Where the last scan was taken: the robot has moved on since.
     scanned_from: SensorPose,
@@ -33,7 +24,7 @@ pub struct Session {
 
 #[wasm_bindgen]
 impl Session {
-    /// Loads a scenario. `learning` is `fixed`, `once` or `every_scan`; without it, or a `seed`, it is the scenario's own.
+    /// Loads a scenario. `imported` is the file that the terrain's recipe imports, empty when it imports none. `learning` is `fixed`, `once` or `every_scan`; without it, or a `seed`, it is the scenario's own.
     ///
     /// # Errors
     /// A fault in one of the files, or an unknown preset or mode of learning, with place, value and expectation.
@@ -43,15 +34,14 @@ impl Session {
         scenario_toml: &str,
         terrain_file: &str,
         terrain: &[u8],
+        imported: &[u8],
         preset: &str,
         learning: Option<String>,
         seed: Option<u64>,
     ) -> Result<Session, JsError> {
         let scenario = Scenario::parse(scenario_file, scenario_toml)?;
         let preset: Preset = preset.parse().map_err(|reason: String| JsError::new(&reason))?;
-        let terrain = load_terrain_bytes(terrain_file, terrain, &mut |file| {
-            Err(format!("{file}: the page holds no files that a recipe imports"))
-        })?;
+        let terrain = ground::load(terrain_file, terrain, imported)?;
         let seed = seed.unwrap_or(scenario.seed);
         let mut planner = scenario.planner_config(preset)?;
         if let Some(mode) = learning {
@@ -154,33 +144,6 @@ impl Session {
     /// A goal off the terrain; nothing then changes.
     pub fn set_goal(&mut self, x: f64, y: f64) -> Result<(), JsError> {
         Ok(self.trial.set_goal(DVec2::new(x, y))?)
-    }
-
-    /// One dab of a brush (`raise`, `lower` or `smooth`). Returns first column, first row, columns and rows of the samples
-    /// that changed, or nothing when the brush is off the terrain.
-    ///
-    /// # Errors
-    /// A brush that makes no sense.
-    pub fn sculpt(
-        &mut self,
-        x: f64,
-        y: f64,
-        radius_m: f64,
-        strength_m: f64,
-        kind: &str,
-    ) -> Result<Option<Vec<u32>>, JsError> {
-        let kind = match kind {
-            "raise" => BrushKind::Raise,
-            "lower" => BrushKind::Lower,
-            "smooth" => BrushKind::Smooth,
-            _ => return Err(JsError::new(&format!("brush \"{kind}\": expected raise, lower or smooth"))),
-        };
-        let changed = self.trial.sculpt(&Brush { centre: DVec2::new(x, y), radius_m, strength_m, kind })?;
-        Ok(changed.map(|r| {
-            [r.column_begin, r.row_begin, r.column_end - r.column_begin, r.row_end - r.row_begin]
-                .map(|n| n as u32)
-                .to_vec()
-        }))
     }
 
     /// First part of a tick: takes a scan from where the robot stands.

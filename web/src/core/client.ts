@@ -1,5 +1,6 @@
 /** The page's end of the worker: requests with answers, events, and a new worker after a panic. */
 
+import type { Experiment } from './experiment.ts';
 import type {
   Command,
   Frame,
@@ -12,7 +13,7 @@ import type {
 } from './protocol.ts';
 
 export interface CoreEvents {
-  session(info: SessionInfo, ground: Ground | undefined): void;
+  session(info: SessionInfo, ground: Ground | undefined, experiment: Experiment | undefined): void;
   frame(frame: Frame): void;
   ground(patch: GroundPatch): void;
   /** An error that no request is waiting for, or any panic. After a panic the simulation is gone. */
@@ -20,7 +21,7 @@ export interface CoreEvents {
 }
 
 interface Waiting {
-  resolve(): void;
+  resolve(value: unknown): void;
   reject(error: Error): void;
 }
 
@@ -35,11 +36,11 @@ export class CoreClient {
     this.#worker = this.#start();
   }
 
-  /** Resolves once the worker has carried the command out. */
-  request(command: Command): Promise<void> {
+  /** Resolves once the worker has carried the command out, with what it answers, if it does. */
+  request<Value = void>(command: Command): Promise<Value> {
     const id = this.#nextId++;
     return new Promise((resolve, reject) => {
-      this.#waiting.set(id, { resolve, reject });
+      this.#waiting.set(id, { resolve: (value) => resolve(value as Value), reject });
       this.#send({ type: 'request', id, command });
     });
   }
@@ -67,7 +68,7 @@ export class CoreClient {
   #receive(message: FromWorker): void {
     switch (message.type) {
       case 'session':
-        this.#events.session(message.info, message.ground);
+        this.#events.session(message.info, message.ground, message.experiment);
         break;
       case 'frame':
         this.#events.frame(message.frame);
@@ -76,7 +77,7 @@ export class CoreClient {
         this.#events.ground(message.patch);
         break;
       case 'done':
-        this.#settle(message.id)?.resolve();
+        this.#settle(message.id)?.resolve(message.value);
         break;
       case 'failed': {
         const waiting = message.id === undefined ? undefined : this.#settle(message.id);

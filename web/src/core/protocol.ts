@@ -5,6 +5,8 @@
  * Pitch is positive nose-up, roll positive with the left side up. Azimuths are positive to the robot's left.
  */
 
+import type { Experiment, Stroke, Terrain } from './experiment.ts';
+
 /** How a trial stands: `running`, or how it ended. */
 export type Outcome = 'running' | 'reached' | 'tilt_limit' | 'stuck' | 'no_subgoal' | 'left_terrain' | 'timeout';
 
@@ -18,18 +20,6 @@ export type Learning = 'fixed' | 'once' | 'every_scan';
 export interface Setting {
   readonly preset: Preset;
   readonly learning: Learning;
-}
-
-export type BrushKind = 'raise' | 'lower' | 'smooth';
-
-/** One dab of the sculpting brush, centred on a point of the ground. */
-export interface Brush {
-  readonly x: number;
-  readonly y: number;
-  readonly radius_m: number;
-  /** The largest change of a height, reached at the centre. */
-  readonly strength_m: number;
-  readonly kind: BrushKind;
 }
 
 export interface Place {
@@ -184,15 +174,32 @@ export const TICK_RATE_HZ = 10;
 /** Simulated seconds per second; `Infinity` is as fast as it goes. */
 export type Speed = number;
 
+/** A file that somebody opened. */
+export interface OpenedFile {
+  readonly name: string;
+  readonly bytes: Uint8Array<ArrayBuffer>;
+}
+
+/** What an experiment is loaded from: a scenario of the catalogue, a document, a terrain without start and goal, or files. */
+export type Source =
+  | { readonly scenario: string; readonly setting: Setting; readonly seed: number | undefined }
+  | { readonly experiment: Experiment }
+  | { readonly terrain: Terrain; readonly name: string; readonly setting: Setting }
+  | { readonly files: readonly OpenedFile[]; readonly setting: Setting };
+
 export type Command =
-  | { type: 'load'; scenario: string; setting: Setting; seed: number | undefined }
+  | { type: 'load'; source: Source }
   | { type: 'restart' }
   | { type: 'play'; playing: boolean }
   | { type: 'speed'; speed: Speed }
   | { type: 'step' }
   | { type: 'goal'; goal: Place }
   | { type: 'start'; start: Heading }
-  | { type: 'sculpt'; brush: Brush }
+  | { type: 'sculpt'; stroke: Stroke }
+  /** Puts heights back; answered like a stroke. */
+  | { type: 'replace'; patch: GroundPatch }
+  /** Answered with the ground of a terrain, coarsely, as a `Ground`. */
+  | { type: 'preview'; terrain: Terrain }
   | { type: 'hidden'; hidden: boolean };
 
 /** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */
@@ -200,8 +207,9 @@ export type ToWorker = { type: 'request'; id: number; command: Command } | { typ
 
 /** From the worker. */
 export type FromWorker =
-  | { type: 'session'; info: SessionInfo; ground: Ground | undefined }
+  /** After a load, with the ground and the experiment. */
+  | { type: 'session'; info: SessionInfo; ground: Ground | undefined; experiment: Experiment | undefined }
   | { type: 'frame'; frame: Frame }
   | { type: 'ground'; patch: GroundPatch }
-  | { type: 'done'; id: number }
+  | { type: 'done'; id: number; value: unknown }
   | { type: 'failed'; id: number | undefined; message: string; panicked: boolean };

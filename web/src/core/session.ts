@@ -1,10 +1,10 @@
 /** One loaded scenario in the wasm core, as the plain data of the protocol. Runs in the worker. */
 
-import { terrainFile } from './catalogue.ts';
 import { decodeSegments, decodeSubgoals, named, SCENE, STATUS } from './decode.ts';
+import type { Experiment, Stroke } from './experiment.ts';
+import { terrainText } from './opening.ts';
 import type {
   Activity,
-  Brush,
   Frame,
   FrameBuffers,
   Ground,
@@ -15,6 +15,7 @@ import type {
   SessionInfo,
   Setting,
 } from './protocol.ts';
+import { scenarioFile, strokeKeys } from './toml.ts';
 import type { CoreModule, CoreSession } from './wasm.ts';
 
 /** All beams of a full scan: 16 rings × 1800 azimuths. */
@@ -22,27 +23,27 @@ const MAX_RETURNS = 28_800;
 
 export class Session {
   readonly #core: CoreSession;
-  readonly #scenario: string;
+  readonly #name: string;
   readonly #setting: Setting;
   readonly #pool: FrameBuffers[] = [];
   #info: SessionInfo;
   #planner_ms = 0;
+  /** Whether the ground has changed since the last scan. */
+  #groundChanged = false;
 
-  private constructor(core: CoreSession, scenario: string, setting: Setting) {
+  private constructor(core: CoreSession, { name, preset, learning }: Experiment) {
     this.#core = core;
-    this.#scenario = scenario;
-    this.#setting = setting;
+    this.#name = name;
+    this.#setting = { preset, learning };
     this.#info = this.#readInfo();
   }
 
-  static async open(core: CoreModule, scenario: string, setting: Setting, seed: number | undefined): Promise<Session> {
-    const file = `scenarios/${scenario}.toml`;
-    const toml = await terrainFile(file);
-    const path = core.terrain_of(file, toml);
-    const terrain = new TextEncoder().encode(await terrainFile(`scenarios/${path}`));
-    const whole = seed === undefined ? undefined : BigInt(seed);
-    const { preset, learning } = setting;
-    return new Session(new core.Session(file, toml, path, terrain, preset, learning, whole), scenario, setting);
+  static async open(core: CoreModule, experiment: Experiment): Promise<Session> {
+    const { preset, learning } = experiment;
+    const { recipe, imported } = await terrainText(core, experiment.terrain, experiment.strokes);
+    const scenario = scenarioFile(experiment, 'terrain.toml');
+    const session = new core.Session('scenario.toml', scenario, 'terrain.toml', recipe, imported, preset, learning);
+    return new Session(session, experiment);
   }
 
   free(): void {
@@ -75,18 +76,30 @@ export class Session {
     this.#planner_ms = 0;
   }
 
-  /** One dab; returns the new heights of the rectangle that changed, if any. */
-  sculpt(brush: Brush): GroundPatch | undefined {
-    const { x, y, radius_m, strength_m, kind } = brush;
-    const changed = this.#core.sculpt(x, y, radius_m, strength_m, kind);
+  /** Applies a stroke; returns the new heights of the rectangle that changed, if any. */
+  sculpt(stroke: Stroke): GroundPatch | undefined {
+    const changed = this.#core.sculpt(strokeKeys(stroke));
     if (!changed) return undefined;
-    // The next decision sees the new ground anyway; while paused, the scan shows it at once.
-    this.#core.look();
+    this.#groundChanged = true;
     const [column = 0, row = 0, columns = 0, rows = 0] = changed;
     return { column, row, columns, rows, heights_m: own(this.#core.heights(column, row, columns, rows)) };
   }
 
+  replaceGround(patch: GroundPatch): void {
+    this.#core.replace_ground(patch.column, patch.row, patch.columns, patch.heights_m);
+    this.#groundChanged = true;
+  }
+
+  /** Looks at new ground while nothing moves. Before the first tick the trial begins anew on it: the run is then that of the document. */
+  #lookAgain(): void {
+    if (!this.#groundChanged) return;
+    this.#groundChanged = false;
+    if (this.status().tick === 0) this.#core.restart();
+    else this.#core.look();
+  }
+
   tick(): void {
+    this.#lookAgain();
     this.#core.look();
     const began_ms = performance.now();
     this.#core.plan();
@@ -110,6 +123,7 @@ export class Session {
 
   frame(path: Float32Array<ArrayBuffer>): Frame {
     const core = this.#core;
+    this.#lookAgain();
     const status = this.status();
     const buffers = this.#pool.pop() ?? this.#newBuffers();
     const returns = core.points(buffers.points);
@@ -156,7 +170,7 @@ export class Session {
   #readInfo(): SessionInfo {
     const scene = named(SCENE, this.#core.scene());
     return {
-      scenario: this.#scenario,
+      scenario: this.#name,
       ...this.#setting,
       seed: Number(this.#core.seed()),
       start: { x: scene.start_x, y: scene.start_y, heading_rad: scene.start_heading_rad },

@@ -1,6 +1,7 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
-import type { Command, Frame, FromWorker, ToWorker } from './protocol.ts';
+import { experimentFrom, preview } from './opening.ts';
+import type { Command, Frame, FromWorker, GroundPatch, ToWorker } from './protocol.ts';
 import { TICK_RATE_HZ } from './protocol.ts';
 import { Session } from './session.ts';
 import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
@@ -108,16 +109,28 @@ function openFromStart(): void {
   show();
 }
 
-async function carryOut(command: Command): Promise<void> {
+function showPatch(patch: GroundPatch): void {
+  post({ type: 'ground', patch }, [patch.heights_m.buffer]);
+  unsent = true;
+  showIfDue();
+}
+
+/** Returns what the request is answered with. */
+async function carryOut(command: Command): Promise<unknown> {
   if (command.type === 'load') {
     core ??= await loadCore();
-    const opened = await Session.open(core, command.scenario, command.setting, command.seed);
+    const experiment = await experimentFrom(core, command.source);
+    const opened = await Session.open(core, experiment);
     session?.free();
     session = opened;
     const ground = session.ground();
-    post({ type: 'session', info: session.info, ground }, [ground.heights_m.buffer]);
+    post({ type: 'session', info: session.info, ground, experiment }, [ground.heights_m.buffer]);
     openFromStart();
     return;
+  }
+  if (command.type === 'preview') {
+    core ??= await loadCore();
+    return preview(core, command.terrain);
   }
   if (command.type === 'hidden') {
     hidden = command.hidden;
@@ -141,27 +154,29 @@ async function carryOut(command: Command): Promise<void> {
       break;
     case 'restart':
       session.restart();
-      post({ type: 'session', info: session.info, ground: undefined });
+      post({ type: 'session', info: session.info, ground: undefined, experiment: undefined });
       openFromStart();
       break;
     case 'goal':
       session.setGoal(command.goal);
-      post({ type: 'session', info: session.info, ground: undefined });
+      post({ type: 'session', info: session.info, ground: undefined, experiment: undefined });
       show();
       break;
     case 'start':
       session.setStart(command.start);
       session.restart();
-      post({ type: 'session', info: session.info, ground: undefined });
+      post({ type: 'session', info: session.info, ground: undefined, experiment: undefined });
       openFromStart();
       break;
     case 'sculpt': {
-      const patch = session.sculpt(command.brush);
-      if (patch) post({ type: 'ground', patch }, [patch.heights_m.buffer]);
-      unsent = true;
-      showIfDue();
+      const patch = session.sculpt(command.stroke);
+      if (patch) showPatch(patch);
       break;
     }
+    case 'replace':
+      session.replaceGround(command.patch);
+      showPatch(command.patch);
+      break;
   }
 }
 
@@ -180,8 +195,8 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
   const { id, command } = data;
   queue = queue.then(async () => {
     try {
-      await carryOut(command);
-      post({ type: 'done', id });
+      const value = await carryOut(command);
+      post({ type: 'done', id, value });
     } catch (error) {
       fail(error, id);
     }

@@ -49,6 +49,12 @@
 //! width_m = 2.0                  # level across
 //! shoulder_m = 2.0               # blends into the ground over this on each side
 //! smoothing_m = 8.0              # the height along the line is averaged over this, default 4 width_m
+//!
+//! [[stroke]]                     # by hand, last of all, in order; see [`crate::Stroke`]
+//! kind = "raise"
+//! radius_m = 2.0
+//! strength_m = 0.1
+//! points = [[10.0, 12.0], [10.5, 12.0]]
 //! ```
 //!
 //! In place of `size_m` and `cell_m` a recipe may start from a grid in another file:
@@ -72,6 +78,7 @@ mod trail;
 
 use crate::height_field::{HeightField, check_grid};
 use crate::import::{self, Scale};
+use crate::sculpt::{Stroke, StrokeTable};
 use crate::terrain::{Terrain, TerrainError, TerrainFault, split_name};
 use canvas::Canvas;
 use check::Table;
@@ -79,6 +86,9 @@ use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
 use serde::Deserialize;
 use toml::Spanned;
 use trail::Trail;
+
+pub(crate) use features::smooth_step;
+pub(crate) use gradient_noise::gradient_noise;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -109,6 +119,8 @@ struct Recipe {
     noise: Vec<Spanned<Noise>>,
     #[serde(default)]
     trail: Vec<Spanned<Trail>>,
+    #[serde(default)]
+    stroke: Vec<Spanned<StrokeTable>>,
 }
 
 #[derive(Deserialize)]
@@ -131,7 +143,9 @@ pub(crate) fn load(
     let mut canvas = recipe.ground(file, resolve)?;
     let heights = recipe.shape(text, &mut canvas).and_then(|()| {
         let heights_m = canvas.heights_m.iter().map(|&height| height as f32).collect();
-        Ok(HeightField::new(canvas.columns, canvas.rows, canvas.cell_m, heights_m)?)
+        let mut field = HeightField::new(canvas.columns, canvas.rows, canvas.cell_m, heights_m)?;
+        recipe.sculpt(text, &mut field)?;
+        Ok(field)
     });
     let field = heights.map_err(|fault| fault.of(file))?;
     Ok(Terrain { name: recipe.name, description: recipe.description, field })
@@ -188,6 +202,18 @@ impl Recipe {
         add(text, "crater", &self.crater, self.seed, canvas)?;
         add(text, "noise", &self.noise, self.seed, canvas)?;
         add(text, "trail", &self.trail, self.seed, canvas)
+    }
+
+    /// Repeats the strokes. They work on the finished field, as they did when they were made.
+    fn sculpt(&self, text: &str, field: &mut HeightField) -> Result<(), TerrainFault> {
+        for (index, table) in self.stroke.iter().enumerate() {
+            let at = Table::at(text, table.span().start, "stroke", index);
+            let stroke = Stroke::try_from(table.get_ref()).map_err(|error| at.stroke_fault(error))?;
+            for brush in stroke.brushes() {
+                field.sculpt(brush).map_err(|fault| at.fault(fault.field, fault.value, fault.expected))?;
+            }
+        }
+        Ok(())
     }
 }
 

@@ -250,3 +250,21 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn strokes_repeat_what_was_done_by_hand() {
+    let recipe = "name = \"a\"\nsize_m = [20.0, 10.0]\ncell_m = 0.25\n\n[[hill]]\ncentre = [9.0, 5.0]\nheight_m = 2.0\nradius_m = 2.0\n";
+    let keys = "kind = \"raise\"\nradius_m = 2.0\nstrength_m = 0.3\npoints = [[5.0, 5.0], [5.5, 5.25]]\n";
+    let load = |text: &str| load("a.toml", text, &mut |_| Err("none".to_owned()));
+    let mut by_hand = load(recipe).unwrap().field;
+    for brush in Stroke::parse(keys).unwrap().brushes() {
+        by_hand.sculpt(brush).unwrap();
+    }
+    assert_eq!(load(&format!("{recipe}\n[[stroke]]\n{keys}")).unwrap().field, by_hand);
+    let fault =
+        load(&format!("{recipe}\n[[stroke]]\n{}", keys.replace("0.3", "-1"))).unwrap_err().to_string();
+    assert_eq!(
+        fault,
+        "a.toml: line 10, stroke[1].points[1], strength_m = -1: expected a number from 0 to 100"
+    );
+}

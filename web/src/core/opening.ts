@@ -1,0 +1,189 @@
+/** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
+
+import { terrainFile } from './catalogue.ts';
+import {
+  type Experiment,
+  MAX_FILE_BYTES,
+  MAX_SEED,
+  type Overrides,
+  OVERRIDDEN,
+  type Stroke,
+  type Terrain,
+  VERSION,
+} from './experiment.ts';
+import type { Ground, OpenedFile, Setting, Source } from './protocol.ts';
+import { readExperiment } from './readExperiment.ts';
+import { recipeFile } from './toml.ts';
+import type { CoreModule } from './wasm.ts';
+
+/** What `read_scenario` of the core gives. */
+interface ScenarioRead {
+  readonly terrain: string;
+  readonly start: readonly [x: number, y: number, heading_rad: number];
+  readonly goal: readonly [x: number, y: number];
+  readonly seed: number;
+  readonly planner?: Overrides;
+  readonly sensor?: Overrides;
+  readonly robot?: Overrides;
+}
+
+const GRIDS = /\.(png|asc|tiff?)$/i;
+/** Samples along the longer side of a preview. */
+const PREVIEW_SAMPLES = 96;
+const encoder = new TextEncoder();
+
+/** A terrain with its strokes as a recipe, and the file that it imports, empty when it imports none. */
+export async function terrainText(
+  core: CoreModule,
+  terrain: Terrain,
+  strokes: readonly Stroke[],
+): Promise<{ recipe: Uint8Array<ArrayBuffer>; imported: Uint8Array<ArrayBuffer> }> {
+  const text = await baseRecipe(core, terrain);
+  const file = 'imported' in terrain ? terrain.imported : undefined;
+  const imported = Uint8Array.from(atob(file?.base64 ?? ''), (letter) => letter.charCodeAt(0));
+  return { recipe: encoder.encode(recipeFile(text, strokes)), imported };
+}
+
+async function baseRecipe(core: CoreModule, terrain: Terrain): Promise<string> {
+  if ('catalogue' in terrain) return terrainFile(`${terrain.catalogue}.toml`);
+  if ('recipe' in terrain) return terrain.recipe;
+  return core.generated_recipe(terrain.generated.difficulty, terrain.generated.seed);
+}
+
+/** A small picture's worth of a terrain's heights. */
+export async function preview(core: CoreModule, terrain: Terrain): Promise<Ground> {
+  const { recipe, imported } = await terrainText(core, terrain, []);
+  const [columns = 0, rows = 0, cell_m = 1, ...heights_m] = core.terrain_preview(
+    'terrain.toml',
+    recipe,
+    imported,
+    PREVIEW_SAMPLES,
+  );
+  return { columns, rows, cell_m, heights_m: new Float32Array(heights_m) };
+}
+
+export async function experimentFrom(core: CoreModule, source: Source): Promise<Experiment> {
+  if ('experiment' in source) return source.experiment;
+  if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setting);
+  if ('files' in source) return fromFiles(core, source.files, source.setting);
+  const { scenario, setting, seed } = source;
+  const file = `scenarios/${scenario}.toml`;
+  const read = core.read_scenario(file, await terrainFile(file)) as ScenarioRead;
+  const terrain = { catalogue: stem(read.terrain) };
+  return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setting);
+}
+
+function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, setting: Setting): Experiment {
+  if (read.seed > MAX_SEED) throw new Error(`seed = ${read.seed}: expected at most ${MAX_SEED} in this page`);
+  const [x, y, heading_rad] = read.start;
+  const [goal_x, goal_y] = read.goal;
+  const overrides = OVERRIDDEN.flatMap((key) => (read[key] ? [[key, read[key]]] : []));
+  return {
+    version: VERSION,
+    name,
+    terrain,
+    strokes: [],
+    start: { x, y, heading_rad },
+    goal: { x: goal_x, y: goal_y },
+    seed: read.seed,
+    preset: setting.preset,
+    learning: setting.learning,
+    overrides: Object.fromEntries(overrides),
+  };
+}
+
+/** A scenario with the terrain it names, a terrain by itself, or a saved experiment. */
+async function fromFiles(core: CoreModule, files: readonly OpenedFile[], setting: Setting): Promise<Experiment> {
+  for (const { name, bytes } of files) {
+    if (bytes.length > MAX_FILE_BYTES) {
+      throw new Error(`${name}: ${bytes.length} bytes: expected at most ${MAX_FILE_BYTES}`);
+    }
+  }
+  const texts = files.filter(({ name }) => /\.(toml|json)$/i.test(name)).map((file) => ({ ...file, text: text(file) }));
+  const saved = texts.find(({ name }) => /\.json$/i.test(name));
+  if (saved) return readFile(saved.name, saved.text);
+  const scenario = texts.find((file) => /^\s*terrain\s*=/m.test(file.text));
+  const grid = files.find(({ name }) => GRIDS.test(name));
+  const recipe = texts.find((file) => file !== scenario);
+  if (scenario) {
+    const read = core.read_scenario(scenario.name, scenario.text) as ScenarioRead;
+    const own = terrainOf(recipe, grid);
+    const terrain = own ?? (await catalogued(scenario.name, read.terrain));
+    return fromScenario(read, shortName(scenario.name), terrain, setting);
+  }
+  const terrain = terrainOf(recipe, grid);
+  const [first] = files;
+  if (!terrain || !first) {
+    const expected = 'a scenario or recipe (.toml), heights (.png, .asc, .tif) or a saved experiment (.json)';
+    throw new Error(`${first?.name ?? 'Nothing'}: expected ${expected}`);
+  }
+  return onLevelPlaces(core, terrain, shortName(recipe?.name ?? first.name), setting);
+}
+
+function terrainOf(
+  recipe: { name: string; text: string } | undefined,
+  grid: OpenedFile | undefined,
+): Terrain | undefined {
+  if (!grid) return recipe ? { recipe: recipe.text } : undefined;
+  const name = `terrain${(GRIDS.exec(grid.name)?.[0] ?? '').toLowerCase()}`;
+  const imported = { name, base64: base64(grid.bytes) };
+  // A recipe says how its grid is to be read, but by the file's own name.
+  if (recipe) return { recipe: recipe.text.replace(/^(\s*file\s*=\s*).*$/m, `$1"${name}"`), imported };
+  return { recipe: `name = ${JSON.stringify(shortName(grid.name))}\n\n[import]\nfile = "${name}"\n`, imported };
+}
+
+/** A terrain of the catalogue that a scenario names without its file being there. */
+async function catalogued(scenario: string, path: string): Promise<Terrain> {
+  try {
+    await terrainFile(`${stem(path)}.toml`);
+  } catch (cause) {
+    const wanted = `${scenario}: terrain = "${path}": choose that file together with the scenario`;
+    throw new Error(wanted, { cause });
+  }
+  return { catalogue: stem(path) };
+}
+
+/** A terrain by itself: start and goal where it is level. */
+async function onLevelPlaces(
+  core: CoreModule,
+  terrain: Terrain,
+  name: string,
+  setting: Setting,
+): Promise<Experiment> {
+  const { recipe, imported } = await terrainText(core, terrain, []);
+  const [x = 0, y = 0, goal_x = 0, goal_y = 0] = core.level_places('terrain.toml', recipe, imported);
+  const heading_rad = Math.round(1000 * Math.atan2(goal_y - y, goal_x - x)) / 1000;
+  const read = { terrain: '', start: [x, y, heading_rad], goal: [goal_x, goal_y], seed: 1 } as const;
+  return fromScenario(read, name, terrain, setting);
+}
+
+function readFile(name: string, json: string): Experiment {
+  try {
+    return readExperiment(JSON.parse(json));
+  } catch (cause) {
+    throw new Error(`${name}: ${cause instanceof Error ? cause.message : cause}`, { cause });
+  }
+}
+
+function text({ name, bytes }: OpenedFile): string {
+  try {
+    return new TextDecoder('utf-8', { fatal: true }).decode(bytes);
+  } catch (cause) {
+    throw new Error(`${name}: expected text in UTF-8`, { cause });
+  }
+}
+
+function base64(bytes: Uint8Array): string {
+  const parts: string[] = [];
+  for (let at = 0; at < bytes.length; at += 0x8000) parts.push(String.fromCharCode(...bytes.subarray(at, at + 0x8000)));
+  return btoa(parts.join(''));
+}
+
+/** A path's last part without its extension. */
+function stem(path: string): string {
+  return (path.split(/[/\\]/).pop() ?? '').replace(/\.[^.]*$/, '');
+}
+
+function shortName(file: string): string {
+  return stem(file).slice(0, 80);
+}
