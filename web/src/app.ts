@@ -3,10 +3,22 @@
 import type { MaplessState } from './api.ts';
 import { entry, following } from './core/catalogue.ts';
 import { CoreClient } from './core/client.ts';
-import type { Brush, Frame, Ground, GroundPatch, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
+import type { Experiment, Stroke } from './core/experiment.ts';
+import type {
+  Frame,
+  Ground,
+  GroundPatch,
+  Heading,
+  NamedFile,
+  Place,
+  SessionInfo,
+  Setting,
+  Source,
+} from './core/protocol.ts';
 import { HeightField } from './scene/heightfield.ts';
 import type { Tool } from './scene/tools.ts';
 import { SPEEDS } from './ui/controls.ts';
+import { Workbench } from './workbench.ts';
 
 /** How long the result of a trial stands before the page goes on by itself. */
 const LINGER_S = 8;
@@ -23,6 +35,8 @@ export interface Views {
   tool(tool: Tool): void;
   /** Seconds until the next scenario starts by itself, or nothing. */
   countdown(seconds: number | undefined): void;
+  /** The experiment, or what can be undone, has changed. */
+  experiment(bench: Workbench): void;
   notice(message: string): void;
   clearNotice(): void;
 }
@@ -38,16 +52,25 @@ export class App {
   /** Whether somebody has used the page: then it does nothing by itself any more. */
   #touched = false;
   #lingering: ReturnType<typeof setInterval> | undefined;
-  #sculpting = 0;
-  #waitingDab: Brush | undefined;
+  /** Whether ground or goal have changed under way: the run is then not the one that the experiment gives from its start. */
+  #disturbed = false;
+  readonly bench: Workbench;
 
   constructor(views: Views) {
     this.#views = views;
     this.#core = new CoreClient({
-      session: (info, ground) => this.#onSession(info, ground),
+      session: (info, ground, experiment) => this.#onSession(info, ground, experiment),
       frame: (frame) => this.#onFrame(frame),
       ground: (patch) => this.#onPatch(patch),
       failure: (message, panicked) => this.#onFailure(message, panicked),
+    });
+    this.bench = new Workbench({
+      request: (command) => {
+        if (['goal', 'sculpt', 'replace'].includes(command.type)) this.#disturbed = true;
+        return this.#core.request(command);
+      },
+      ground: () => this.#field,
+      changed: (bench) => this.#views.experiment(bench),
     });
   }
 
@@ -55,6 +78,10 @@ export class App {
   touch(): void {
     this.#touched = true;
     this.#stopLingering();
+  }
+
+  get touched(): boolean {
+    return this.#touched;
   }
 
   get scenario(): string {
@@ -83,18 +110,78 @@ export class App {
       ground: { columns: field.columns, rows: field.rows, cell_m: field.cell_m },
       segments: segments.length,
       subgoals: subgoals.length,
+      disturbed: this.#disturbed,
     };
   }
 
-  async load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
+  load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
+    return this.open({ scenario, setting: { ...this.setting, ...setting }, seed });
+  }
+
+  async open(source: Source): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'load', scenario, setting: { ...this.setting, ...setting }, seed });
+    // Before anybody has touched the page there is nothing to go back to.
+    await this.bench.open(source, this.#touched || this.bench.canUndo);
     this.#views.clearNotice();
+  }
+
+  /** Other settings for the experiment as it is. */
+  async change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
+    this.#stopLingering();
+    await this.bench.change(part);
+    await this.#setPlaying(true);
+    this.#views.clearNotice();
+  }
+
+  async undo(): Promise<void> {
+    this.#stopLingering();
+    await this.bench.undo();
+  }
+
+  async redo(): Promise<void> {
+    this.#stopLingering();
+    await this.bench.redo();
+  }
+
+  /** The files with which `mapless run` drives the same run. */
+  files(): Promise<NamedFile[]> {
+    const { experiment } = this.bench;
+    if (!experiment) return Promise.reject(new Error('No scenario is loaded yet.'));
+    return this.#core.request({ type: 'export', experiment });
+  }
+
+  get field(): HeightField | undefined {
+    return this.#field;
+  }
+
+  /** The ground of a terrain, coarsely, for a picture. */
+  preview(terrain: Experiment['terrain']): Promise<Ground> {
+    return this.#core.request({ type: 'preview', terrain });
   }
 
   /** Loads a scenario and runs it at once. */
   async run(scenario: string, setting?: Partial<Setting>, seed?: number): Promise<void> {
-    await Promise.all([this.load(scenario, setting, seed), this.#setPlaying(true)]);
+    await this.load(scenario, setting, seed);
+    await this.#setPlaying(true);
+  }
+
+  /** Runs what the page begins with; undoing leads back to one's own work. */
+  async runAfter(own: Experiment | undefined, source: Source): Promise<void> {
+    this.touch();
+    await this.bench.openAfter(own, source);
+    await this.#setPlaying(true);
+  }
+
+  /** A terrain by itself, with a start and a goal where it is level. */
+  async runTerrain(terrain: Experiment['terrain'], name: string): Promise<void> {
+    await this.open({ terrain, name, setting: this.setting });
+    await this.#setPlaying(true);
+  }
+
+  /** Files that somebody opened. */
+  async runFiles(files: readonly NamedFile[]): Promise<void> {
+    await this.open({ files, setting: this.setting });
+    await this.#setPlaying(true);
   }
 
   async play(): Promise<void> {
@@ -139,32 +226,21 @@ export class App {
 
   async setGoal(goal: Place): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'goal', goal });
+    await this.bench.setGoal(goal);
   }
 
   async setStart(start: Heading): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'start', start });
+    await this.bench.setStart(start);
   }
 
-  sculpt(brush: Brush): Promise<void> {
-    return this.#core.request({ type: 'sculpt', brush });
-  }
-
-  /** For strokes: where the core is slower than the pointer, dabs in between are left out. */
-  async dab(brush: Brush): Promise<void> {
-    this.#waitingDab = brush;
-    if (this.#sculpting > 0) return;
-    this.#sculpting += 1;
-    try {
-      while (this.#waitingDab) {
-        const now = this.#waitingDab;
-        this.#waitingDab = undefined;
-        await this.sculpt(now);
-      }
-    } finally {
-      this.#sculpting -= 1;
+  /** A whole stroke at once. */
+  sculpt({ points_cm, ...brush }: Stroke): Promise<void> {
+    const stroke = this.bench.stroke(brush);
+    for (let at = 0; at + 1 < points_cm.length; at += 2) {
+      stroke.touch({ x: (points_cm[at] ?? 0) / 100, y: (points_cm[at + 1] ?? 0) / 100 });
     }
+    return stroke.end();
   }
 
   /** Height of the ground, nothing outside it. */
@@ -192,8 +268,9 @@ export class App {
     if (this.#frame) this.#views.status(this.#frame, playing);
   }
 
-  #onSession(info: SessionInfo, ground: Ground | undefined): void {
+  #onSession(info: SessionInfo, ground: Ground | undefined, experiment: Experiment | undefined): void {
     this.#info = info;
+    if (experiment) this.bench.loaded(experiment);
     const field = ground ? new HeightField(ground) : undefined;
     this.#field = field ?? this.#field;
     this.#views.session(info, field);
@@ -201,12 +278,14 @@ export class App {
 
   #onPatch(patch: GroundPatch): void {
     this.#field?.patch(patch);
+    this.bench.patched(patch);
     this.#views.sculpted();
   }
 
   #onFrame(frame: Frame): void {
     const last = this.#frame;
     this.#frame = frame;
+    if (frame.tick === 0) this.#disturbed = false;
     this.#views.frame(frame);
     this.#views.status(frame, this.#playing);
     // The newest frame stays readable; the one before goes back.
@@ -250,12 +329,7 @@ export class App {
     this.#views.notice(
       `The simulation stopped on an internal error and was started anew with “${title}”. (${message})`,
     );
-    const again = this.#core.request({
-      type: 'load',
-      scenario: this.scenario,
-      setting: this.setting,
-      seed: this.#info?.seed,
-    });
+    const again = this.bench.reopen();
     again
       .then(() => this.setSpeed(this.#speed))
       .catch(() => this.#views.notice(`The simulation cannot be started: ${message}`));

@@ -4,9 +4,12 @@ import './style/tokens.css';
 import './style/layout.css';
 import './style/controls.css';
 import './style/panels.css';
+import './style/ground.css';
 import { publish } from './api.ts';
 import { App } from './app.ts';
-import { CATALOGUE, entry, following } from './core/catalogue.ts';
+import { begin } from './begin.ts';
+import { Autosave } from './core/autosave.ts';
+import { entry, following } from './core/catalogue.ts';
 import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
 import { DecisionPanel } from './panel/decision.ts';
 import { MetricsPanel } from './panel/metrics.ts';
@@ -14,11 +17,16 @@ import { OUTCOME_WORDS, StatusPanel } from './panel/status.ts';
 import { VarianceImage } from './panel/varianceImage.ts';
 import { Stage } from './scene/stage.ts';
 import { GroundTools } from './scene/tools.ts';
+import { BrushPanel } from './ui/brushPanel.ts';
 import { Controls } from './ui/controls.ts';
 import { byId, setText } from './ui/dom.ts';
+import { GroundKey } from './ui/groundKey.ts';
 import { bindKeys } from './ui/keys.ts';
 import { Notice } from './ui/notice.ts';
+import { ShareSheet } from './ui/share.ts';
+import { TerrainsSheet } from './ui/terrains.ts';
 import { readTheme, watchTheme } from './ui/theme.ts';
+import { UndoButtons } from './ui/undo.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
@@ -59,6 +67,11 @@ const app = new App({
     decision.session(info);
     status.session(info);
     controls.showSession(info);
+    groundKey.session(info);
+    if (field) {
+      groundKey.ground(field);
+      brushPanel.ground(field.min_m, field.max_m);
+    }
     controls.showFollowing(stage?.following ?? false);
     const { group, title, lesson } = entry(info.scenario);
     setText(element('scene-title'), `${group}: ${title}`);
@@ -81,7 +94,10 @@ const app = new App({
     result.dataset.outcome = frame.outcome;
     setText(element('result-words'), OUTCOME_WORDS[frame.outcome]);
   },
-  sculpted: () => stage?.sculpted(),
+  sculpted() {
+    stage?.sculpted();
+    if (app.field) groundKey.ground(app.field);
+  },
   playing: (playing) => controls.showPlaying(playing),
   speed(speed) {
     controls.showSpeed(speed);
@@ -91,6 +107,12 @@ const app = new App({
   countdown(seconds) {
     setText(element('countdown'), seconds === undefined ? '' : `in ${seconds} s`);
   },
+  experiment(bench) {
+    undoButtons.show(bench);
+    // A link in the address is no longer what is shown.
+    if (bench.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
+    if (app.touched && bench.experiment) autosave.save(bench.experiment);
+  },
   notice: (message) => notice.show(message),
   clearNotice: () => notice.hide(),
 });
@@ -99,7 +121,10 @@ const tools = stage
   ? new GroundTools(view, stage, {
       setGoal: (goal) => app.attempt(app.setGoal(goal)),
       setStart: (start) => app.attempt(app.setStart(start)),
-      sculpt: (brush) => app.attempt(app.dab(brush)),
+      stroke(brush) {
+        const stroke = app.bench.stroke(brush);
+        return { touch: stroke.touch, end: () => app.attempt(stroke.end()) };
+      },
     })
   : undefined;
 
@@ -114,9 +139,13 @@ const actions = {
   selectTool(tool: Parameters<GroundTools['select']>[0]) {
     tools?.select(tool);
     controls.showTool(tool);
+    brushPanel.tool(tool);
   },
-  setBrushRadius: (radius_m: number) => tools?.radius(radius_m),
-  growBrush: (steps: number) => controls.growBrush(steps),
+  change: (part: Parameters<App['change']>[0]) => app.attempt(app.change(part)),
+  growBrush: (steps: number) => brushPanel.grow(steps),
+  strengthenBrush: (steps: number) => brushPanel.strengthen(steps),
+  terrains: () => terrainsSheet.open(),
+  share: () => app.attempt(shareSheet.open()),
   toggleFollow() {
     stage?.toggleFollow();
     controls.showFollowing(stage?.following ?? false);
@@ -127,6 +156,12 @@ const actions = {
   },
   help: () => help.showModal(),
 };
+const brushPanel = new BrushPanel((setting) => tools?.brush(setting));
+const groundKey = new GroundKey((colouring) => stage?.colouring(colouring));
+const undoButtons = new UndoButtons(app);
+const terrainsSheet = new TerrainsSheet(app);
+const shareSheet = new ShareSheet(app);
+const autosave = new Autosave((why) => notice.show(why));
 const controls = new Controls(actions);
 bindKeys(actions);
 controls.showTool('look');
@@ -148,5 +183,4 @@ view.addEventListener('webglcontextrestored', () => notice.hide());
 
 publish(app);
 
-const first = CATALOGUE[0];
-if (first) app.attempt(app.run(first.id));
+app.attempt(begin(app, notice));

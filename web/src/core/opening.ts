@@ -5,15 +5,15 @@ import {
   type Experiment,
   MAX_FILE_BYTES,
   MAX_SEED,
-  type Overrides,
   OVERRIDDEN,
+  type Overrides,
   type Stroke,
   type Terrain,
   VERSION,
 } from './experiment.ts';
-import type { Ground, OpenedFile, Setting, Source } from './protocol.ts';
+import type { Ground, NamedFile, Setting, Source } from './protocol.ts';
 import { readExperiment } from './readExperiment.ts';
-import { recipeFile } from './toml.ts';
+import { recipeFile, scenarioFile } from './toml.ts';
 import type { CoreModule } from './wasm.ts';
 
 /** What `read_scenario` of the core gives. */
@@ -32,16 +32,28 @@ const GRIDS = /\.(png|asc|tiff?)$/i;
 const PREVIEW_SAMPLES = 96;
 const encoder = new TextEncoder();
 
-/** A terrain with its strokes as a recipe, and the file that it imports, empty when it imports none. */
-export async function terrainText(
+const TERRAIN_FILE = 'terrain.toml';
+
+/** The files of a run: the scenario, the recipe with the strokes and, last, the grid that it imports, if it does. */
+export async function filesOf(
   core: CoreModule,
-  terrain: Terrain,
-  strokes: readonly Stroke[],
-): Promise<{ recipe: Uint8Array<ArrayBuffer>; imported: Uint8Array<ArrayBuffer> }> {
-  const text = await baseRecipe(core, terrain);
-  const file = 'imported' in terrain ? terrain.imported : undefined;
-  const imported = Uint8Array.from(atob(file?.base64 ?? ''), (letter) => letter.charCodeAt(0));
-  return { recipe: encoder.encode(recipeFile(text, strokes)), imported };
+  experiment: Experiment,
+): Promise<[NamedFile, NamedFile, ...NamedFile[]]> {
+  const { terrain, strokes } = experiment;
+  const imported = 'imported' in terrain ? terrain.imported : undefined;
+  return [
+    { name: 'scenario.toml', bytes: encoder.encode(scenarioFile(experiment, TERRAIN_FILE)) },
+    await terrainRecipe(core, terrain, strokes),
+    ...(imported ? [{ name: imported.name, bytes: fromBase64(imported.base64) }] : []),
+  ];
+}
+
+async function terrainRecipe(core: CoreModule, terrain: Terrain, strokes: readonly Stroke[]): Promise<NamedFile> {
+  return { name: TERRAIN_FILE, bytes: encoder.encode(recipeFile(await baseRecipe(core, terrain), strokes)) };
+}
+
+function importedBytes(terrain: Terrain): Uint8Array<ArrayBuffer> {
+  return fromBase64('imported' in terrain ? (terrain.imported?.base64 ?? '') : '');
 }
 
 async function baseRecipe(core: CoreModule, terrain: Terrain): Promise<string> {
@@ -52,13 +64,9 @@ async function baseRecipe(core: CoreModule, terrain: Terrain): Promise<string> {
 
 /** A small picture's worth of a terrain's heights. */
 export async function preview(core: CoreModule, terrain: Terrain): Promise<Ground> {
-  const { recipe, imported } = await terrainText(core, terrain, []);
-  const [columns = 0, rows = 0, cell_m = 1, ...heights_m] = core.terrain_preview(
-    'terrain.toml',
-    recipe,
-    imported,
-    PREVIEW_SAMPLES,
-  );
+  const { name, bytes } = await terrainRecipe(core, terrain, []);
+  const read = core.terrain_preview(name, bytes, importedBytes(terrain), PREVIEW_SAMPLES);
+  const [columns = 0, rows = 0, cell_m = 1, ...heights_m] = read;
   return { columns, rows, cell_m, heights_m: new Float32Array(heights_m) };
 }
 
@@ -93,7 +101,7 @@ function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, settin
 }
 
 /** A scenario with the terrain it names, a terrain by itself, or a saved experiment. */
-async function fromFiles(core: CoreModule, files: readonly OpenedFile[], setting: Setting): Promise<Experiment> {
+async function fromFiles(core: CoreModule, files: readonly NamedFile[], setting: Setting): Promise<Experiment> {
   for (const { name, bytes } of files) {
     if (bytes.length > MAX_FILE_BYTES) {
       throw new Error(`${name}: ${bytes.length} bytes: expected at most ${MAX_FILE_BYTES}`);
@@ -122,7 +130,7 @@ async function fromFiles(core: CoreModule, files: readonly OpenedFile[], setting
 
 function terrainOf(
   recipe: { name: string; text: string } | undefined,
-  grid: OpenedFile | undefined,
+  grid: NamedFile | undefined,
 ): Terrain | undefined {
   if (!grid) return recipe ? { recipe: recipe.text } : undefined;
   const name = `terrain${(GRIDS.exec(grid.name)?.[0] ?? '').toLowerCase()}`;
@@ -144,14 +152,10 @@ async function catalogued(scenario: string, path: string): Promise<Terrain> {
 }
 
 /** A terrain by itself: start and goal where it is level. */
-async function onLevelPlaces(
-  core: CoreModule,
-  terrain: Terrain,
-  name: string,
-  setting: Setting,
-): Promise<Experiment> {
-  const { recipe, imported } = await terrainText(core, terrain, []);
-  const [x = 0, y = 0, goal_x = 0, goal_y = 0] = core.level_places('terrain.toml', recipe, imported);
+async function onLevelPlaces(core: CoreModule, terrain: Terrain, name: string, setting: Setting): Promise<Experiment> {
+  const recipe = await terrainRecipe(core, terrain, []);
+  const places = core.level_places(recipe.name, recipe.bytes, importedBytes(terrain));
+  const [x = 0, y = 0, goal_x = 0, goal_y = 0] = places;
   const heading_rad = Math.round(1000 * Math.atan2(goal_y - y, goal_x - x)) / 1000;
   const read = { terrain: '', start: [x, y, heading_rad], goal: [goal_x, goal_y], seed: 1 } as const;
   return fromScenario(read, name, terrain, setting);
@@ -165,7 +169,7 @@ function readFile(name: string, json: string): Experiment {
   }
 }
 
-function text({ name, bytes }: OpenedFile): string {
+function text({ name, bytes }: NamedFile): string {
   try {
     return new TextDecoder('utf-8', { fatal: true }).decode(bytes);
   } catch (cause) {
@@ -177,6 +181,10 @@ function base64(bytes: Uint8Array): string {
   const parts: string[] = [];
   for (let at = 0; at < bytes.length; at += 0x8000) parts.push(String.fromCharCode(...bytes.subarray(at, at + 0x8000)));
   return btoa(parts.join(''));
+}
+
+function fromBase64(letters: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
 }
 
 /** A path's last part without its extension. */

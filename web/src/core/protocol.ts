@@ -174,8 +174,8 @@ export const TICK_RATE_HZ = 10;
 /** Simulated seconds per second; `Infinity` is as fast as it goes. */
 export type Speed = number;
 
-/** A file that somebody opened. */
-export interface OpenedFile {
+/** A file by its name. */
+export interface NamedFile {
   readonly name: string;
   readonly bytes: Uint8Array<ArrayBuffer>;
 }
@@ -185,7 +185,7 @@ export type Source =
   | { readonly scenario: string; readonly setting: Setting; readonly seed: number | undefined }
   | { readonly experiment: Experiment }
   | { readonly terrain: Terrain; readonly name: string; readonly setting: Setting }
-  | { readonly files: readonly OpenedFile[]; readonly setting: Setting };
+  | { readonly files: readonly NamedFile[]; readonly setting: Setting };
 
 export type Command =
   | { type: 'load'; source: Source }
@@ -200,6 +200,8 @@ export type Command =
   | { type: 'replace'; patch: GroundPatch }
   /** Answered with the ground of a terrain, coarsely, as a `Ground`. */
   | { type: 'preview'; terrain: Terrain }
+  /** Answered with the files that `mapless run` reads, as a list of `NamedFile`. */
+  | { type: 'export'; experiment: Experiment }
   | { type: 'hidden'; hidden: boolean };
 
 /** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */

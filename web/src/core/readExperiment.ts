@@ -51,7 +51,8 @@ function fields(value: unknown, place: string, required: readonly string[], opti
 }
 
 function number(value: unknown, place: string, low: number, high: number): number {
-  if (typeof value !== 'number' || !(value >= low && value <= high)) fail(place, value, `a number from ${low} to ${high}`);
+  if (typeof value !== 'number' || !(value >= low && value <= high))
+    fail(place, value, `a number from ${low} to ${high}`);
   return value;
 }
 
@@ -121,7 +122,7 @@ function terrain(value: unknown): Terrain {
   return { recipe, imported: imported(found.imported, `${at}.imported`) };
 }
 
-function stroke(value: unknown, at: string): Stroke {
+export function readStroke(value: unknown, at = 'stroke'): Stroke {
   const found = fields(value, at, ['kind', 'radius_m', 'strength_m', 'points_cm'], ['height_m', 'seed']);
   const kind = oneOf(found.kind, `${at}.kind`, STROKE_KINDS);
   const points_cm = list(found.points_cm, `${at}.points_cm`, 2 * MAX_TOUCHES);
@@ -137,7 +138,7 @@ function stroke(value: unknown, at: string): Stroke {
 }
 
 function strokes(value: unknown): readonly Stroke[] {
-  const read = list(value, 'strokes', MAX_STROKES).map((one, index) => stroke(one, `strokes[${index}]`));
+  const read = list(value, 'strokes', MAX_STROKES).map((one, index) => readStroke(one, `strokes[${index}]`));
   const touches = read.reduce((sum, { points_cm }) => sum + points_cm.length / 2, 0);
   if (touches > MAX_TOUCHES) fail('strokes', `${touches} touches`, `at most ${MAX_TOUCHES}`);
   return read;
@@ -148,7 +149,8 @@ function override(value: unknown, at: string, depth: number): OverrideValue {
   if (typeof value === 'number') return number(value, at, -1e300, 1e300);
   if (typeof value === 'boolean') return value;
   if (typeof value === 'string') return text(value, at, 200);
-  if (Array.isArray(value)) return list(value, at, 1000).map((one, index) => override(one, `${at}[${index}]`, depth + 1));
+  if (Array.isArray(value))
+    return list(value, at, 1000).map((one, index) => override(one, `${at}[${index}]`, depth + 1));
   return table(value, at, depth);
 }
 

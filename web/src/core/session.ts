@@ -2,7 +2,7 @@
 
 import { decodeSegments, decodeSubgoals, named, SCENE, STATUS } from './decode.ts';
 import type { Experiment, Stroke } from './experiment.ts';
-import { terrainText } from './opening.ts';
+import { filesOf } from './opening.ts';
 import type {
   Activity,
   Frame,
@@ -15,7 +15,7 @@ import type {
   SessionInfo,
   Setting,
 } from './protocol.ts';
-import { scenarioFile, strokeKeys } from './toml.ts';
+import { strokeKeys } from './toml.ts';
 import type { CoreModule, CoreSession } from './wasm.ts';
 
 /** All beams of a full scan: 16 rings × 1800 azimuths. */
@@ -40,9 +40,10 @@ export class Session {
 
   static async open(core: CoreModule, experiment: Experiment): Promise<Session> {
     const { preset, learning } = experiment;
-    const { recipe, imported } = await terrainText(core, experiment.terrain, experiment.strokes);
-    const scenario = scenarioFile(experiment, 'terrain.toml');
-    const session = new core.Session('scenario.toml', scenario, 'terrain.toml', recipe, imported, preset, learning);
+    const [scenario, terrain, imported] = await filesOf(core, experiment);
+    const text = new TextDecoder().decode(scenario.bytes);
+    const grid = imported?.bytes ?? new Uint8Array();
+    const session = new core.Session(scenario.name, text, terrain.name, terrain.bytes, grid, preset, learning);
     return new Session(session, experiment);
   }
 

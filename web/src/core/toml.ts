@@ -17,7 +17,9 @@ export function strokeKeys(stroke: Stroke): string {
 
 /** A recipe with strokes after all else. */
 export function recipeFile(recipe: string, strokes: readonly Stroke[]): string {
-  return [recipe.trimEnd(), '', ...strokes.map((stroke) => `\n[[stroke]]\n${strokeKeys(stroke).trimEnd()}\n`)].join('\n');
+  return [recipe.trimEnd(), '', ...strokes.map((stroke) => `\n[[stroke]]\n${strokeKeys(stroke).trimEnd()}\n`)].join(
+    '\n',
+  );
 }
 
 /** The scenario of an experiment whose terrain is in the file `terrain`. */
@@ -50,6 +52,9 @@ function isTable(value: OverrideValue): value is Overrides {
 
 function literal(value: OverrideValue): string {
   if (Array.isArray(value)) return `[${value.map(literal).join(', ')}]`;
-  if (isTable(value)) return `{ ${Object.entries(value).map(([key, one]) => `${key} = ${literal(one)}`).join(', ')} }`;
+  if (isTable(value))
+    return `{ ${Object.entries(value)
+      .map(([key, one]) => `${key} = ${literal(one)}`)
+      .join(', ')} }`;
   return JSON.stringify(value);
 }

@@ -1,6 +1,6 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
-import { experimentFrom, preview } from './opening.ts';
+import { experimentFrom, filesOf, preview } from './opening.ts';
 import type { Command, Frame, FromWorker, GroundPatch, ToWorker } from './protocol.ts';
 import { TICK_RATE_HZ } from './protocol.ts';
 import { Session } from './session.ts';
@@ -131,6 +131,10 @@ async function carryOut(command: Command): Promise<unknown> {
   if (command.type === 'preview') {
     core ??= await loadCore();
     return preview(core, command.terrain);
+  }
+  if (command.type === 'export') {
+    core ??= await loadCore();
+    return filesOf(core, command.experiment);
   }
   if (command.type === 'hidden') {
     hidden = command.hidden;

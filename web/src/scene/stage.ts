@@ -1,8 +1,9 @@
 /** The 3D view: owns the renderer and shows what frames say. Draws only when something changed. */
 
 import { AmbientLight, DirectionalLight, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
-import { type Frame, type Pose, type SessionInfo, TICK_RATE_HZ } from '../core/protocol.ts';
+import { type Frame, type Place, type Pose, type SessionInfo, TICK_RATE_HZ } from '../core/protocol.ts';
 import { wrap } from '../ui/format.ts';
+import type { Colouring } from '../ui/groundKey.ts';
 import type { Theme } from '../ui/theme.ts';
 import { Glide } from './glide.ts';
 import type { HeightField, Vector } from './heightfield.ts';
@@ -42,6 +43,7 @@ export class Stage {
   #shown: Pose | undefined;
   #speed = 1;
   #dirty = true;
+  #colouring: Colouring = 'elevation';
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
     this.#canvas = canvas;
@@ -92,6 +94,7 @@ export class Stage {
       this.#husky = new Husky(info.sensor_height_m);
       this.#scene.add(this.#husky.group);
     }
+    this.#relief?.colouring(this.#colouring, info.limits);
     const { start, goal } = info;
     this.#places.show(goal, start, this.#height);
     if (field) {
@@ -121,6 +124,13 @@ export class Stage {
     this.invalidate();
   }
 
+  /** By what the ground is coloured. */
+  colouring(colouring: Colouring): void {
+    this.#colouring = colouring;
+    if (this.#info) this.#relief?.colouring(colouring, this.#info.limits);
+    this.invalidate();
+  }
+
   /** How fast simulated time runs, so that the robot glides from tick to tick. */
   speed(speed: number): void {
     this.#speed = speed;
@@ -146,8 +156,9 @@ export class Stage {
     this.invalidate();
   }
 
-  brush(x: number, y: number, radius_m: number): void {
-    this.#relief?.brush(x, y, radius_m);
+  /** The brush's ring, drawn out along the line from `from`; a radius of zero hides it. */
+  brush(at: Place, from: Place, radius_m: number): void {
+    this.#relief?.brush(at, from, radius_m);
     this.invalidate();
   }
 

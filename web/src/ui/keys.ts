@@ -10,6 +10,9 @@ export interface KeyActions {
   faster(steps: number): void;
   selectTool(tool: Tool): void;
   growBrush(steps: number): void;
+  strengthenBrush(steps: number): void;
+  terrains(): void;
+  share(): void;
   toggleFollow(): void;
   overview(): void;
   help(): void;
@@ -27,11 +30,18 @@ export function bindKeys(actions: KeyActions): void {
     '.': () => actions.faster(1),
     '[': () => actions.growBrush(-1),
     ']': () => actions.growBrush(1),
+    '{': () => actions.strengthenBrush(-1),
+    '}': () => actions.strengthenBrush(1),
+    c: () => actions.selectTool('crater'),
+    d: () => actions.selectTool('ditch'),
+    b: () => actions.selectTool('boulder'),
+    g: () => actions.terrains(),
+    l: () => actions.share(),
     '?': () => actions.help(),
     escape: () => actions.selectTool('look'),
   };
-  TOOLS.forEach((tool, index) => {
-    keys[String(index + 1)] = () => actions.selectTool(tool);
+  TOOLS.slice(0, 10).forEach((tool, index) => {
+    keys[String((index + 1) % 10)] = () => actions.selectTool(tool);
   });
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;

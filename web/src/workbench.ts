@@ -1,0 +1,197 @@
+/** Holds the experiment that the page shows, and its history: everything that changes it goes through here. */
+
+import { type Experiment, type Stroke, tidyHeading, tidyPlace } from './core/experiment.ts';
+import { History } from './core/history.ts';
+import type { Command, Ground, GroundPatch, Heading, Place, Source } from './core/protocol.ts';
+import { type Brush, type MadeStroke, StrokeInHand } from './core/strokeInHand.ts';
+
+/** Ground kept for undoing strokes at once; older strokes are undone by loading the ground anew. */
+const MOST_PATCH_BYTES = 64 << 20;
+
+interface Core {
+  request(command: Command): Promise<void>;
+  /** The page's copy of the ground. */
+  ground(): Ground | undefined;
+  /** The experiment or what can be undone has changed. */
+  changed(bench: Workbench): void;
+}
+
+export class Workbench {
+  readonly #core: Core;
+  #history = new History();
+  readonly #patches = new Map<Stroke, MadeStroke>();
+  #patchBytes = 0;
+  #loaded: Experiment | undefined;
+  #inHand: StrokeInHand | undefined;
+  /** Changes are made one after the other. */
+  #queue: Promise<void> = Promise.resolve();
+
+  constructor(core: Core) {
+    this.#core = core;
+  }
+
+  get experiment(): Experiment | undefined {
+    return this.#history.current;
+  }
+
+  get canUndo(): boolean {
+    return this.#history.earlier !== undefined;
+  }
+
+  get canRedo(): boolean {
+    return this.#history.later !== undefined;
+  }
+
+  /** The core has loaded this. */
+  loaded(experiment: Experiment): void {
+    this.#loaded = experiment;
+  }
+
+  /** The core has changed the ground here. */
+  patched(patch: GroundPatch): void {
+    this.#inHand?.patched(patch);
+  }
+
+  /** Shows an experiment from elsewhere; undoing leads back to one's own. */
+  openAfter(own: Experiment | undefined, source: Source): Promise<void> {
+    return this.#next(async () => {
+      await this.#core.request({ type: 'load', source });
+      if (own) this.#history.push(own);
+      if (this.#loaded) this.#push(this.#loaded);
+    });
+  }
+
+  /** Shows another experiment; unless it is `undoable`, the history begins with it. */
+  open(source: Source, undoable: boolean): Promise<void> {
+    return this.#next(async () => {
+      await this.#core.request({ type: 'load', source });
+      if (!undoable) this.#history = new History();
+      if (this.#loaded) this.#push(this.#loaded);
+    });
+  }
+
+  /** Loads the current experiment again, after the core was lost. */
+  reopen(): Promise<void> {
+    return this.#next(async () => {
+      const { experiment } = this;
+      if (experiment) await this.#core.request({ type: 'load', source: { experiment } });
+    });
+  }
+
+  /** Settings: the trial begins anew with them, on the ground as it is. */
+  change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
+    return this.#edit(part, (experiment) => ({ type: 'load', source: { experiment } }));
+  }
+
+  setGoal(place: Place): Promise<void> {
+    const goal = tidyPlace(place);
+    return this.#edit({ goal }, () => ({ type: 'goal', goal }));
+  }
+
+  setStart(heading: Heading): Promise<void> {
+    const start = tidyHeading(heading);
+    return this.#edit({ start }, () => ({ type: 'start', start }));
+  }
+
+  /** Begins a stroke: `touch` it, then `end` it. Everything else waits until it has ended. */
+  stroke(brush: Brush): { touch(place: Place): void; end(): Promise<void> } {
+    const stroke = new StrokeInHand(brush, (part) => this.#core.request({ type: 'sculpt', stroke: part }));
+    const made = this.#next(async () => {
+      const [ground, { experiment }] = [this.#core.ground(), this];
+      if (!ground || !experiment) throw new Error('There is no ground yet.');
+      this.#inHand = stroke;
+      try {
+        const result = await stroke.made(ground);
+        if (!result) return;
+        this.#keep(result);
+        this.#push({ ...experiment, strokes: [...experiment.strokes, result.stroke] });
+      } finally {
+        this.#inHand = undefined;
+      }
+    });
+    // Whoever ends the stroke hears of a failure.
+    made.catch(() => undefined);
+    return {
+      touch: (place) => stroke.touch(place),
+      end: () => {
+        stroke.end();
+        return made;
+      },
+    };
+  }
+
+  undo(): Promise<void> {
+    return this.#next(async () => {
+      await this.#become(this.#history.earlier);
+      this.#history.back();
+      this.#core.changed(this);
+    });
+  }
+
+  redo(): Promise<void> {
+    return this.#next(async () => {
+      await this.#become(this.#history.later);
+      this.#history.forth();
+      this.#core.changed(this);
+    });
+  }
+
+  #next(act: () => Promise<void>): Promise<void> {
+    const result = this.#queue.then(act);
+    this.#queue = result.catch(() => undefined);
+    return result;
+  }
+
+  #edit(part: Partial<Experiment>, command: (experiment: Experiment) => Command): Promise<void> {
+    return this.#next(async () => {
+      const { experiment } = this;
+      if (!experiment) throw new Error('No scenario is loaded yet.');
+      const changed = { ...experiment, ...part };
+      await this.#core.request(command(changed));
+      this.#push(changed);
+    });
+  }
+
+  #push(experiment: Experiment): void {
+    this.#history.push(experiment);
+    this.#core.changed(this);
+  }
+
+  /** Makes the core show another document of the history: by small steps where they lead there, else by loading it. */
+  async #become(to: Experiment | undefined): Promise<void> {
+    const from = this.experiment;
+    if (!to || !from) return;
+    const patches = this.#patchesBetween(from, to);
+    if (!patches) return this.#core.request({ type: 'load', source: { experiment: to } });
+    for (const patch of patches) await this.#core.request({ type: 'replace', patch });
+    if (from.start !== to.start) await this.#core.request({ type: 'start', start: to.start });
+    if (from.goal !== to.goal) await this.#core.request({ type: 'goal', goal: to.goal });
+  }
+
+  /** The heights to put back, where the documents differ in strokes at the end, start and goal alone. */
+  #patchesBetween(from: Experiment, to: Experiment): GroundPatch[] | undefined {
+    const { strokes: _a, start: _b, goal: _c, ...rest } = from;
+    const keys = Object.keys(rest) as (keyof typeof rest)[];
+    if (keys.some((key) => from[key] !== to[key])) return undefined;
+    const common = from.strokes.findIndex((stroke, index) => stroke !== to.strokes[index]);
+    const shared = common < 0 ? from.strokes.length : common;
+    const gone = from.strokes.slice(shared).reverse();
+    const patches = gone.map((stroke) => this.#patches.get(stroke)?.before);
+    patches.push(...to.strokes.slice(shared).map((stroke) => this.#patches.get(stroke)?.after));
+    return patches.every((patch) => patch !== undefined) ? patches : undefined;
+  }
+
+  #keep(made: MadeStroke): void {
+    this.#patches.set(made.stroke, made);
+    this.#patchBytes += bytes(made);
+    for (const [stroke, oldest] of this.#patches) {
+      if (this.#patchBytes <= MOST_PATCH_BYTES) break;
+      this.#patches.delete(stroke);
+      this.#patchBytes -= bytes(oldest);
+    }
+  }
+}
+
+function bytes({ before, after }: MadeStroke): number {
+  return before.heights_m.byteLength + after.heights_m.byteLength;
+}
