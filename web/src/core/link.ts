@@ -29,36 +29,47 @@ export function carriesExperiment(hash: string): boolean {
 /** The experiment in an address's fragment, or an error that says what is wrong with the link. */
 export async function experimentIn(hash: string): Promise<Experiment> {
   try {
-    return readExperiment(unpackAll(JSON.parse(await unpacked(hash.slice(KEY.length)))));
+    return readExperiment(unpackAll(await unpacked(hash.slice(KEY.length))));
   } catch (cause) {
     const why = cause instanceof Error ? cause.message : String(cause);
     throw new Error(`This link does not work, so nothing was changed. ${why}`, { cause });
   }
 }
 
-async function unpacked(letters: string): Promise<string> {
+async function unpacked(letters: string): Promise<unknown> {
   if (letters.length > MAX_READ_CHARACTERS) {
     throw new Error(`It has ${letters.length} characters: expected at most ${MAX_READ_CHARACTERS}.`);
   }
-  const damaged = 'It is damaged or was cut short: expected the whole link as it was copied.';
-  if (!/^[\w-]+$/.test(letters)) throw new Error(damaged);
-  const bytes = Uint8Array.from(atob(letters.replaceAll('-', '+').replaceAll('_', '/')), (one) => one.charCodeAt(0));
+  let bytes: Uint8Array<ArrayBuffer>;
+  try {
+    bytes = await inflated(fromBase64url(letters));
+  } catch (cause) {
+    throw new Error('It is damaged or was cut short: expected the whole link as it was copied.', { cause });
+  }
+  if (bytes.length > MAX_UNPACKED_BYTES) {
+    throw new Error(`It unpacks to more than ${MAX_UNPACKED_BYTES >> 20} MB: expected an experiment.`);
+  }
+  try {
+    return JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(bytes));
+  } catch (cause) {
+    throw new Error('It holds no JSON: expected an experiment.', { cause });
+  }
+}
+
+/** At most one part more than is allowed, however much there would be. */
+async function inflated(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array<ArrayBuffer>> {
   const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw')).getReader();
   const parts: Uint8Array<ArrayBuffer>[] = [];
   let size = 0;
-  for (;;) {
-    const { done, value } = await reader.read().catch((cause: unknown) => {
-      throw new Error(damaged, { cause });
-    });
+  while (size <= MAX_UNPACKED_BYTES) {
+    const { done, value } = await reader.read();
     if (done) break;
-    size += value.length;
-    if (size > MAX_UNPACKED_BYTES) {
-      await reader.cancel();
-      throw new Error(`It unpacks to more than ${MAX_UNPACKED_BYTES >> 20} MB: expected an experiment.`);
-    }
     parts.push(value);
+    size += value.length;
   }
-  return new TextDecoder('utf-8', { fatal: true }).decode(await new Blob(parts).arrayBuffer());
+  // Lets go of the rest; a stream that has ended has none.
+  await reader.cancel();
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
 /** Neighbouring touches lie close: their differences are short numbers that repeat. */
@@ -79,6 +90,10 @@ function unpackAll(value: unknown): unknown {
     return { ...(one as Stroke), points_cm: sums };
   };
   return { ...(value as object), strokes: strokes.map(unpack) };
+}
+
+function fromBase64url(letters: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(letters.replaceAll('-', '+').replaceAll('_', '/')), (letter) => letter.charCodeAt(0));
 }
 
 function base64url(bytes: Uint8Array): string {
