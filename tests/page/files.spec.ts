@@ -121,6 +121,7 @@ test('a scenario opens with its own terrain, and one of the catalogue by itself'
 });
 
 test('files that cannot be opened say why, and change nothing', async ({ mapless: page }) => {
+  await page.evaluate(() => window.mapless?.pause());
   const { scenario } = await state(page);
   const cases: [name: string, content: string | Buffer, words: string][] = [
     ['a.asc', ascii().slice(0, 2000), 'it ends after'],

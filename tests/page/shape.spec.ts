@@ -143,6 +143,8 @@ test.describe('on a phone', () => {
     await page.evaluate(() => window.mapless?.pause());
     const before = await ground(page);
     await page.getByRole('radio', { name: 'Crater' }).check();
+    // The row of tools scrolls, the view does not.
+    expect(await page.locator('.stage').evaluate((stage) => stage.scrollLeft)).toBe(0);
     const { x, y } = await middle(page);
     await page.touchscreen.tap(x, y + 60);
     await expect.poll(() => strokes(page)).toBe(1);

@@ -1,12 +1,15 @@
 /** Holds the experiment that the page shows, and its history: everything that changes it goes through here. */
 
-import { type Experiment, type Stroke, tidyHeading, tidyPlace } from './core/experiment.ts';
+import { type Experiment, MAX_TOUCHES, type Stroke, tidyHeading, tidyPlace } from './core/experiment.ts';
 import { History } from './core/history.ts';
 import type { Command, Ground, GroundPatch, Heading, Place, Source } from './core/protocol.ts';
 import { type Brush, type MadeStroke, StrokeInHand } from './core/strokeInHand.ts';
 
 /** Ground kept for undoing strokes at once; older strokes are undone by loading the ground anew. */
 const MOST_PATCH_BYTES = 64 << 20;
+
+/** A stroke begun with fewer touches than this in all fits into what an experiment holds, however long it is held. */
+const FULL_TOUCHES = 0.9 * MAX_TOUCHES;
 
 interface Core {
   request(command: Command): Promise<void>;
@@ -99,6 +102,11 @@ export class Workbench {
     const made = this.#next(async () => {
       const [ground, { experiment }] = [this.#core.ground(), this];
       if (!ground || !experiment) throw new Error('There is no ground yet.');
+      const touches = experiment.strokes.reduce((sum, { points_cm }) => sum + points_cm.length / 2, 0);
+      if (touches > FULL_TOUCHES) {
+        const advice = 'Save the heights as an ASCII grid and open them to go on';
+        throw new Error(`An experiment holds no more than ${touches} touches. ${advice}.`);
+      }
       this.#inHand = stroke;
       try {
         const result = await stroke.made(ground);

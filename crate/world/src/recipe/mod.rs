@@ -78,7 +78,7 @@ mod trail;
 
 use crate::height_field::{HeightField, check_grid};
 use crate::import::{self, Scale};
-use crate::sculpt::{Stroke, StrokeTable};
+use crate::sculpt::{SampleRect, Stroke, StrokeTable};
 use crate::terrain::{Terrain, TerrainError, TerrainFault, split_name};
 use canvas::Canvas;
 use check::Table;
@@ -86,6 +86,9 @@ use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
 use serde::Deserialize;
 use toml::Spanned;
 use trail::Trail;
+
+/// Samples that all strokes of a recipe may touch, each time counted anew: some seconds of work, and more than a day's sculpting.
+const MAX_SCULPTED_SAMPLES: usize = 500_000_000;
 
 pub(crate) use features::smooth_step;
 pub(crate) use gradient_noise::gradient_noise;
@@ -206,11 +209,19 @@ impl Recipe {
 
     /// Repeats the strokes. They work on the finished field, as they did when they were made.
     fn sculpt(&self, text: &str, field: &mut HeightField) -> Result<(), TerrainFault> {
+        let mut samples = 0;
         for (index, table) in self.stroke.iter().enumerate() {
             let at = Table::at(text, table.span().start, "stroke", index);
             let stroke = Stroke::try_from(table.get_ref()).map_err(|error| at.stroke_fault(error))?;
             for brush in stroke.brushes() {
-                field.sculpt(brush).map_err(|fault| at.fault(fault.field, fault.value, fault.expected))?;
+                let changed = field
+                    .sculpt(brush)
+                    .map_err(|fault| at.fault(fault.field, fault.value, fault.expected))?;
+                samples += changed.map_or(0, SampleRect::samples);
+                if samples > MAX_SCULPTED_SAMPLES {
+                    let expected = format!("at most {MAX_SCULPTED_SAMPLES} in all strokes");
+                    return Err(at.fault("samples touched", samples, expected));
+                }
             }
         }
         Ok(())

@@ -268,3 +268,12 @@ fn strokes_repeat_what_was_done_by_hand() {
         "a.toml: line 10, stroke[1].points[1], strength_m = -1: expected a number from 0 to 100"
     );
 }
+
+#[test]
+fn strokes_without_end_are_refused() {
+    let side = "name = \"a\"\nsize_m = [500.0, 500.0]\ncell_m = 0.5\n";
+    let points = vec!["[250.0, 250.0]"; 501].join(", ");
+    let keys = format!("kind = \"lower\"\nradius_m = 900.0\nstrength_m = 0.0\npoints = [{points}]\n");
+    let fault = build(&format!("{side}[[stroke]]\n{keys}")).unwrap_err().to_string();
+    assert!(fault.contains("line 4, stroke[1].samples touched = 500"), "{fault}");
+}

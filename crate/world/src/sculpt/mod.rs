@@ -75,6 +75,12 @@ pub struct SampleRect {
 }
 
 impl SampleRect {
+    /// How many samples it holds.
+    #[must_use]
+    pub fn samples(self) -> usize {
+        (self.column_end - self.column_begin) * (self.row_end - self.row_begin)
+    }
+
     /// The smallest rectangle that holds both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
@@ -136,8 +142,7 @@ impl HeightField {
         let Some(rect) = covered(self, brush) else { return Ok(None) };
         let columns = self.columns();
         let ends_m = [brush.centre, brush.end()].map(|place| self.nearest_height_m(place));
-        let mut changed =
-            Vec::with_capacity((rect.column_end - rect.column_begin) * (rect.row_end - rect.row_begin));
+        let mut changed = Vec::with_capacity(rect.samples());
         for row in rect.row_begin..rect.row_end {
             for column in rect.column_begin..rect.column_end {
                 let height_m = f64::from(self.heights_m()[row * columns + column]);
