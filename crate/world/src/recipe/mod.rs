@@ -78,7 +78,7 @@ mod trail;
 
 use crate::height_field::{HeightField, check_grid};
 use crate::import::{self, Scale};
-use crate::sculpt::{SampleRect, Stroke, StrokeTable};
+use crate::sculpt::{Stroke, StrokeTable};
 use crate::terrain::{Terrain, TerrainError, TerrainFault, split_name};
 use canvas::Canvas;
 use check::Table;
@@ -213,15 +213,13 @@ impl Recipe {
         for (index, table) in self.stroke.iter().enumerate() {
             let at = Table::at(text, table.span().start, "stroke", index);
             let stroke = Stroke::try_from(table.get_ref()).map_err(|error| at.stroke_fault(error))?;
+            samples += stroke.samples(field);
+            if samples > MAX_SCULPTED_SAMPLES {
+                let expected = format!("at most {MAX_SCULPTED_SAMPLES} in all strokes");
+                return Err(at.fault("samples touched", samples, expected));
+            }
             for brush in stroke.brushes() {
-                let changed = field
-                    .sculpt(brush)
-                    .map_err(|fault| at.fault(fault.field, fault.value, fault.expected))?;
-                samples += changed.map_or(0, SampleRect::samples);
-                if samples > MAX_SCULPTED_SAMPLES {
-                    let expected = format!("at most {MAX_SCULPTED_SAMPLES} in all strokes");
-                    return Err(at.fault("samples touched", samples, expected));
-                }
+                field.sculpt(brush).map_err(|fault| at.fault(fault.field, fault.value, fault.expected))?;
             }
         }
         Ok(())

@@ -275,5 +275,7 @@ fn strokes_without_end_are_refused() {
     let points = vec!["[250.0, 250.0]"; 501].join(", ");
     let keys = format!("kind = \"lower\"\nradius_m = 900.0\nstrength_m = 0.0\npoints = [{points}]\n");
     let fault = build(&format!("{side}[[stroke]]\n{keys}")).unwrap_err().to_string();
-    assert!(fault.contains("line 4, stroke[1].samples touched = 500"), "{fault}");
+    let expected =
+        "test.toml: line 4, stroke[1].samples touched = 502002501: expected at most 500000000 in all strokes";
+    assert_eq!(fault, expected);
 }

@@ -1,7 +1,8 @@
 //! Strokes: the touches of one brush, as the table of a recipe that describes them.
 
-use super::{Brush, BrushKind};
+use super::{Brush, BrushKind, SampleRect, covered};
 use crate::config::ConfigError;
+use crate::height_field::HeightField;
 use glam::DVec2;
 use serde::Deserialize;
 use thiserror::Error;
@@ -82,6 +83,13 @@ impl Stroke {
         let table: StrokeTable = toml::from_str(text)
             .map_err(|error| StrokeError::Syntax(error.to_string().trim_end().to_owned()))?;
         Self::try_from(&table)
+    }
+
+    /// How many samples of a field the touches cover, each counted for every touch.
+    #[must_use]
+    pub fn samples(&self, field: &HeightField) -> usize {
+        let covered = self.brushes.iter().filter_map(|brush| covered(field, brush));
+        covered.map(SampleRect::samples).sum()
     }
 
     /// The touches, in their order.
