@@ -37,7 +37,12 @@ test('raise, lower and smooth do what they say, where they say it, while the rob
   const place = { x: pose.x + 9 * Math.cos(pose.yaw), y: pose.y + 9 * Math.sin(pose.yaw) };
   const height = () => page.evaluate((at) => window.mapless?.heightAt(at) ?? Number.NaN, place);
   const dab = (kind: 'raise' | 'lower' | 'smooth', strength_m: number) =>
-    page.evaluate((brush) => window.mapless?.sculpt(brush), { ...place, radius_m: 1.5, strength_m, kind });
+    page.evaluate((stroke) => window.mapless?.sculpt(stroke), {
+      kind,
+      radius_m: 1.5,
+      strength_m,
+      points_cm: [Math.round(100 * place.x), Math.round(100 * place.y)],
+    });
   const level = await height();
   await dab('raise', 0.8);
   const raised = await height();

@@ -26,8 +26,9 @@ plain('a panic loses neither the ground, the start nor the goal', async ({ page 
   const place = { x: start.x + 6, y: start.y + 1 };
   const height = () => page.evaluate((at) => window.mapless?.heightAt(at) ?? Number.NaN, place);
   const before = await height();
-  const brush = { ...place, radius_m: 2, strength_m: 0.5, kind: 'raise' } as const;
-  await page.evaluate((one) => window.mapless?.sculpt(one), brush);
+  const points_cm = [100 * place.x, 100 * place.y].map(Math.round);
+  const stroke = { kind: 'raise', radius_m: 2, strength_m: 0.5, points_cm } as const;
+  await page.evaluate((one) => window.mapless?.sculpt(one), stroke);
   await page.evaluate((at) => window.mapless?.setGoal(at), place);
   const moved = { x: start.x + 1, y: start.y, heading_rad: 1 };
   await page.evaluate((at) => window.mapless?.setStart(at), moved);

@@ -48,7 +48,7 @@ test('the slider goes along the run by keyboard, and buttons and keys too', asyn
   await expect(page.getByRole('button', { name: 'Go to the end' })).toBeHidden();
   await page.keyboard.press('j');
   await until(page, (now) => now.tick === timeline.end - 50);
-  await page.keyboard.press('l');
+  await page.keyboard.press('k');
   await until(page, (now) => now.tick === timeline.end);
 });
 

@@ -4,8 +4,11 @@
  */
 
 import type { App } from './app.ts';
+import type { Experiment, Stroke } from './core/experiment.ts';
+import { linkTo } from './core/link.ts';
 import type { Overrides } from './core/overrides.ts';
-import type { Brush, Frame, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
+import type { Frame, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
+import { readExperiment, readStroke } from './core/readExperiment.ts';
 
 /** Arrays and what only drawing needs stay out. */
 type Drawn = 'buffers' | 'path' | 'rows' | 'anew' | 'ahead' | 'world_from_sensor' | 'segments' | 'subgoals';
@@ -19,6 +22,8 @@ export type MaplessState = Omit<Frame, Drawn> &
     /** How many segments and subgoals the last tick found. */
     readonly segments: number;
     readonly subgoals: number;
+    /** Whether ground or goal were changed under way, so that a restart drives differently. */
+    readonly disturbed: boolean;
   };
 
 export interface MaplessApi {
@@ -40,7 +45,15 @@ export interface MaplessApi {
   /** Begins anew with other parameters, as tables with the names of a scenario file: `{ sensor: { range_noise_m: 0.1 } }`. */
   setOverrides(overrides: Overrides): Promise<void>;
   setStart(start: Heading): Promise<void>;
-  sculpt(brush: Brush): Promise<void>;
+  sculpt(stroke: Stroke): Promise<void>;
+  /** Everything that a run depends on, as plain data; nothing until the first scenario is loaded. */
+  experiment(): Experiment | undefined;
+  /** Loads an experiment, after checking it. */
+  openExperiment(experiment: unknown): Promise<void>;
+  /** A link that reopens the experiment; a long one for much sculpting. */
+  link(): Promise<string>;
+  undo(): Promise<void>;
+  redo(): Promise<void>;
   /** Height of the ground in metres, nothing outside it. */
   heightAt(place: Place): number | undefined;
   /** World-frame x, y, z of the newest scan's returns. */
@@ -72,7 +85,16 @@ export function publish(app: App): void {
     seek: used((tick: number) => app.seek(tick)),
     setOverrides: used((overrides: Overrides) => app.setOverrides(overrides)),
     setStart: used((start: Heading) => app.setStart(start)),
-    sculpt: used((brush: Brush) => app.sculpt(brush)),
+    sculpt: used((stroke: Stroke) => app.sculpt(readStroke(stroke))),
+    experiment: () => app.bench.experiment,
+    openExperiment: used(async (value: unknown) => app.open({ experiment: readExperiment(value) })),
+    link: async () => {
+      const { experiment } = app.bench;
+      if (!experiment) throw new Error('No scenario is loaded yet.');
+      return linkTo(location.href, experiment);
+    },
+    undo: used(() => app.undo()),
+    redo: used(() => app.redo()),
     heightAt: (place) => app.heightAt(place),
     scan: () => app.scan(),
   };

@@ -3,12 +3,25 @@
 import type { MaplessState } from './api.ts';
 import { entry, following } from './core/catalogue.ts';
 import { CoreClient } from './core/client.ts';
+import type { Experiment, Stroke } from './core/experiment.ts';
 import type { Overrides } from './core/overrides.ts';
-import type { Brush, Frame, Ground, GroundPatch, Heading, Place, SessionInfo, Setting } from './core/protocol.ts';
+import type {
+  Frame,
+  Ground,
+  GroundPatch,
+  Heading,
+  NamedFile,
+  Place,
+  SessionInfo,
+  Setting,
+  Setup,
+  Source,
+} from './core/protocol.ts';
 import { RunRecord } from './core/record.ts';
 import { HeightField } from './scene/heightfield.ts';
 import type { Tool } from './scene/tools.ts';
 import { SPEEDS } from './ui/controls.ts';
+import { Workbench } from './workbench.ts';
 
 /** How long the result of a trial stands before the page goes on by itself. */
 const LINGER_S = 8;
@@ -27,6 +40,8 @@ export interface Views {
   tool(tool: Tool): void;
   /** Seconds until the next scenario starts by itself, or nothing. */
   countdown(seconds: number | undefined): void;
+  /** The experiment, or what can be undone, has changed. */
+  experiment(bench: Workbench): void;
   notice(message: string): void;
   clearNotice(): void;
 }
@@ -46,19 +61,24 @@ export class App {
   #lingering: ReturnType<typeof setInterval> | undefined;
   /** Whether anything shows the surfaces. */
   #watching = false;
-  #sculpting = 0;
   #recovering = false;
-  #waitingDab: Brush | undefined;
   #seeking = false;
   #waitingTick: number | undefined;
+  readonly bench: Workbench;
 
   constructor(views: Views) {
     this.#views = views;
     this.#core = new CoreClient({
-      session: (info, ground) => this.#onSession(info, ground),
+      session: (info, ground, experiment) => this.#onSession(info, ground, experiment),
       frame: (frame) => this.#onFrame(frame),
       ground: (patch) => this.#onPatch(patch),
       failure: (message, panicked) => this.#onFailure(message, panicked),
+    });
+    this.bench = new Workbench({
+      request: (command) => this.#core.request(command),
+      ground: () => this.#field,
+      info: () => this.#info,
+      changed: (bench) => this.#views.experiment(bench),
     });
   }
 
@@ -68,13 +88,17 @@ export class App {
     this.#stopLingering();
   }
 
+  get touched(): boolean {
+    return this.#touched;
+  }
+
   get scenario(): string {
     return this.#info?.scenario ?? following('').id;
   }
 
-  get setting(): Setting {
-    const { preset = 'default', learning = 'fixed' } = this.#info ?? {};
-    return { preset, learning };
+  get setup(): Setup {
+    const { preset = 'default', learning = 'fixed', overrides = {} } = this.#info ?? {};
+    return { preset, learning, overrides };
   }
 
   state(): MaplessState | undefined {
@@ -106,6 +130,7 @@ export class App {
       ground: { columns: field.columns, rows: field.rows, cell_m: field.cell_m },
       segments: segments.length,
       subgoals: subgoals.length,
+      disturbed: frame.timeline.first > 0 || frame.timeline.changes.some((tick) => tick > 0),
     };
   }
 
@@ -121,16 +146,74 @@ export class App {
     return this.#playing;
   }
 
-  async load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
+  load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
+    return this.open({ scenario, setup: { ...this.setup, ...setting }, seed });
+  }
+
+  async open(source: Source): Promise<void> {
     this.#stopLingering();
-    const overrides = this.#info?.overrides ?? {};
-    await this.#core.request({ type: 'load', scenario, setting: { ...this.setting, ...setting }, seed, overrides });
+    // Before anybody has touched the page there is nothing to go back to.
+    await this.bench.open(source, this.#touched || this.bench.canUndo);
     this.#views.clearNotice();
+  }
+
+  /** Other settings for the experiment as it is. */
+  async change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
+    this.#stopLingering();
+    await this.bench.change(part);
+    await this.#setPlaying(true);
+    this.#views.clearNotice();
+  }
+
+  async undo(): Promise<void> {
+    this.#stopLingering();
+    await this.bench.undo();
+  }
+
+  async redo(): Promise<void> {
+    this.#stopLingering();
+    await this.bench.redo();
+  }
+
+  /** The files with which `mapless run` drives the same run. */
+  files(): Promise<NamedFile[]> {
+    const { experiment } = this.bench;
+    if (!experiment) return Promise.reject(new Error('No scenario is loaded yet.'));
+    return this.#core.request({ type: 'export', experiment });
+  }
+
+  get field(): HeightField | undefined {
+    return this.#field;
+  }
+
+  /** The ground of a terrain, coarsely, for a picture. */
+  preview(terrain: Experiment['terrain']): Promise<Ground> {
+    return this.#core.request({ type: 'preview', terrain });
   }
 
   /** Loads a scenario and runs it at once. */
   async run(scenario: string, setting?: Partial<Setting>, seed?: number): Promise<void> {
-    await Promise.all([this.load(scenario, setting, seed), this.#setPlaying(true)]);
+    await this.load(scenario, setting, seed);
+    await this.#setPlaying(true);
+  }
+
+  /** Runs what the page begins with; undoing leads back to one's own work. */
+  async runAfter(own: Experiment | undefined, source: Source): Promise<void> {
+    this.touch();
+    await this.bench.openAfter(own, source);
+    await this.#setPlaying(true);
+  }
+
+  /** A terrain by itself, with a start and a goal where it is level. */
+  async runTerrain(terrain: Experiment['terrain'], name: string): Promise<void> {
+    await this.open({ terrain, name, setup: this.setup });
+    await this.#setPlaying(true);
+  }
+
+  /** Files that somebody opened. */
+  async runFiles(files: readonly NamedFile[]): Promise<void> {
+    await this.open({ files, setup: this.setup });
+    await this.#setPlaying(true);
   }
 
   async play(): Promise<void> {
@@ -155,7 +238,7 @@ export class App {
 
   async restart(): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'restart' });
+    await this.bench.restart();
   }
 
   async next(): Promise<void> {
@@ -178,14 +261,10 @@ export class App {
     return this.#info;
   }
 
-  get ground(): HeightField | undefined {
-    return this.#field;
-  }
-
   /** The goal, with waypoints to drive to before it. */
   async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'goal', goal, waypoints });
+    await this.bench.setRoute(waypoints, goal);
   }
 
   /** A goal after the present one, which becomes a waypoint. Waypoints behind the robot are left behind. */
@@ -196,10 +275,10 @@ export class App {
     return this.setGoal(goal, reached ? [] : [...waypoints.slice(this.#frame?.waypointsPassed ?? 0), last]);
   }
 
-  /** Begins anew with these parameters in place of the scenario's own, and another seed if given. */
+  /** Begins anew with these parameters in place of all others, and another seed if given. */
   async setOverrides(overrides: Overrides, seed?: number): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'parameters', overrides, seed });
+    await this.bench.setOverrides(overrides, seed);
     this.#views.clearNotice();
   }
 
@@ -234,27 +313,16 @@ export class App {
 
   async setStart(start: Heading): Promise<void> {
     this.#stopLingering();
-    await this.#core.request({ type: 'start', start });
+    await this.bench.setStart(start);
   }
 
-  sculpt(brush: Brush): Promise<void> {
-    return this.#core.request({ type: 'sculpt', brush });
-  }
-
-  /** For strokes: where the core is slower than the pointer, dabs in between are left out. */
-  async dab(brush: Brush): Promise<void> {
-    this.#waitingDab = brush;
-    if (this.#sculpting > 0) return;
-    this.#sculpting += 1;
-    try {
-      while (this.#waitingDab) {
-        const now = this.#waitingDab;
-        this.#waitingDab = undefined;
-        await this.sculpt(now);
-      }
-    } finally {
-      this.#sculpting -= 1;
+  /** A whole stroke at once. */
+  sculpt({ points_cm, ...brush }: Stroke): Promise<void> {
+    const stroke = this.bench.stroke(brush);
+    for (let at = 0; at + 1 < points_cm.length; at += 2) {
+      stroke.touch({ x: (points_cm[at] ?? 0) / 100, y: (points_cm[at + 1] ?? 0) / 100 });
     }
+    return stroke.end();
   }
 
   /** Height of the ground, nothing outside it. */
@@ -289,8 +357,9 @@ export class App {
     if (this.#frame) this.#views.status(this.#frame, playing);
   }
 
-  #onSession(info: SessionInfo, ground: Ground | undefined): void {
+  #onSession(info: SessionInfo, ground: Ground | undefined, experiment: Experiment | undefined): void {
     this.#info = info;
+    if (experiment) this.bench.loaded(experiment);
     const field = ground ? new HeightField(ground) : undefined;
     this.#field = field ?? this.#field;
     this.#views.session(info, field);
@@ -298,6 +367,7 @@ export class App {
 
   #onPatch(patch: GroundPatch): void {
     this.#field?.patch(patch);
+    this.bench.patched(patch);
     this.#views.sculpted();
   }
 
@@ -358,12 +428,12 @@ export class App {
     this.#views.notice(
       `The simulation stopped on an internal error. “${title}” goes back to its start, with your ground, start and goal. (${message})`,
     );
+    if (!this.bench.experiment) {
+      this.#views.notice(`The simulation could not be loaded; reload the page to try again. (${message})`);
+      return;
+    }
     try {
-      const again = await this.#core.recover();
-      if (!again) {
-        this.#views.notice(`The simulation could not be loaded; reload the page to try again. (${message})`);
-        return;
-      }
+      await this.bench.reopen();
       await this.setSpeed(this.#speed);
       await this.#core.request({ type: 'watch', surfaces: this.#watching });
     } catch {

@@ -6,9 +6,12 @@ import './style/controls.css';
 import './style/measure.css';
 import './style/panels.css';
 import './style/thinking.css';
+import './style/ground.css';
 import { publish } from './api.ts';
 import { App } from './app.ts';
-import { CATALOGUE, entry, following } from './core/catalogue.ts';
+import { begin } from './begin.ts';
+import { Autosave } from './core/autosave.ts';
+import { entry, following } from './core/catalogue.ts';
 import { countOverrides } from './core/overrides.ts';
 import type { Lab } from './lab/lab.ts';
 import { keepOffline } from './offline/register.ts';
@@ -18,13 +21,18 @@ import { OUTCOME_WORDS, StatusPanel } from './panel/status.ts';
 import { Stage } from './scene/stage.ts';
 import { GroundTools } from './scene/tools.ts';
 import { Thinking } from './thinking.ts';
+import { BrushPanel } from './ui/brushPanel.ts';
 import { Controls } from './ui/controls.ts';
 import { byId, setText } from './ui/dom.ts';
 import { watchFaults, watchGraphics } from './ui/faults.ts';
+import { GroundKey } from './ui/groundKey.ts';
 import { bindKeys } from './ui/keys.ts';
 import { Notice } from './ui/notice.ts';
+import { ShareSheet } from './ui/share.ts';
+import { TerrainsSheet } from './ui/terrains.ts';
 import { readTheme, watchTheme } from './ui/theme.ts';
 import { TimelineBar } from './ui/timeline.ts';
+import { UndoButtons } from './ui/undo.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
@@ -85,6 +93,12 @@ const app = new App({
     status.session(info);
     measure.session(info);
     controls.showSession(info);
+    groundKey.session(info);
+    if (field) {
+      groundKey.ground(field);
+      brushPanel.ground(field.min_m, field.max_m);
+      lab?.sculpted();
+    }
     const { group, title, lesson } = entry(info.scenario);
     setText(element('scene-title'), `${group}: ${title}`);
     setText(element('scene-lesson'), lesson);
@@ -110,6 +124,7 @@ const app = new App({
   sculpted() {
     stage?.sculpted();
     lab?.sculpted();
+    if (app.field) groundKey.ground(app.field);
   },
   playing: (playing) => controls.showPlaying(playing),
   speed(speed) {
@@ -119,6 +134,12 @@ const app = new App({
   tool: (tool) => controls.showTool(tool),
   countdown(seconds) {
     setText(element('countdown'), seconds === undefined ? '' : `in ${seconds} s`);
+  },
+  experiment(bench) {
+    undoButtons.show(bench);
+    // A link in the address is no longer what is shown.
+    if (bench.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
+    if (app.touched && bench.experiment) autosave.save(bench.experiment);
   },
   notice: (message) => notice.show(message),
   clearNotice: () => notice.hide(),
@@ -135,7 +156,10 @@ const tools = stage
   ? new GroundTools(view, stage, {
       setGoal: (goal, added) => app.attempt(added ? app.addGoal(goal) : app.setGoal(goal)),
       setStart: (start) => app.attempt(app.setStart(start)),
-      sculpt: (brush) => app.attempt(app.dab(brush)),
+      stroke(brush) {
+        const stroke = app.bench.stroke(brush);
+        return { touch: stroke.touch, end: () => app.attempt(stroke.end()) };
+      },
     })
   : undefined;
 
@@ -150,9 +174,13 @@ const actions = {
   selectTool(tool: Parameters<GroundTools['select']>[0]) {
     tools?.select(tool);
     controls.showTool(tool);
+    brushPanel.tool(tool);
   },
-  setBrushRadius: (radius_m: number) => tools?.radius(radius_m),
-  growBrush: (steps: number) => controls.growBrush(steps),
+  change: (part: Parameters<App['change']>[0]) => app.attempt(app.change(part)),
+  growBrush: (steps: number) => brushPanel.grow(steps),
+  strengthenBrush: (steps: number) => brushPanel.strengthen(steps),
+  terrains: () => terrainsSheet.open(),
+  share: () => app.attempt(shareSheet.open()),
   letGo() {
     actions.selectTool('look');
     thinking.letGo();
@@ -163,6 +191,12 @@ const actions = {
   jump: (times: number) => app.attempt(app.jump(times)),
   lab: () => app.attempt(openLab()),
 };
+const brushPanel = new BrushPanel((setting) => tools?.brush(setting));
+const groundKey = new GroundKey((colouring) => stage?.colouring(colouring));
+const undoButtons = new UndoButtons(app);
+const terrainsSheet = new TerrainsSheet(app);
+const shareSheet = new ShareSheet(app);
+const autosave = new Autosave((why) => notice.show(why));
 const controls = new Controls(actions);
 const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
 byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
@@ -189,9 +223,8 @@ element('skip').addEventListener('click', (event) => {
   event.preventDefault();
   view.focus();
 });
-keepOffline((start) => notice.show('A new version of this page is ready.', { name: 'Reload', act: start }));
+keepOffline((start) => notice.tell('A new version of this page is ready.', 'Reload', start));
 
 publish(app);
 
-const first = CATALOGUE[0];
-if (first) app.attempt(app.run(first.id));
+app.attempt(begin(app, notice));

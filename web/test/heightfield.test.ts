@@ -51,3 +51,18 @@ test('a patch changes its rectangle and the range of heights', () => {
   assert.equal(level.height(1, 2), 0);
   assert.deepEqual([level.min_m, level.max_m], [0, 6]);
 });
+
+test('a patch keeps the lowest and the highest point up to date', () => {
+  const ground = field((x, y) => x + 0.04 * y);
+  const put = (column: number, row: number, ...heights: number[]) =>
+    ground.patch({ column, row, columns: heights.length, rows: 1, heights_m: Float32Array.from(heights) });
+  const range = () => [ground.min_m, ground.max_m].map((height) => Math.round(100 * height) / 100);
+  assert.deepEqual(range(), [0, 20.6]);
+  put(5, 5, 30, -2);
+  assert.deepEqual(range(), [-2, 30]);
+  put(5, 5, 1, -1);
+  assert.deepEqual(range(), [-1, 20.6]);
+  put(40, 30, 1);
+  put(6, 5, 1);
+  assert.deepEqual(range(), [0, 20.58]);
+});

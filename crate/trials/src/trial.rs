@@ -137,7 +137,25 @@ impl Trial {
         let changed = Arc::make_mut(&mut self.caster)
             .sculpt(brush)
             .map_err(|e| TrialError::Config(format!("brush.{e}")))?;
-        if changed.is_some() {
+        self.stand_anew(changed.is_some());
+        Ok(changed)
+    }
+
+    /// Puts other heights in place of those in a rectangle, as [`Trial::sculpt`] changes them.
+    ///
+    /// # Errors
+    /// [`TrialError::Config`] for heights that do not fit; nothing then changes.
+    pub fn replace_ground(&mut self, rect: SampleRect, heights_m: &[f32]) -> Result<(), TrialError> {
+        Arc::make_mut(&mut self.caster)
+            .replace(rect, heights_m)
+            .map_err(|e| TrialError::Config(e.to_string()))?;
+        self.stand_anew(true);
+        Ok(())
+    }
+
+    /// After the ground may have changed.
+    fn stand_anew(&mut self, changed: bool) {
+        if changed {
             self.navigator.reset();
         }
         if self.husky.settle(self.caster.field()).is_err() {
@@ -145,7 +163,6 @@ impl Trial {
         } else if self.outcome.is_some_and(|outcome| outcome != Outcome::Reached) {
             self.resume();
         }
-        Ok(changed)
     }
 
     /// What the last planner step saw and decided.

@@ -3,10 +3,9 @@
 #[path = "../../wasm/src/panic.rs"]
 mod panic;
 
-use glam::DVec2;
 use mapless::Navigator;
 use mapless_baselines::NavigatorKind;
-use mapless_trials::{Scenario, StartPose, Trial, statistics};
+use mapless_trials::{Scenario, Trial, statistics};
 use mapless_world::HeightField;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
@@ -83,23 +82,6 @@ impl Runner {
         let kind: NavigatorKind = planner.parse()?;
         let navigator = kind.build(&ground.field, &scenario, seed)?;
         Ok(Runner { trial: Trial::with_navigator(ground.field.clone(), &scenario, navigator, seed)? })
-    }
-
-    /// Another start than the scenario's.
-    ///
-    /// # Errors
-    /// A start off the terrain.
-    pub fn set_start(&mut self, x: f64, y: f64, heading_rad: f64) -> Result<(), JsError> {
-        Ok(self.trial.set_start(StartPose { position_m: DVec2::new(x, y), heading_rad })?)
-    }
-
-    /// Another goal, with waypoints (x, y of each) before it.
-    ///
-    /// # Errors
-    /// A place off the terrain.
-    pub fn set_route(&mut self, waypoints: &[f64], x: f64, y: f64) -> Result<(), JsError> {
-        let waypoints_m = waypoints.chunks_exact(2).map(DVec2::from_slice).collect();
-        Ok(self.trial.set_route(waypoints_m, DVec2::new(x, y))?)
     }
 
     /// One planning period; returns whether the trial goes on.

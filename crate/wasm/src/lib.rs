@@ -4,10 +4,12 @@
 //! `web/src/core/decode.ts` names them again. All are in SI units and radians, in the frames of `mapless-world`.
 
 mod encode;
+mod ground;
 mod panic;
 mod session;
 
-pub use session::{Session, terrain_of};
+pub use ground::{generated_recipe, level_places, read_scenario, terrain_preview};
+pub use session::Session;
 
 use wasm_bindgen::prelude::wasm_bindgen;
 

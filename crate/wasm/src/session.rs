@@ -7,19 +7,10 @@ use mapless::occupancy::{COLUMNS, RINGS};
 use mapless::perception::ROWS;
 use mapless::{Navigator as _, Status, StopReason};
 use mapless_trials::{History, Preset, Scenario, StartPose, Trial, parameters};
-use mapless_world::{Brush, BrushKind, HeightField, SensorPose, load_terrain_bytes};
+use mapless_world::{HeightField, SensorPose};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-use crate::encode;
-
-/// The terrain file that a scenario names, relative to the scenario's own folder.
-///
-/// # Errors
-/// The scenario's fault, with file, place, value and expectation.
-#[wasm_bindgen]
-pub fn terrain_of(scenario_file: &str, scenario_toml: &str) -> Result<String, JsError> {
-    Ok(Scenario::parse(scenario_file, scenario_toml)?.terrain)
-}
+use crate::{encode, ground};
 
 /// A copy of the trial is kept this often, and farther apart once there are more than this many.
 const COPY_EVERY_TICKS: u64 = 10;
@@ -29,9 +20,9 @@ const MOST_COPIES: usize = 96;
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Session {
-    now: Moment,
+    pub(crate) now: Moment,
     /// Where the trial has been since its start or since the ground changed; there is none before the first decision.
-    history: Option<History<Moment>>,
+    pub(crate) history: Option<History<Moment>>,
     seed: u64,
     preset: Preset,
     learning: Option<LearningMode>,
@@ -44,8 +35,8 @@ pub struct Session {
 
 /// All that belongs to one point in time.
 #[derive(Clone, Debug)]
-struct Moment {
-    trial: Trial,
+pub(crate) struct Moment {
+    pub(crate) trial: Trial,
     /// Where the last scan was taken: the robot has moved on since.
     scanned_from: SensorPose,
 }
@@ -66,7 +57,7 @@ impl Moment {
 
 #[wasm_bindgen]
 impl Session {
-    /// Loads a scenario. `learning` is `fixed`, `once` or `every_scan`; without it, or a `seed`, it is the scenario's own.
+    /// Loads a scenario. `imported` is the file that the terrain's recipe imports, empty when it imports none. `learning` is `fixed`, `once` or `every_scan`; without it, or a `seed`, it is the scenario's own.
     ///
     /// # Errors
     /// A fault in one of the files, or an unknown preset or mode of learning, with place, value and expectation.
@@ -76,15 +67,14 @@ impl Session {
         scenario_toml: &str,
         terrain_file: &str,
         terrain: &[u8],
+        imported: &[u8],
         preset: &str,
         learning: Option<String>,
         seed: Option<u64>,
     ) -> Result<Session, JsError> {
         let file = Scenario::parse(scenario_file, scenario_toml)?;
         let preset: Preset = preset.parse().map_err(|reason: String| JsError::new(&reason))?;
-        let terrain = load_terrain_bytes(terrain_file, terrain, &mut |file| {
-            Err(format!("{file}: the page holds no files that a recipe imports"))
-        })?;
+        let terrain = ground::load(terrain_file, terrain, imported)?;
         let learning: Option<LearningMode> =
             learning.map(|mode| mode.parse()).transpose().map_err(|reason: String| JsError::new(&reason))?;
         let seed = seed.unwrap_or(file.seed);
@@ -119,7 +109,7 @@ impl Session {
         Ok(())
     }
 
-    /// Every parameter as JSON, with the value of the scenario's file: see [`mapless_trials::parameters::json`].
+    /// Every parameter as JSON, with the value of the scenario file: see [`mapless_trials::parameters::json`].
     pub fn parameters(&self) -> String {
         self.parameters.clone()
     }
@@ -248,37 +238,6 @@ impl Session {
         let Some(history) = &self.history else { return vec![now as f64, now as f64] };
         let ends = [history.first_tick(), history.end_tick()];
         ends.into_iter().chain(history.changes()).map(|tick| tick as f64).collect()
-    }
-
-    /// One dab of a brush (`raise`, `lower` or `smooth`). Returns first column, first row, columns and rows of the samples
-    /// that changed, or nothing when the brush is off the terrain.
-    ///
-    /// # Errors
-    /// A brush that makes no sense.
-    pub fn sculpt(
-        &mut self,
-        x: f64,
-        y: f64,
-        radius_m: f64,
-        strength_m: f64,
-        kind: &str,
-    ) -> Result<Option<Vec<u32>>, JsError> {
-        let kind = match kind {
-            "raise" => BrushKind::Raise,
-            "lower" => BrushKind::Lower,
-            "smooth" => BrushKind::Smooth,
-            _ => return Err(JsError::new(&format!("brush \"{kind}\": expected raise, lower or smooth"))),
-        };
-        let changed =
-            self.now.trial.sculpt(&Brush { centre: DVec2::new(x, y), radius_m, strength_m, kind })?;
-        if changed.is_some() {
-            self.history = None;
-        }
-        Ok(changed.map(|r| {
-            [r.column_begin, r.row_begin, r.column_end - r.column_begin, r.row_end - r.row_begin]
-                .map(|n| n as u32)
-                .to_vec()
-        }))
     }
 
     /// First part of a tick: takes a scan from where the robot stands.

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 use js_sys::{Float32Array, Uint8Array};
-use mapless_wasm::{Session, terrain_of};
+use mapless_wasm::{Session, generated_recipe, level_places, read_scenario, terrain_preview};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
 wasm_bindgen_test_configure!(run_in_browser);
@@ -23,6 +23,7 @@ height_m = 3.0
 radius_m = 4.0
 "#;
 const SCENARIO: &str = "terrain = \"hill.toml\"\nstart = [5.0, 8.0, 0.0]\ngoal = [34.0, 8.0]\nseed = 7\n";
+const RAISE: &str = "kind = \"raise\"\nradius_m = 2.0\nstrength_m = 1.5\npoints = [[15.0, 8.0]]\n";
 const COLUMNS: usize = 161;
 
 fn session(preset: &str, seed: Option<u64>) -> Session {
@@ -30,7 +31,7 @@ fn session(preset: &str, seed: Option<u64>) -> Session {
 }
 
 fn open(scenario: &str, preset: &str, seed: Option<u64>) -> Result<Session, wasm_bindgen::JsError> {
-    Session::new("scenario.toml", scenario, "hill.toml", RECIPE.as_bytes(), preset, None, seed)
+    Session::new("scenario.toml", scenario, "hill.toml", RECIPE.as_bytes(), &[], preset, None, seed)
 }
 
 fn message(error: wasm_bindgen::JsError) -> String {
@@ -46,8 +47,14 @@ fn tick(session: &mut Session, times: usize) {
 }
 
 #[wasm_bindgen_test]
-fn names_the_terrain_of_a_scenario() {
-    assert!(terrain_of("scenario.toml", SCENARIO).is_ok_and(|file| file == "hill.toml"));
+fn a_scenario_is_read_as_plain_data() {
+    let read =
+        read_scenario("scenario.toml", &format!("{SCENARIO}[planner.decision]\nsteepness_weight = 0.5\n"));
+    let text = read.map(|object| String::from(js_sys::JSON::stringify(&object).unwrap())).unwrap_or_default();
+    assert_eq!(
+        text,
+        r#"{"terrain":"hill.toml","start":[5,8,0],"goal":[34,8],"seed":7,"planner":{"decision":{"steepness_weight":0.5}}}"#
+    );
 }
 
 #[wasm_bindgen_test]
@@ -142,7 +149,7 @@ fn sculpting_changes_the_samples_it_names_and_no_other() {
     let mut session = session("default", None);
     let whole = |s: &Session| s.heights(0, 0, s.columns(), s.rows()).unwrap_or_default();
     let before = whole(&session);
-    let Ok(Some(changed)) = session.sculpt(15.0, 8.0, 2.0, 1.5, "raise") else { panic!("no change") };
+    let Ok(Some(changed)) = session.sculpt(RAISE) else { panic!("no change") };
     let after = whole(&session);
     let [column, row, columns, rows] = [0, 1, 2, 3].map(|i| changed[i] as usize);
     assert_eq!(session.columns(), COLUMNS);
@@ -156,9 +163,52 @@ fn sculpting_changes_the_samples_it_names_and_no_other() {
     assert!(risen > 100);
     let patch = session.heights(column, row, columns, rows).unwrap_or_default();
     assert_eq!(patch[0], after[row * COLUMNS + column]);
-    assert!(session.sculpt(-50.0, 8.0, 2.0, 1.5, "raise").is_ok_and(|changed| changed.is_none()));
-    assert!(session.sculpt(15.0, 8.0, f64::NAN, 1.5, "raise").is_err());
-    assert!(session.sculpt(15.0, 8.0, 2.0, 1.5, "flatten").is_err());
+    assert!(session.sculpt(&RAISE.replace("15.0", "-50.0")).is_ok_and(|changed| changed.is_none()));
+    assert!(session.sculpt(&RAISE.replace("2.0", "nan")).is_err());
+    assert!(session.sculpt(&RAISE.replace("raise", "polish")).is_err());
+}
+
+#[wasm_bindgen_test]
+fn a_stroke_and_its_undoing_and_its_place_in_the_recipe_drive_the_same_way() {
+    let drive = |session: &mut Session| {
+        assert!(session.restart().is_ok());
+        tick(session, 15);
+        session.digest()
+    };
+    let mut by_hand = session("default", None);
+    let plain = drive(&mut by_hand);
+    let old = by_hand.heights(40, 20, 60, 40).unwrap_or_default();
+    // In sight of the start.
+    let stroke = RAISE.replace("15.0", "10.0");
+    assert!(by_hand.sculpt(&stroke).is_ok());
+    let sculpted = drive(&mut by_hand);
+    assert_ne!(sculpted, plain);
+    let recipe = format!("{RECIPE}\n[[stroke]]\n{stroke}");
+    let loaded =
+        Session::new("scenario.toml", SCENARIO, "hill.toml", recipe.as_bytes(), &[], "default", None, None);
+    assert_eq!(drive(&mut loaded.unwrap_or_else(|_| panic!("the recipe does not load"))), sculpted);
+    assert!(by_hand.replace_ground(40, 20, 60, &old).is_ok());
+    assert_eq!(drive(&mut by_hand), plain);
+    assert!(by_hand.replace_ground(COLUMNS - 10, 20, 60, &old).is_err());
+}
+
+#[wasm_bindgen_test]
+fn a_preview_is_a_coarse_grid_of_the_same_ground() {
+    let preview = terrain_preview("hill.toml", RECIPE.as_bytes(), &[], 50).unwrap_or_default();
+    assert_eq!((preview[0], preview[1], preview[2], preview.len()), (41.0, 31.0, 1.0, 3 + 41 * 31));
+    let whole = session("default", None);
+    let heights = whole.heights(0, 0, COLUMNS, 121).unwrap_or_default();
+    assert_eq!(preview[3 + 18 * 41 + 20], heights[72 * COLUMNS + 80]);
+}
+
+#[wasm_bindgen_test]
+fn generated_terrains_have_places_to_start_from() {
+    let recipe = generated_recipe("hard", 3).unwrap_or_default();
+    let places = level_places("hard.toml", recipe.as_bytes(), &[]).unwrap_or_default();
+    assert!(places.len() == 4 && places[2] - places[0] > 10.0, "{places:?}");
+    assert!(
+        message(generated_recipe("gruesome", 3).unwrap_err()).contains("expected easy, moderate or hard")
+    );
 }
 
 #[wasm_bindgen_test]

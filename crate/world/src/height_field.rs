@@ -31,6 +31,14 @@ pub enum FieldError {
         /// Samples from south to north.
         rows: usize,
     },
+    /// A rectangle that is empty or not within the field.
+    #[error("rectangle of samples: expected one within {columns} × {rows}")]
+    Rectangle {
+        /// Samples of the field from west to east.
+        columns: usize,
+        /// Samples of the field from south to north.
+        rows: usize,
+    },
     /// The number of heights is not `columns * rows`.
     #[error("{found} heights: expected {expected}")]
     HeightCount {

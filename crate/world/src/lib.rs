@@ -17,6 +17,7 @@ pub mod generate;
 mod height_field;
 mod husky;
 mod import;
+mod level_places;
 pub mod random;
 pub mod recipe;
 mod sculpt;
@@ -30,7 +31,7 @@ pub use caster::Caster;
 pub use config::ConfigError;
 pub use height_field::{FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M};
 pub use husky::{DriveCommand, DriveError, Husky, HuskyConfig, HuskyState};
-pub use sculpt::{Brush, BrushKind, SampleRect};
+pub use sculpt::{Brush, BrushKind, SampleRect, Stroke, StrokeError};
 pub use skyline::{Skyline, true_skyline};
 pub use slopes::SlopeDistribution;
 #[cfg(not(target_arch = "wasm32"))]

@@ -1,6 +1,6 @@
 /** The page's end of the worker: requests with answers, events, and a new worker after a panic. */
 
-import { Journal } from './journal.ts';
+import type { Experiment } from './experiment.ts';
 import {
   type Command,
   type Frame,
@@ -14,7 +14,7 @@ import {
 } from './protocol.ts';
 
 export interface CoreEvents {
-  session(info: SessionInfo, ground: Ground | undefined): void;
+  session(info: SessionInfo, ground: Ground | undefined, experiment: Experiment | undefined): void;
   frame(frame: Frame): void;
   ground(patch: GroundPatch): void;
   /** An error that no request is waiting for, or any panic. After a panic the simulation is gone. */
@@ -22,15 +22,13 @@ export interface CoreEvents {
 }
 
 interface Waiting {
-  readonly command: Command;
-  resolve(): void;
+  resolve(value: unknown): void;
   reject(error: Error): void;
 }
 
 export class CoreClient {
   readonly #events: CoreEvents;
   readonly #waiting = new Map<number, Waiting>();
-  readonly #journal = new Journal();
   #worker: Worker;
   #nextId = 0;
 
@@ -39,20 +37,13 @@ export class CoreClient {
     this.#worker = this.#start();
   }
 
-  /** Resolves once the worker has carried the command out. */
-  request(command: Command): Promise<void> {
+  /** Resolves once the worker has carried the command out, with what it answers, if it does. */
+  request<Value = void>(command: Command): Promise<Value> {
     const id = this.#nextId++;
     return new Promise((resolve, reject) => {
-      this.#waiting.set(id, { command, resolve, reject });
+      this.#waiting.set(id, { resolve: (value) => resolve(value as Value), reject });
       this.#send({ type: 'request', id, command });
     });
-  }
-
-  /** Makes the session of before a panic again, from its start; says whether there was one. */
-  async recover(): Promise<boolean> {
-    const { commands } = this.#journal;
-    for (const command of [...commands]) await this.request(command);
-    return commands.length > 0;
   }
 
   /** Gives a frame's buffers back; also tells the worker that the page is ready for another frame. */
@@ -77,7 +68,7 @@ export class CoreClient {
   #receive(message: FromWorker): void {
     switch (message.type) {
       case 'session':
-        this.#events.session(message.info, message.ground);
+        this.#events.session(message.info, message.ground, message.experiment);
         break;
       case 'frame':
         this.#events.frame(message.frame);
@@ -85,12 +76,9 @@ export class CoreClient {
       case 'ground':
         this.#events.ground(message.patch);
         break;
-      case 'done': {
-        const waiting = this.#settle(message.id);
-        if (waiting) this.#journal.note(waiting.command);
-        waiting?.resolve();
+      case 'done':
+        this.#settle(message.id)?.resolve(message.value);
         break;
-      }
       case 'failed': {
         const waiting = message.id === undefined ? undefined : this.#settle(message.id);
         waiting?.reject(new Error(message.message));

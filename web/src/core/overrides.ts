@@ -1,6 +1,6 @@
-/** Parameters that differ from the scenario's file, by the names and tables of that file. Plain data, never changed in place. */
+/** Parameters that differ from the defaults, by the names and tables of scenario files. Plain data, never changed in place. */
 
-export type OverrideValue = number | string | boolean | readonly number[];
+export type OverrideValue = number | string | boolean | readonly (OverrideValue | Overrides)[];
 export type Overrides = { readonly [key: string]: OverrideValue | Overrides };
 
 /** The value of `name` in a table such as `planner.forecast`, if it is overridden. */
@@ -39,16 +39,23 @@ export function countOverrides(overrides: Overrides): number {
 export function sectionsOf(overrides: Overrides): string {
   return Object.entries(overrides)
     .flatMap(([name, value]) => (isTable(value) ? lines(name, value) : []))
-    .join('\n');
+    .join('\n')
+    .trimStart();
 }
 
+/** A table with its inner tables after its values, as TOML wants it. */
 function lines(path: string, table: Overrides): string[] {
   const entries = Object.entries(table);
-  const values = entries
-    .filter(([, value]) => !isTable(value))
-    .map(([key, value]) => `${key} = ${JSON.stringify(value)}`);
+  const values = entries.filter(([, value]) => !isTable(value)).map(([key, value]) => `${key} = ${literal(value)}`);
   const inner = entries.flatMap(([key, value]) => (isTable(value) ? lines(`${path}.${key}`, value) : []));
-  return [...(values.length > 0 ? [`[${path}]`, ...values] : []), ...inner];
+  return [...(values.length > 0 ? ['', `[${path}]`, ...values] : []), ...inner];
+}
+
+function literal(value: OverrideValue | Overrides): string {
+  if (Array.isArray(value)) return `[${value.map(literal).join(', ')}]`;
+  if (!isTable(value)) return JSON.stringify(value);
+  const entries = Object.entries(value).map(([key, one]) => `${key} = ${literal(one)}`);
+  return `{ ${entries.join(', ')} }`;
 }
 
 function isTable(value: OverrideValue | Overrides | undefined): value is Overrides {

@@ -5,6 +5,7 @@
  * Pitch is positive nose-up, roll positive with the left side up. Azimuths are positive to the robot's left.
  */
 
+import type { Experiment, Stroke, Terrain } from './experiment.ts';
 import type { Overrides } from './overrides.ts';
 import type { ParameterGroup } from './parameters.ts';
 
@@ -21,18 +22,6 @@ export type Learning = 'fixed' | 'once' | 'every_scan';
 export interface Setting {
   readonly preset: Preset;
   readonly learning: Learning;
-}
-
-export type BrushKind = 'raise' | 'lower' | 'smooth';
-
-/** One dab of the sculpting brush, centred on a point of the ground. */
-export interface Brush {
-  readonly x: number;
-  readonly y: number;
-  readonly radius_m: number;
-  /** The largest change of a height, reached at the centre. */
-  readonly strength_m: number;
-  readonly kind: BrushKind;
 }
 
 export interface Place {
@@ -252,8 +241,26 @@ export interface Frame {
 /** Simulated seconds per second; `Infinity` is as fast as it goes. */
 export type Speed = number;
 
+/** A file by its name. */
+export interface NamedFile {
+  readonly name: string;
+  readonly bytes: Uint8Array<ArrayBuffer>;
+}
+
+/** What stays as it is from one scenario to the next. */
+export interface Setup extends Setting {
+  readonly overrides: Overrides;
+}
+
+/** What an experiment is loaded from: a scenario of the catalogue, a document, a terrain without start and goal, or files. */
+export type Source =
+  | { readonly scenario: string; readonly setup: Setup; readonly seed: number | undefined }
+  | { readonly experiment: Experiment }
+  | { readonly terrain: Terrain; readonly name: string; readonly setup: Setup }
+  | { readonly files: readonly NamedFile[]; readonly setup: Setup };
+
 export type Command =
-  | { type: 'load'; scenario: string; setting: Setting; seed: number | undefined; overrides: Overrides }
+  | { type: 'load'; source: Source }
   | { type: 'restart' }
   | { type: 'play'; playing: boolean }
   | { type: 'speed'; speed: Speed }
@@ -264,7 +271,13 @@ export type Command =
   /** Goes to a tick of the timeline and stays there. */
   | { type: 'seek'; tick: number }
   | { type: 'start'; start: Heading }
-  | { type: 'sculpt'; brush: Brush }
+  | { type: 'sculpt'; stroke: Stroke }
+  /** Puts heights back; answered like a stroke. */
+  | { type: 'replace'; patch: GroundPatch }
+  /** Answered with the ground of a terrain, coarsely, as a `Ground`. */
+  | { type: 'preview'; terrain: Terrain }
+  /** Answered with the files that `mapless run` reads, as a list of `NamedFile`. */
+  | { type: 'export'; experiment: Experiment }
   /** Whether anything shows the surfaces: predicting them costs more than the decision itself. */
   | { type: 'watch'; surfaces: boolean }
   | { type: 'hidden'; hidden: boolean };
@@ -274,8 +287,9 @@ export type ToWorker = { type: 'request'; id: number; command: Command } | { typ
 
 /** From the worker. */
 export type FromWorker =
-  | { type: 'session'; info: SessionInfo; ground: Ground | undefined }
+  /** After a load, with the ground and the experiment. */
+  | { type: 'session'; info: SessionInfo; ground: Ground | undefined; experiment: Experiment | undefined }
   | { type: 'frame'; frame: Frame }
   | { type: 'ground'; patch: GroundPatch }
-  | { type: 'done'; id: number }
+  | { type: 'done'; id: number; value: unknown }
   | { type: 'failed'; id: number | undefined; message: string; panicked: boolean };

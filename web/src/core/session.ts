@@ -1,12 +1,12 @@
 /** One loaded scenario in the wasm core, as the plain data of the protocol. Runs in the worker. */
 
-import { terrainFile } from './catalogue.ts';
 import { decodeSegments, decodeSubgoals, named, SCENE, STATUS } from './decode.ts';
-import { type Overrides, sectionsOf } from './overrides.ts';
+import type { Experiment, Stroke } from './experiment.ts';
+import { filesOf } from './opening.ts';
+import { countOverrides, type Overrides, sectionsOf } from './overrides.ts';
 import type { ParameterGroup } from './parameters.ts';
 import type {
   Activity,
-  Brush,
   Frame,
   FrameBuffers,
   Ground,
@@ -18,6 +18,7 @@ import type {
   Setting,
   Timeline,
 } from './protocol.ts';
+import { strokeKeys } from './toml.ts';
 import type { CoreModule, CoreSession } from './wasm.ts';
 
 /** All beams of a full scan: 16 rings × 1800 azimuths. */
@@ -25,7 +26,7 @@ const MAX_RETURNS = 28_800;
 
 export class Session {
   readonly #core: CoreSession;
-  readonly #scenario: string;
+  readonly #name: string;
   readonly #setting: Setting;
   readonly #pool: FrameBuffers[] = [];
   /** The numbers that the present info was read from. */
@@ -34,23 +35,32 @@ export class Session {
   #parameters: readonly ParameterGroup[] = [];
   #info: SessionInfo;
   #planner_ms = 0;
+  /** Whether the ground has changed since the last scan. */
+  #groundChanged = false;
 
-  private constructor(core: CoreSession, scenario: string, setting: Setting) {
+  private constructor(core: CoreSession, { name, preset, learning }: Experiment) {
     this.#core = core;
-    this.#scenario = scenario;
-    this.#setting = setting;
+    this.#name = name;
+    this.#setting = { preset, learning };
     this.#readParameters();
     this.#info = this.#readInfo();
   }
 
-  static async open(core: CoreModule, scenario: string, setting: Setting, seed: number | undefined): Promise<Session> {
-    const file = `scenarios/${scenario}.toml`;
-    const toml = await terrainFile(file);
-    const path = core.terrain_of(file, toml);
-    const terrain = new TextEncoder().encode(await terrainFile(`scenarios/${path}`));
-    const whole = seed === undefined ? undefined : BigInt(seed);
-    const { preset, learning } = setting;
-    return new Session(new core.Session(file, toml, path, terrain, preset, learning, whole), scenario, setting);
+  static async open(core: CoreModule, experiment: Experiment): Promise<Session> {
+    const { preset, learning, overrides } = experiment;
+    // Without the overrides, so that the core knows the defaults, too.
+    const [scenario, terrain, imported] = await filesOf(core, { ...experiment, overrides: {} });
+    const text = new TextDecoder().decode(scenario.bytes);
+    const grid = imported?.bytes ?? new Uint8Array();
+    const loaded = new core.Session(scenario.name, text, terrain.name, terrain.bytes, grid, preset, learning);
+    const session = new Session(loaded, experiment);
+    try {
+      if (countOverrides(overrides) > 0) session.setOverrides(overrides);
+    } catch (error) {
+      session.free();
+      throw error;
+    }
+    return session;
   }
 
   free(): void {
@@ -109,19 +119,31 @@ export class Session {
     this.#planner_ms = 0;
   }
 
-  /** One dab; returns the new heights of the rectangle that changed, if any. */
-  sculpt(brush: Brush): GroundPatch | undefined {
-    const { x, y, radius_m, strength_m, kind } = brush;
-    const changed = this.#core.sculpt(x, y, radius_m, strength_m, kind);
+  /** Applies a stroke; returns the new heights of the rectangle that changed, if any. */
+  sculpt(stroke: Stroke): GroundPatch | undefined {
+    const changed = this.#core.sculpt(strokeKeys(stroke));
     if (!changed) return undefined;
-    // The next decision sees the new ground anyway; while paused, the scan shows it at once.
-    this.#core.look();
+    this.#groundChanged = true;
     const [column = 0, row = 0, columns = 0, rows = 0] = changed;
     return { column, row, columns, rows, heights_m: own(this.#core.heights(column, row, columns, rows)) };
   }
 
+  replaceGround(patch: GroundPatch): void {
+    this.#core.replace_ground(patch.column, patch.row, patch.columns, patch.heights_m);
+    this.#groundChanged = true;
+  }
+
+  /** Looks at new ground while nothing moves. Before the first tick the trial begins anew on it: the run is then that of the document. */
+  #lookAgain(): void {
+    if (!this.#groundChanged) return;
+    this.#groundChanged = false;
+    if (this.status().tick === 0) this.#core.restart();
+    else this.#core.look();
+  }
+
   /** Runs one tick and returns its row of the record. */
   tick(): number[] {
+    this.#lookAgain();
     const began_ms = performance.now();
     this.#core.look();
     const scanned_ms = performance.now();
@@ -151,6 +173,7 @@ export class Session {
   /** Everything of the present state; the surfaces only on demand, since predicting them takes longer than deciding. */
   frame(since: Pick<Frame, 'path' | 'anew' | 'ahead' | 'rows'>, surfaces: boolean): Frame {
     const core = this.#core;
+    this.#lookAgain();
     const status = this.status();
     const buffers = this.#pool.pop() ?? this.#newBuffers();
     const returns = core.points(buffers.points);
@@ -210,7 +233,7 @@ export class Session {
     const scene = named(SCENE, values.subarray(0, SCENE.length));
     const places = values.subarray(SCENE.length);
     return {
-      scenario: this.#scenario,
+      scenario: this.#name,
       ...this.#setting,
       seed: Number(this.#core.seed()),
       start: { x: scene.start_x, y: scene.start_y, heading_rad: scene.start_heading_rad },

@@ -3,7 +3,10 @@ declare module '*/mapless_wasm.js' {
   const start: () => Promise<unknown>;
   export default start;
   export const Session: import('./wasm.ts').CoreModule['Session'];
-  export const terrain_of: import('./wasm.ts').CoreModule['terrain_of'];
+  export const read_scenario: import('./wasm.ts').CoreModule['read_scenario'];
+  export const generated_recipe: import('./wasm.ts').CoreModule['generated_recipe'];
+  export const level_places: import('./wasm.ts').CoreModule['level_places'];
+  export const terrain_preview: import('./wasm.ts').CoreModule['terrain_preview'];
 }
 
 declare module '*/mapless_wasm_baselines.js' {

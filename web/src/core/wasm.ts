@@ -25,8 +25,10 @@ export interface CoreSession {
   go_back(tick: bigint): void;
   /** First and last tick that can be gone to, then those at which the route was changed. */
   timeline(): Float64Array;
-  /** Column, row, columns and rows of the rectangle that changed. */
-  sculpt(x: number, y: number, radius_m: number, strength_m: number, kind: string): Uint32Array | undefined;
+  /** Applies the keys of a `[[stroke]]`; column, row, columns and rows of the rectangle that changed. */
+  sculpt(stroke: string): Uint32Array | undefined;
+  /** Puts heights, row by row from the south-west, in place of those in a rectangle of so many columns. */
+  replace_ground(column: number, row: number, columns: number, heights_m: Float32Array): void;
   /** A tick is `look`, `plan`, `act`; the last returns whether the trial goes on. */
   look(): void;
   plan(): void;
@@ -60,12 +62,18 @@ export interface CoreModule {
     scenario_toml: string,
     terrain_file: string,
     terrain: Uint8Array,
+    imported: Uint8Array,
     preset: string,
     learning?: string | null,
     seed?: bigint | null,
   ) => CoreSession;
-  /** The terrain file that a scenario names, relative to the scenario's own folder. */
-  terrain_of(scenario_file: string, scenario_toml: string): string;
+  /** A scenario file as plain data: `ScenarioRead` in opening.ts. */
+  read_scenario(file: string, text: string): object;
+  generated_recipe(difficulty: string, seed: number): string;
+  /** x, y, x, y of a start and a goal on level ground. */
+  level_places(file: string, terrain: Uint8Array, imported: Uint8Array): Float64Array;
+  /** Columns, rows and spacing of a coarse grid, and its heights. */
+  terrain_preview(file: string, terrain: Uint8Array, imported: Uint8Array, most: number): Float32Array;
 }
 
 /** Compiles and starts the core. */

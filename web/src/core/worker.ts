@@ -1,8 +1,14 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
-import { countOverrides } from './overrides.ts';
-import type { Command, Frame, FromWorker, ToWorker } from './protocol.ts';
-import { transferables } from './protocol.ts';
+import { experimentFrom, filesOf, preview } from './opening.ts';
+import {
+  type Command,
+  type Frame,
+  type FromWorker,
+  type GroundPatch,
+  type ToWorker,
+  transferables,
+} from './protocol.ts';
 import { Session } from './session.ts';
 import { Trail } from './trail.ts';
 import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
@@ -109,7 +115,7 @@ function showIfDue(): void {
 
 function show(): void {
   if (!session) return;
-  if (session.followRoute()) post({ type: 'session', info: session.info, ground: undefined });
+  if (session.followRoute()) tellSession();
   const began_ms = performance.now();
   // What stands still shows everything.
   const surfaces = watched && (!running() || began_ms >= surfacesDue_ms);
@@ -140,6 +146,11 @@ function openFromStart(): void {
   show();
 }
 
+/** Says what is loaded now, on the ground that the page has. */
+function tellSession(): void {
+  if (session) post({ type: 'session', info: session.info, ground: undefined, experiment: undefined });
+}
+
 function notePlace(): void {
   if (!session) return;
   const { tick, x, y, z } = session.status();
@@ -165,15 +176,25 @@ async function seek(tick: number, id: number): Promise<void> {
   show();
 }
 
-async function carryOut(command: Command, id: number): Promise<void> {
+/** The ground has changed: what came after the present tick happened on another one. */
+function showPatch(patch: GroundPatch): void {
+  trail.cut(session?.status().tick ?? 0);
+  notePlace();
+  post({ type: 'ground', patch }, [patch.heights_m.buffer]);
+  unsent = true;
+  showIfDue();
+}
+
+/** Returns what the request is answered with. */
+async function carryOut(command: Command, id: number): Promise<unknown> {
   if (command.type === 'load') {
     core ??= await loadCore();
-    const opened = await Session.open(core, command.scenario, command.setting, command.seed);
-    if (countOverrides(command.overrides) > 0) opened.setOverrides(command.overrides);
+    const experiment = await experimentFrom(core, command.source);
+    const opened = await Session.open(core, experiment);
     session?.free();
     session = opened;
     const ground = session.ground();
-    post({ type: 'session', info: session.info, ground }, [ground.heights_m.buffer]);
+    post({ type: 'session', info: session.info, ground, experiment }, [ground.heights_m.buffer]);
     openFromStart();
     return;
   }
@@ -181,6 +202,14 @@ async function carryOut(command: Command, id: number): Promise<void> {
     watched = command.surfaces;
     if (watched && surfacesOld) show();
     return;
+  }
+  if (command.type === 'preview') {
+    core ??= await loadCore();
+    return preview(core, command.terrain);
+  }
+  if (command.type === 'export') {
+    core ??= await loadCore();
+    return filesOf(core, command.experiment);
   }
   if (command.type === 'hidden') {
     hidden = command.hidden;
@@ -205,7 +234,7 @@ async function carryOut(command: Command, id: number): Promise<void> {
       break;
     case 'restart':
       session.restart();
-      post({ type: 'session', info: session.info, ground: undefined });
+      tellSession();
       openFromStart();
       break;
     case 'seek':
@@ -213,29 +242,30 @@ async function carryOut(command: Command, id: number): Promise<void> {
       break;
     case 'parameters':
       session.setOverrides(command.overrides, command.seed);
-      post({ type: 'session', info: session.info, ground: undefined });
+      tellSession();
       openFromStart();
       break;
     case 'goal':
       session.setRoute(command.waypoints, command.goal);
       trail.cut(session.status().tick);
-      post({ type: 'session', info: session.info, ground: undefined });
+      tellSession();
       show();
       break;
     case 'start':
       session.setStart(command.start);
       session.restart();
-      post({ type: 'session', info: session.info, ground: undefined });
+      tellSession();
       openFromStart();
       break;
     case 'sculpt': {
-      const patch = session.sculpt(command.brush);
-      trail.cut(session.status().tick);
-      if (patch) post({ type: 'ground', patch }, [patch.heights_m.buffer]);
-      unsent = true;
-      showIfDue();
+      const patch = session.sculpt(command.stroke);
+      if (patch) showPatch(patch);
       break;
     }
+    case 'replace':
+      session.replaceGround(command.patch);
+      showPatch(command.patch);
+      break;
   }
 }
 
@@ -255,8 +285,8 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
   if (command.type === 'seek') newestSeek = id;
   queue = queue.then(async () => {
     try {
-      await carryOut(command, id);
-      post({ type: 'done', id });
+      const value = await carryOut(command, id);
+      post({ type: 'done', id, value });
     } catch (error) {
       fail(error, id);
     }

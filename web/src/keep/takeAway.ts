@@ -1,5 +1,6 @@
 /** The buttons that download a run: as numbers, as pictures, as a film. */
 
+import { download } from '../files/download.ts';
 import { byId, setText } from '../ui/dom.ts';
 import { Camera, canFilm, type Drawn } from './film.ts';
 import { fileName, type Run, runJson, trajectoryCsv } from './run.ts';
@@ -42,7 +43,7 @@ export class TakeAway {
       button.disabled = true;
       try {
         const blob = await make(run);
-        if (blob) save(blob, fileName(run, what));
+        if (blob) download(fileName(run, what), blob);
         if (run.record.cut) {
           this.#source.notice(
             `The run is longer than its record: the files begin at tick ${run.record.get(0, 'tick')}.`,
@@ -68,7 +69,7 @@ export class TakeAway {
     }
     this.#showFilming(true);
     try {
-      save(await camera.film(), fileName(run, 'film.webm'));
+      download(fileName(run, 'film.webm'), await camera.film());
     } catch (error) {
       this.#source.notice(`The film could not be made: ${error instanceof Error ? error.message : error}`);
     } finally {
@@ -88,13 +89,4 @@ function title({ info }: Run): string {
 
 function text(content: string, type: string): Blob {
   return new Blob([content], { type });
-}
-
-function save(blob: Blob, name: string): void {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  // Some browsers begin to read only after a while.
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }

@@ -62,7 +62,7 @@ export class ParametersTab implements Tab {
     }
     const total = countOverrides(info.overrides);
     this.#resetAll.disabled = total === 0;
-    const kept = total === 0 ? 'All values are the scenario’s own.' : `${total} changed.`;
+    const kept = total === 0 ? 'All values are the defaults.' : `${total} changed.`;
     setText(this.#summary, `${kept} A change begins the run anew with the same seed.`);
     this.#complain(undefined);
   }
@@ -106,7 +106,7 @@ export class ParametersTab implements Tab {
     if (!info) return;
     if (path === LEARNING_MODE) {
       const learning = (value ?? 'fixed') as Learning;
-      this.#app.attempt(this.#app.run(info.scenario, { learning }, info.seed));
+      this.#app.attempt(this.#app.change({ learning }));
       return;
     }
     await this.#apply(withOverride(info.overrides, table, name, value), path);

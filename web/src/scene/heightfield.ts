@@ -29,11 +29,22 @@ export class HeightField {
   }
 
   patch(patch: GroundPatch): void {
+    let extreme = false;
+    let [min, max] = [this.min_m, this.max_m];
     for (let row = 0; row < patch.rows; row += 1) {
-      const line = patch.heights_m.subarray(row * patch.columns, (row + 1) * patch.columns);
-      this.heights_m.set(line, (patch.row + row) * this.columns + patch.column);
+      const begin = (patch.row + row) * this.columns + patch.column;
+      for (let column = 0; column < patch.columns; column += 1) {
+        const old = this.heights_m[begin + column] ?? 0;
+        const height = patch.heights_m[row * patch.columns + column] ?? 0;
+        if (old === this.min_m || old === this.max_m) extreme = true;
+        if (height < min) min = height;
+        if (height > max) max = height;
+        this.heights_m[begin + column] = height;
+      }
     }
-    this.#measure();
+    // Only where the lowest or highest point went does the whole ground have to be searched for another.
+    if (extreme) this.#measure();
+    else [this.min_m, this.max_m] = [min, max];
   }
 
   contains(x: number, y: number): boolean {

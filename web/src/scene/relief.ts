@@ -15,6 +15,8 @@ import {
   Vector3,
   Vector4,
 } from 'three';
+import type { Place } from '../core/protocol.ts';
+import { COLOURINGS, type Colouring } from '../ui/groundKey.ts';
 import type { Rgb } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
 import type { HeightField } from './heightfield.ts';
@@ -23,6 +25,10 @@ import { SUN, sunlight } from './sunlight.ts';
 
 /** Shadows follow a stroke of the brush after this pause. */
 const RELIGHT_DELAY_MS = 120;
+/** Slopes from here on have the last colour: nearly twice what a Husky stands on. */
+export const STEEPEST_SHOWN_RAD = (40 * Math.PI) / 180;
+/** Half a Husky's length: slopes are taken over what it stands on. */
+const FOOTPRINT_M = 0.4;
 
 export class Relief {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
@@ -58,6 +64,12 @@ export class Relief {
           cell: { value: field.cell_m },
           size: { value: new Vector2(columns, rows) },
           base: { value: 0 },
+          reach: { value: Math.max(1, Math.round(FOOTPRINT_M / field.cell_m)) },
+          colouring: { value: 0 },
+          steepest: { value: STEEPEST_SHOWN_RAD },
+          limits: { value: new Vector2() },
+          slopeColours: { value: [] },
+          standColours: { value: [] },
           range: { value: new Vector2() },
           sun: { value: new Vector3(...SUN) },
           relief: { value: [] },
@@ -67,6 +79,7 @@ export class Relief {
           ringRadius: { value: 0 },
           ringColour: { value: new Color() },
           brush: { value: new Vector4(0, 0, 0, 0) },
+          brushRadius: { value: 0 },
           brushColour: { value: new Color() },
         },
       }),
@@ -84,6 +97,8 @@ export class Relief {
       if (uniform) uniform.value = value;
     };
     set('relief', theme.relief.map(colour));
+    set('slopeColours', theme.slope.map(colour));
+    set('standColours', theme.stand.map(colour));
     set('rock', colour(theme.rock));
     const line = colour(theme.contour);
     set('contour', new Vector4(line.r, line.g, line.b, theme.dark ? 0.34 : 0.3));
@@ -102,6 +117,14 @@ export class Relief {
     }, RELIGHT_DELAY_MS);
   }
 
+  /** By what to colour, with the tilt that the robot may have. */
+  colouring(colouring: Colouring, limits: { readonly roll_rad: number; readonly pitch_rad: number }): void {
+    const { uniforms } = this.mesh.material;
+    if (uniforms.colouring) uniforms.colouring.value = COLOURINGS.indexOf(colouring);
+    const { roll_rad, pitch_rad } = limits;
+    uniforms.limits?.value.set(Math.min(roll_rad, pitch_rad), Math.max(roll_rad, pitch_rad));
+  }
+
   /** Ring of the occupancy radius and soft shadow under the robot. */
   robot(x: number, y: number, yaw: number, ringRadius_m: number): void {
     const { uniforms } = this.mesh.material;
@@ -109,9 +132,11 @@ export class Relief {
     if (uniforms.ringRadius) uniforms.ringRadius.value = ringRadius_m;
   }
 
-  /** The brush's ring; a radius of zero hides it. */
-  brush(x: number, y: number, radius_m: number): void {
-    this.mesh.material.uniforms.brush?.value.set(x, y, radius_m, 0);
+  /** The brush's ring, drawn out along a line; a radius of zero hides it. */
+  brush(at: Place, from: Place, radius_m: number): void {
+    const { uniforms } = this.mesh.material;
+    uniforms.brush?.value.set(at.x, at.y, from.x, from.y);
+    if (uniforms.brushRadius) uniforms.brushRadius.value = radius_m;
   }
 
   dispose(): void {

@@ -6,6 +6,8 @@ uniform highp sampler2D heights;
 uniform float cell;
 uniform vec2 size;
 uniform float base;
+uniform int reach;
+varying float slopeOut;
 varying vec3 place;
 varying vec3 normalOut;
 varying vec2 grid;
@@ -22,6 +24,11 @@ void main() {
     heightAt(here + ivec2(1, 0)) - heightAt(here - ivec2(1, 0)),
     heightAt(here + ivec2(0, 1)) - heightAt(here - ivec2(0, 1))
   ) / (2.0 * cell);
+  vec2 underRobot = vec2(
+    heightAt(here + ivec2(reach, 0)) - heightAt(here - ivec2(reach, 0)),
+    heightAt(here + ivec2(0, reach)) - heightAt(here - ivec2(0, reach))
+  ) / (2.0 * float(reach) * cell);
+  slopeOut = atan(length(underRobot));
   cut = abs(side.x) + abs(side.y);
   normalOut = cut > 0.5 ? vec3(side, 0.0) : normalize(vec3(-slope, 1.0));
   place = vec3(position.xy * cell, position.z > 0.5 ? base : height);
@@ -31,10 +38,16 @@ void main() {
 `;
 
 export const FRAGMENT = /* glsl */ `
+varying float slopeOut;
 varying vec3 place;
 varying vec3 normalOut;
 varying vec2 grid;
 flat varying float cut;
+uniform int colouring;
+uniform float steepest;
+uniform vec2 limits;
+uniform vec3 slopeColours[5];
+uniform vec3 standColours[3];
 uniform sampler2D light;
 uniform vec2 range;
 uniform vec3 sun;
@@ -45,12 +58,28 @@ uniform vec4 robot;
 uniform float ringRadius;
 uniform vec3 ringColour;
 uniform vec4 brush;
+uniform float brushRadius;
 uniform vec3 brushColour;
 
 vec3 elevationColour(float t) {
   float step_ = clamp(t, 0.0, 1.0) * 4.0;
   int index = int(min(floor(step_), 3.0));
   return mix(relief[index], relief[index + 1], step_ - float(index));
+}
+
+vec3 slopeColour(float t) {
+  float step_ = clamp(t, 0.0, 1.0) * 4.0;
+  int index = int(min(floor(step_), 3.0));
+  return mix(slopeColours[index], slopeColours[index + 1], step_ - float(index));
+}
+
+/** Safe at any heading, at some, at none; the last is striped, for those who see no difference in colour. */
+vec3 standColour(float slope) {
+  float soft = 0.5 * fwidth(slope) + 1e-4;
+  vec3 colour_ = mix(standColours[0], standColours[1], smoothstep(limits.x - soft, limits.x + soft, slope));
+  float never = smoothstep(limits.y - soft, limits.y + soft, slope);
+  float stripe = step(0.5, fract((place.x + place.y) / 0.5));
+  return mix(colour_, standColours[2] * (1.0 - 0.28 * stripe), never);
 }
 
 /** Coverage of a line of the given width in pixels where value is zero. */
@@ -73,6 +102,8 @@ void main() {
   vec3 ground = elevationColour((place.z - range.x) / (range.y - range.x));
   float steep = acos(clamp(normal.z, 0.0, 1.0));
   ground = mix(ground, rock, 0.75 * smoothstep(0.40, 0.72, steep) * (1.0 - cut));
+  if (colouring == 1) ground = mix(slopeColour(slopeOut / steepest), ground, cut);
+  if (colouring == 2) ground = mix(standColour(slopeOut), ground, cut);
 
   float open = texture(light, grid).r;
   float facing = max(dot(normal, sun), 0.0);
@@ -94,10 +125,13 @@ void main() {
       float dash = step(0.36, fract(atan(away.y, away.x) * 60.0 / 6.2831853));
       shaded = mix(shaded, ringColour, 0.62 * dash * line(distance_ - ringRadius, 2.0));
     }
-    if (brush.z > 0.0) {
-      float from = length(place.xy - brush.xy);
-      shaded = mix(shaded, brushColour, 0.16 * (1.0 - smoothstep(0.0, brush.z, from)));
-      shaded = mix(shaded, brushColour, line(from - brush.z, 2.4));
+    if (brushRadius > 0.0) {
+      vec2 along = brush.zw - brush.xy;
+      vec2 out_ = place.xy - brush.xy;
+      float share = clamp(dot(out_, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
+      float from = length(out_ - share * along);
+      shaded = mix(shaded, brushColour, 0.16 * (1.0 - smoothstep(0.0, brushRadius, from)));
+      shaded = mix(shaded, brushColour, line(from - brushRadius, 2.4));
     }
   }
   gl_FragColor = linearToOutputTexel(vec4(shaded, 1.0));

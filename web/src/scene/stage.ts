@@ -10,9 +10,10 @@ import {
   Vector3,
   WebGLRenderer,
 } from 'three';
-import type { Frame, Pose, SessionInfo } from '../core/protocol.ts';
+import type { Frame, Place, Pose, SessionInfo } from '../core/protocol.ts';
 import type { Finder, Target } from '../ui/attention.ts';
 import { wrap } from '../ui/format.ts';
+import type { Colouring } from '../ui/groundKey.ts';
 import type { Theme } from '../ui/theme.ts';
 import { Glide } from './glide.ts';
 import type { HeightField, Vector } from './heightfield.ts';
@@ -62,6 +63,7 @@ export class Stage {
   #dirty = true;
   /** Called with the view right after each drawing: later its pixels are gone. */
   drawn: ((view: HTMLCanvasElement) => void) | undefined;
+  #colouring: Colouring = 'elevation';
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
     this.#canvas = canvas;
@@ -124,6 +126,7 @@ export class Stage {
     }
     this.#overlays.session(info);
     if (field) this.#returns.heights(field.min_m, field.max_m);
+    this.#relief?.colouring(this.#colouring, info.limits);
     const { start, goal } = info;
     this.#places.show(goal, start, this.#height);
     this.#waypoints.show(info.waypoints, this.#height);
@@ -184,6 +187,13 @@ export class Stage {
     this.invalidate();
   }
 
+  /** By what the ground is coloured. */
+  colouring(colouring: Colouring): void {
+    this.#colouring = colouring;
+    if (this.#info) this.#relief?.colouring(colouring, this.#info.limits);
+    this.invalidate();
+  }
+
   /** How fast simulated time runs, so that the robot glides from tick to tick. */
   speed(speed: number): void {
     this.#speed = speed;
@@ -214,8 +224,9 @@ export class Stage {
     this.invalidate();
   }
 
-  brush(x: number, y: number, radius_m: number): void {
-    this.#relief?.brush(x, y, radius_m);
+  /** The brush's ring, drawn out along the line from `from`; a radius of zero hides it. */
+  brush(at: Place, from: Place, radius_m: number): void {
+    this.#relief?.brush(at, from, radius_m);
     this.invalidate();
   }
 

@@ -1,29 +1,54 @@
 /** What pointer and keyboard do to the ground: drop a goal, drop a start, sculpt. */
 
-import type { Brush, BrushKind, Heading, Place } from '../core/protocol.ts';
+import type { Heading, Place } from '../core/protocol.ts';
+import type { Brush } from '../core/strokeInHand.ts';
+import { BRUSHES, type BrushName, strength_m } from './brushes.ts';
 import type { Stage } from './stage.ts';
 
-export const TOOLS = ['look', 'goal', 'start', 'raise', 'lower', 'smooth'] as const;
+export const TOOLS = [
+  'look',
+  'goal',
+  'start',
+  'raise',
+  'lower',
+  'smooth',
+  'flatten',
+  'height',
+  'ramp',
+  'roughen',
+  'crater',
+  'ditch',
+  'boulder',
+] as const;
 export type Tool = (typeof TOOLS)[number];
+
+/** How the brush is set. */
+export interface BrushSetting {
+  readonly radius_m: number;
+  /** From 0 to 1. */
+  readonly strength: number;
+  /** Where the ground is to be with the tool for a set height. */
+  readonly height_m: number;
+}
 
 export interface ToolActions {
   /** `added`: after the present goal, which is driven to first. */
   setGoal(goal: Place, added: boolean): void;
   setStart(start: Heading): void;
-  sculpt(brush: Brush): void;
+  /** Begins a stroke, which hears of its touches and its end. */
+  stroke(brush: Brush): { touch(place: Place): void; end(): void };
 }
 
-/** Height moved per dab, as a part of the brush's radius. */
-const STRENGTH = 0.035;
-const SMOOTHING_M = 0.12;
 const DAB_INTERVAL_MS = 40;
 const CURSOR_STEP_M = 0.5;
+/** A ramp or ditch dragged less than this was a slip. */
+const SHORTEST_LINE_M = 0.3;
 /** A start dragged less than this keeps the direction of view as its heading. */
 const HEADING_DRAG_M = 0.6;
 const LOOK_STEP_RAD = 0.12;
 
-function isBrush(tool: Tool): tool is BrushKind {
-  return tool === 'raise' || tool === 'lower' || tool === 'smooth';
+export function isBrush(tool: Tool): tool is BrushName {
+  return tool in BRUSHES;
 }
 
 export class GroundTools {
@@ -31,8 +56,11 @@ export class GroundTools {
   readonly #stage: Stage;
   readonly #actions: ToolActions;
   #tool: Tool = 'look';
-  #radius_m = 2;
   #adding = false;
+  #brush: BrushSetting = { radius_m: 2, strength: 0.35, height_m: 0 };
+  #stroke: ReturnType<ToolActions['stroke']> | undefined;
+  /** Where a line began that waits for its end, by keyboard. */
+  #anchor: Place | undefined;
   #pointer: number | undefined;
   #touches = 0;
   #pressed: Place | undefined;
@@ -57,6 +85,7 @@ export class GroundTools {
   select(tool: Tool): void {
     this.#tool = tool;
     this.#stop();
+    this.#anchor = undefined;
     this.#cursor = undefined;
     this.#stage.toolInHand(tool !== 'look');
     this.#canvas.dataset.tool = tool;
@@ -68,8 +97,8 @@ export class GroundTools {
     this.#adding = adding;
   }
 
-  radius(radius_m: number): void {
-    this.#radius_m = radius_m;
+  brush(setting: BrushSetting): void {
+    this.#brush = setting;
     this.#ring();
   }
 
@@ -90,9 +119,12 @@ export class GroundTools {
     this.#cursor = at;
     this.#ring();
     if (!isBrush(this.#tool)) return;
+    const { gesture } = BRUSHES[this.#tool];
+    if (gesture === 'line') return;
+    this.#stroke = this.#begin(this.#tool, at);
     this.#dab();
     // A still pointer keeps on working, like a spray can.
-    this.#dabbing = setInterval(() => this.#dab(), DAB_INTERVAL_MS);
+    if (gesture === 'spray') this.#dabbing = setInterval(() => this.#dab(), DAB_INTERVAL_MS);
   }
 
   #move(event: PointerEvent): void {
@@ -111,6 +143,7 @@ export class GroundTools {
     const [pressed, cursor] = [this.#pressed, this.#cursor];
     this.#stop();
     if (!done || !pressed || !cursor) return;
+    if (isBrush(this.#tool)) this.#line(this.#tool, pressed, cursor);
     if (this.#tool === 'goal') {
       this.#actions.setGoal({ x: cursor.x, y: cursor.y }, this.#adding || event.shiftKey);
     }
@@ -159,23 +192,61 @@ export class GroundTools {
     if (this.#tool === 'goal') this.#actions.setGoal({ x: at.x, y: at.y }, this.#adding || shifted);
     else if (this.#tool === 'start') {
       this.#actions.setStart({ x: at.x, y: at.y, heading_rad: this.#stage.viewHeading_rad });
-    } else {
+    } else if (isBrush(this.#tool)) {
       this.#cursor = at;
-      this.#dab();
+      this.#applyBrush(this.#tool, at);
     }
   }
 
+  /** Enter: a touch, or the begin and then the end of a line. */
+  #applyBrush(tool: BrushName, at: Place): void {
+    if (BRUSHES[tool].gesture !== 'line') {
+      const stroke = this.#begin(tool, at);
+      stroke.touch(at);
+      stroke.end();
+    } else if (this.#anchor) {
+      this.#line(tool, this.#anchor, at);
+      this.#anchor = undefined;
+    } else {
+      this.#anchor = at;
+    }
+    this.#ring();
+  }
+
+  #begin(tool: BrushName, at: Place): ReturnType<ToolActions['stroke']> {
+    const { radius_m, strength, height_m } = this.#brush;
+    const { kind } = BRUSHES[tool];
+    const under_m = Math.round(100 * (this.#stage.field?.height(at.x, at.y) ?? 0)) / 100;
+    return this.#actions.stroke({
+      kind,
+      radius_m,
+      strength_m: strength_m(tool, radius_m, strength),
+      ...(kind === 'level' ? { height_m: tool === 'height' ? height_m : under_m } : {}),
+      // Each stroke roughens in its own way.
+      ...(kind === 'roughen' ? { seed: Math.floor(Math.random() * 1e6) } : {}),
+    });
+  }
+
+  /** A ramp or a ditch, unless it has no length. */
+  #line(tool: BrushName, from: Place, to: Place): void {
+    if (BRUSHES[tool].gesture !== 'line' || Math.hypot(to.x - from.x, to.y - from.y) < SHORTEST_LINE_M) return;
+    const stroke = this.#begin(tool, from);
+    stroke.touch(from);
+    stroke.touch(to);
+    stroke.end();
+  }
+
   #dab(): void {
-    if (!this.#cursor || !isBrush(this.#tool)) return;
+    if (!this.#cursor || !this.#stroke) return;
     this.#lastDab_ms = performance.now();
-    const strength_m = this.#tool === 'smooth' ? SMOOTHING_M : STRENGTH * this.#radius_m;
-    const { x, y } = this.#cursor;
-    this.#actions.sculpt({ x, y, radius_m: this.#radius_m, strength_m, kind: this.#tool });
+    this.#stroke.touch(this.#cursor);
   }
 
   #stop(): void {
     clearInterval(this.#dabbing);
     this.#dabbing = undefined;
+    this.#stroke?.end();
+    this.#stroke = undefined;
     this.#pointer = undefined;
     this.#pressed = undefined;
   }
@@ -188,7 +259,9 @@ export class GroundTools {
 
   #ring(): void {
     const at = this.#cursor;
-    const radius_m = this.#tool === 'look' || !at ? 0 : isBrush(this.#tool) ? this.#radius_m : 0.5;
-    this.#stage.brush(at?.x ?? 0, at?.y ?? 0, radius_m);
+    const brush = isBrush(this.#tool) ? BRUSHES[this.#tool] : undefined;
+    const from = this.#anchor ?? (brush?.gesture === 'line' ? this.#pressed : undefined);
+    const radius_m = this.#tool === 'look' || !at ? 0 : brush ? this.#brush.radius_m : 0.5;
+    this.#stage.brush(at ?? { x: 0, y: 0 }, from ?? at ?? { x: 0, y: 0 }, radius_m);
   }
 }

@@ -5,9 +5,9 @@ import type { Course } from './protocol.ts';
 
 /** Nothing until the first scenario is there. */
 export function courseOf(app: App): Course | undefined {
-  const { info, ground } = app;
-  if (!info || !ground) return undefined;
-  const { scenario, overrides, learning, start, waypoints, goal } = info;
-  const { columns, rows, cell_m, heights_m } = ground;
-  return { scenario, overrides, learning, start, waypoints, goal, ground: { columns, rows, cell_m, heights_m } };
+  const { info, field } = app;
+  if (!info || !field) return undefined;
+  const { overrides, learning, start, waypoints, goal } = info;
+  const { columns, rows, cell_m, heights_m } = field;
+  return { overrides, learning, start, waypoints, goal, ground: { columns, rows, cell_m, heights_m } };
 }

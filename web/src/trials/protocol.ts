@@ -5,7 +5,6 @@ import type { Ground, Heading, Learning, Metrics, Outcome, Place } from '../core
 
 /** Everything that all trials of a job have in common. */
 export interface Course {
-  readonly scenario: string;
   readonly overrides: Overrides;
   readonly learning: Learning;
   readonly start: Heading;

@@ -1,9 +1,9 @@
 /** Trials on one course, as plain data. Runs in the worker. */
 
-import { terrainFile } from '../core/catalogue.ts';
 import { named } from '../core/decode.ts';
 import { sectionsOf, withOverride } from '../core/overrides.ts';
 import type { Metrics, Outcome } from '../core/protocol.ts';
+import { scenarioFile } from '../core/toml.ts';
 import type { Course, Summary, TrialResult } from './protocol.ts';
 import type { TrialsModule, WasmGround, WasmRunner } from './wasm.ts';
 
@@ -74,33 +74,22 @@ export class Runner {
 /** Makes runners on a course. */
 export class Garage {
   readonly #module: TrialsModule;
-  readonly #course: Course;
   readonly #ground: WasmGround;
-  readonly #file: string;
   readonly #toml: string;
   readonly #sections: string;
 
-  private constructor(module: TrialsModule, course: Course, file: string, toml: string) {
+  constructor(module: TrialsModule, course: Course) {
     const { columns, rows, cell_m, heights_m } = course.ground;
     this.#module = module;
-    this.#course = course;
     this.#ground = new module.Ground(columns, rows, cell_m, heights_m);
-    this.#file = file;
-    this.#toml = toml;
+    // Planner, seed and ground are given apart from the file.
+    this.#toml = scenarioFile({ ...course, seed: 0, preset: 'default', overrides: {} }, 'terrain.toml');
     this.#sections = sectionsOf(withOverride(course.overrides, 'planner.perception.learning', 'mode', course.learning));
   }
 
-  static async open(module: TrialsModule, course: Course): Promise<Garage> {
-    const file = `scenarios/${course.scenario}.toml`;
-    return new Garage(module, course, file, await terrainFile(file));
-  }
-
   runner(planner: string, seed: number): Runner {
-    const { start, waypoints, goal } = this.#course;
-    const wasm = new this.#module.Runner(this.#ground, this.#file, this.#toml, this.#sections, planner, BigInt(seed));
-    wasm.set_start(start.x, start.y, start.heading_rad);
-    wasm.set_route(new Float64Array(waypoints.flatMap(({ x, y }) => [x, y])), goal.x, goal.y);
-    return new Runner(wasm, planner, seed);
+    const [module, file, whole] = [this.#module, 'scenario.toml', BigInt(seed)];
+    return new Runner(new module.Runner(this.#ground, file, this.#toml, this.#sections, planner, whole), planner, seed);
   }
 }
 

@@ -7,8 +7,6 @@ export interface WasmGround {
 
 export interface WasmRunner {
   free(): void;
-  set_start(x: number, y: number, heading_rad: number): void;
-  set_route(waypoints: Float64Array, x: number, y: number): void;
   /** One tick; whether the trial goes on. */
   tick(): boolean;
   outcome(): string;

@@ -26,7 +26,7 @@ function rest(): Promise<void> {
 }
 
 async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' }>): Promise<void> {
-  const garage = await Garage.open(await loadTrials(), course);
+  const garage = new Garage(await loadTrials(), course);
   let running: { runner: Runner; tick: number }[] = [];
   for (const planner of planners) {
     try {
@@ -63,7 +63,7 @@ async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' 
 
 async function seeds({ course, planner, seeds }: Extract<Job, { type: 'seeds' }>): Promise<void> {
   const module = await loadTrials();
-  const garage = await Garage.open(module, course);
+  const garage = new Garage(module, course);
   const results: TrialResult[] = [];
   for (const seed of seeds) {
     const runner = garage.runner(planner, seed);

@@ -1,7 +1,8 @@
 /** The page's buttons, choosers and sliders: each calls one action, and shows the state it is told. */
 
 import { CATALOGUE } from '../core/catalogue.ts';
-import type { Learning, SessionInfo, Setting } from '../core/protocol.ts';
+import { LEARNING, MAX_SEED } from '../core/experiment.ts';
+import type { SessionInfo, Setting } from '../core/protocol.ts';
 import { TOOLS, type Tool } from '../scene/tools.ts';
 import { byId, html } from './dom.ts';
 
@@ -13,17 +14,16 @@ export interface Actions {
   restart(): void;
   next(): void;
   setSpeed(speed: number): void;
-  load(scenario: string, setting: Setting, seed: number | undefined): void;
+  load(scenario: string, setting: Setting): void;
+  change(part: Setting & { seed: number }): void;
   selectTool(tool: Tool): void;
-  setBrushRadius(radius_m: number): void;
+  terrains(): void;
+  share(): void;
   help(): void;
   /** Whether further goals are added to the route. */
   addStops(adding: boolean): void;
   clearStops(): void;
 }
-
-const LEARNING: readonly Learning[] = ['fixed', 'once', 'every_scan'];
-const MAX_SEED = 0xffff_ffff;
 
 export class Controls {
   readonly #setup = byId('setup', HTMLFormElement);
@@ -32,29 +32,26 @@ export class Controls {
   readonly #learning = byId('learning', HTMLSelectElement);
   readonly #seed = byId('seed', HTMLInputElement);
   readonly #play = byId('play', HTMLButtonElement);
-  readonly #brush = byId('brush', HTMLElement);
   readonly #routeTools = byId('route-tools', HTMLElement);
   readonly #routeClear = byId('route-clear', HTMLButtonElement);
-  readonly #brushSize = byId('brush-size', HTMLInputElement);
-  readonly #brushValue = byId('brush-value', HTMLOutputElement);
-  readonly #actions: Actions;
+  readonly #own = html('option');
 
   constructor(actions: Actions) {
-    this.#actions = actions;
     this.#fillScenarios();
     // Enter in a field changes the field; there is nothing to send.
     this.#setup.addEventListener('submit', (event) => event.preventDefault());
-    this.#scenario.addEventListener('change', () => this.#load(undefined));
-    for (const select of [this.#preset, this.#learning]) {
-      select.addEventListener('change', () => this.#load(this.#readSeed()));
+    this.#scenario.addEventListener('change', () => actions.load(this.#scenario.value, this.#setting()));
+    for (const field of [this.#preset, this.#learning, this.#seed]) {
+      field.addEventListener('change', () => {
+        const seed = this.#readSeed();
+        if (seed !== undefined) actions.change({ ...this.#setting(), seed });
+      });
     }
-    this.#seed.addEventListener('change', () => {
-      const seed = this.#readSeed();
-      if (seed !== undefined) this.#load(seed);
-    });
     this.#onClick('play', () => actions.togglePlay());
     this.#onClick('step', () => actions.step());
     this.#onClick('restart', () => actions.restart());
+    this.#onClick('terrains', () => actions.terrains());
+    this.#onClick('share', () => actions.share());
     this.#onClick('help', () => actions.help());
     this.#onClick('next', () => actions.next());
     this.#onClick('route-clear', () => actions.clearStops());
@@ -66,8 +63,6 @@ export class Controls {
     for (const input of this.#radios('speed')) {
       input.addEventListener('change', () => actions.setSpeed(SPEEDS[Number(input.value)] ?? 1));
     }
-    this.#brushSize.addEventListener('input', () => this.#readBrush());
-    this.#readBrush();
   }
 
   showPlaying(playing: boolean): void {
@@ -79,6 +74,12 @@ export class Controls {
 
   showSession({ scenario, preset, learning, seed, waypoints }: SessionInfo): void {
     this.#routeClear.hidden = waypoints.length === 0;
+    // What is not of the catalogue stands first, by its own name.
+    const own = !CATALOGUE.some((one) => one.id === scenario);
+    if (own) this.#scenario.prepend(this.#own);
+    else this.#own.remove();
+    this.#own.value = scenario;
+    this.#own.textContent = scenario;
     this.#scenario.value = scenario;
     this.#preset.value = preset;
     this.#learning.value = learning;
@@ -89,30 +90,15 @@ export class Controls {
   showTool(tool: Tool): void {
     for (const input of this.#radios('tool')) input.checked = input.value === tool;
     this.#routeTools.hidden = tool !== 'goal';
-    this.#brush.hidden = tool !== 'raise' && tool !== 'lower' && tool !== 'smooth';
   }
 
   showSpeed(speed: number): void {
     for (const input of this.#radios('speed')) input.checked = SPEEDS[Number(input.value)] === speed;
   }
 
-  /** Moves the brush's slider by whole steps. */
-  growBrush(steps: number): void {
-    if (steps > 0) this.#brushSize.stepUp(steps);
-    else this.#brushSize.stepDown(-steps);
-    this.#readBrush();
-  }
-
-  #readBrush(): void {
-    const radius_m = this.#brushSize.valueAsNumber;
-    this.#brushValue.value = `${radius_m.toFixed(1)} m`;
-    this.#actions.setBrushRadius(radius_m);
-  }
-
-  #load(seed: number | undefined): void {
+  #setting(): Setting {
     const preset = this.#preset.value === 'paper' ? 'paper' : 'default';
-    const learning = LEARNING.find((mode) => mode === this.#learning.value) ?? 'fixed';
-    this.#actions.load(this.#scenario.value, { preset, learning }, seed);
+    return { preset, learning: LEARNING.find((mode) => mode === this.#learning.value) ?? 'fixed' };
   }
 
   /** The seed, or nothing and a complaint at the field. */

@@ -10,6 +10,9 @@ export interface KeyActions {
   faster(steps: number): void;
   selectTool(tool: Tool): void;
   growBrush(steps: number): void;
+  strengthenBrush(steps: number): void;
+  terrains(): void;
+  share(): void;
   /** Puts down the tool and lets go of what was pointed at. */
   letGo(): void;
   help(): void;
@@ -34,7 +37,7 @@ export function bindKeys(actions: KeyActions, thinking: ThinkingKeys): void {
     s: () => actions.step(),
     r: () => actions.restart(),
     j: () => actions.jump(-1),
-    l: () => actions.jump(1),
+    k: () => actions.jump(1),
     p: () => actions.lab(),
     n: () => actions.next(),
     f: () => thinking.toggleFollow(),
@@ -48,11 +51,18 @@ export function bindKeys(actions: KeyActions, thinking: ThinkingKeys): void {
     '.': () => actions.faster(1),
     '[': () => actions.growBrush(-1),
     ']': () => actions.growBrush(1),
+    '{': () => actions.strengthenBrush(-1),
+    '}': () => actions.strengthenBrush(1),
+    c: () => actions.selectTool('crater'),
+    d: () => actions.selectTool('ditch'),
+    b: () => actions.selectTool('boulder'),
+    g: () => actions.terrains(),
+    l: () => actions.share(),
     '?': () => actions.help(),
     escape: () => actions.letGo(),
   };
-  TOOLS.forEach((tool, index) => {
-    keys[String(index + 1)] = () => actions.selectTool(tool);
+  TOOLS.slice(0, 10).forEach((tool, index) => {
+    keys[String((index + 1) % 10)] = () => actions.selectTool(tool);
   });
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;

@@ -56,7 +56,7 @@ export class LayersPanel {
       this.set({ ...this.#layers, points });
     });
     this.#scale.append(this.#ends[0], html('i', 'layers-ramp key-viridis'), this.#ends[1]);
-    this.#panel.append(
+    this.#panel.prepend(
       html('legend', 'layers-title', ['Layers']),
       html('label', 'layers-points', [html('span', '', ['Point cloud by']), this.#points]),
       this.#scale,

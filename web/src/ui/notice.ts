@@ -5,18 +5,33 @@ import { byId, setText } from './dom.ts';
 export class Notice {
   readonly #box = byId('notice', HTMLElement);
   readonly #text = byId('notice-text', HTMLElement);
-  readonly #action = byId('notice-action', HTMLButtonElement);
+  readonly #act = byId('notice-act', HTMLButtonElement);
 
   constructor() {
     byId('notice-close', HTMLButtonElement).addEventListener('click', () => this.hide());
   }
 
-  /** With an action, the notice offers a button for it. */
-  show(message: string, action?: { readonly name: string; act(): void }): void {
+  /** What went wrong. */
+  show(message: string): void {
+    this.#open(message, 'fault');
+  }
+
+  /** News, with something to do about it, where there is something. */
+  tell(message: string, label?: string, act?: () => void): void {
+    this.#open(message, 'news');
+    if (!label || !act) return;
+    this.#act.hidden = false;
+    setText(this.#act, label);
+    this.#act.onclick = () => {
+      this.hide();
+      act();
+    };
+  }
+
+  #open(message: string, tone: 'fault' | 'news'): void {
     setText(this.#text, message);
-    this.#action.hidden = action === undefined;
-    this.#action.onclick = action ? () => action.act() : null;
-    setText(this.#action, action?.name ?? '');
+    this.#box.dataset.tone = tone;
+    this.#act.hidden = true;
     this.#box.hidden = false;
   }
 

@@ -12,6 +12,10 @@ export interface Theme {
   readonly surface: Rgb;
   /** From the lowest to the highest ground. */
   readonly relief: readonly Rgb[];
+  /** From level to steep. */
+  readonly slope: readonly Rgb[];
+  /** Where the robot may stand at any heading, at some, at none. */
+  readonly stand: readonly Rgb[];
   readonly rock: Rgb;
   readonly contour: Rgb;
   /** From observed (low variance) to free (high variance). */
@@ -34,6 +38,8 @@ export function readTheme(): Theme {
     danger: colour('danger'),
     surface: colour('surface'),
     relief: [0, 1, 2, 3, 4].map((step) => colour(`relief-${step}`)),
+    slope: [0, 1, 2, 3, 4].map((step) => colour(`slope-${step}`)),
+    stand: [0, 1, 2].map((step) => colour(`stand-${step}`)),
     rock: colour('relief-rock'),
     contour: colour('relief-contour'),
     variance: [0, 1, 2].map((step) => colour(`variance-${step}`)),

@@ -11,7 +11,7 @@ mod patch;
 mod pyramid;
 
 use crate::config::ConfigError;
-use crate::height_field::HeightField;
+use crate::height_field::{FieldError, HeightField};
 use crate::sculpt::{Brush, SampleRect};
 use glam::DVec3;
 use pyramid::{Plane, Pyramid, shift};
@@ -20,7 +20,8 @@ pub(crate) use fan::Fan;
 
 /// A height field prepared for ray casting.
 ///
-/// It owns the field, so that the ground and its hierarchy cannot part: sculpt through [`Caster::sculpt`].
+/// It owns the field, so that the ground and its hierarchy cannot part: change it through [`Caster::sculpt`] and
+/// [`Caster::replace`].
 #[derive(Clone, Debug)]
 pub struct Caster {
     field: HeightField,
@@ -79,6 +80,16 @@ impl Caster {
             self.pyramid.update(&self.field, rect);
         }
         Ok(changed)
+    }
+
+    /// Puts other heights in place of those in a rectangle; see [`HeightField::replace`].
+    ///
+    /// # Errors
+    /// [`FieldError`] when they do not fit; nothing then changes.
+    pub fn replace(&mut self, rect: SampleRect, heights_m: &[f32]) -> Result<(), FieldError> {
+        self.field.replace(rect, heights_m)?;
+        self.pyramid.update(&self.field, rect);
+        Ok(())
     }
 
     /// Distance in metres from `origin` along the unit vector `direction` to the first point of the ground, at most

@@ -1,5 +1,6 @@
 //! Checks of single values that name their table and line.
 
+use crate::sculpt::StrokeError;
 use crate::terrain::TerrainFault;
 use serde::Deserialize;
 
@@ -42,6 +43,17 @@ impl Table {
 
     pub(super) fn fault(&self, key: &str, value: impl ToString, expected: impl Into<String>) -> TerrainFault {
         TerrainFault::value(format!("{}{key}", self.prefix), value, expected)
+    }
+
+    /// The fault of a `[[stroke]]`.
+    pub(super) fn stroke_fault(&self, error: StrokeError) -> TerrainFault {
+        match error {
+            StrokeError::Syntax(reason) => TerrainFault::damaged("recipe", reason),
+            StrokeError::Value { key, value, expected } => self.fault(&key, value, expected),
+            StrokeError::Brush { point, fault } => {
+                self.fault(&format!("points[{point}], {}", fault.field), fault.value, fault.expected)
+            }
+        }
     }
 
     pub(super) fn finite(&self, key: &str, value: f64) -> Result<(), TerrainFault> {

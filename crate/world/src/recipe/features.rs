@@ -85,7 +85,7 @@ impl Feature for Plateau {
 }
 
 /// From 0 to 1 as `x` goes from 0 to 1, level at both ends and beyond.
-pub(super) fn smooth_step(x: f64) -> f64 {
+pub(crate) fn smooth_step(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }

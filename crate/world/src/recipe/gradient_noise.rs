@@ -29,7 +29,7 @@ const GRADIENTS: [[f64; 2]; 16] = {
 };
 
 /// Noise in [-1, 1] with a period of about 1, zero at whole coordinates.
-pub(super) fn gradient_noise(seed: u64, at: DVec2) -> f64 {
+pub(crate) fn gradient_noise(seed: u64, at: DVec2) -> f64 {
     let cell = at.floor();
     let DVec2 { x: u, y: v } = at - cell;
     let (column, row) = (cell.x as i64, cell.y as i64);

@@ -49,6 +49,12 @@
 //! width_m = 2.0                  # level across
 //! shoulder_m = 2.0               # blends into the ground over this on each side
 //! smoothing_m = 8.0              # the height along the line is averaged over this, default 4 width_m
+//!
+//! [[stroke]]                     # by hand, last of all, in order; see [`crate::Stroke`]
+//! kind = "raise"
+//! radius_m = 2.0
+//! strength_m = 0.1
+//! points = [[10.0, 12.0], [10.5, 12.0]]
 //! ```
 //!
 //! In place of `size_m` and `cell_m` a recipe may start from a grid in another file:
@@ -72,6 +78,7 @@ mod trail;
 
 use crate::height_field::{HeightField, check_grid};
 use crate::import::{self, Scale};
+use crate::sculpt::{Stroke, StrokeTable};
 use crate::terrain::{Terrain, TerrainError, TerrainFault, split_name};
 use canvas::Canvas;
 use check::Table;
@@ -79,6 +86,12 @@ use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
 use mapless_toml::Located;
 use serde::Deserialize;
 use trail::Trail;
+
+/// Samples that all strokes of a recipe may touch, each time counted anew: some seconds of work, and more than a day's sculpting.
+const MAX_SCULPTED_SAMPLES: usize = 500_000_000;
+
+pub(crate) use features::smooth_step;
+pub(crate) use gradient_noise::gradient_noise;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -109,6 +122,8 @@ struct Recipe {
     noise: Vec<Located<Noise>>,
     #[serde(default)]
     trail: Vec<Located<Trail>>,
+    #[serde(default)]
+    stroke: Vec<Located<StrokeTable>>,
 }
 
 #[derive(Deserialize)]
@@ -131,7 +146,9 @@ pub(crate) fn load(
     let mut canvas = recipe.ground(file, resolve)?;
     let heights = recipe.shape(text, &mut canvas).and_then(|()| {
         let heights_m = canvas.heights_m.iter().map(|&height| height as f32).collect();
-        Ok(HeightField::new(canvas.columns, canvas.rows, canvas.cell_m, heights_m)?)
+        let mut field = HeightField::new(canvas.columns, canvas.rows, canvas.cell_m, heights_m)?;
+        recipe.sculpt(text, &mut field)?;
+        Ok(field)
     });
     let field = heights.map_err(|fault| fault.of(file))?;
     Ok(Terrain { name: recipe.name, description: recipe.description, field })
@@ -188,6 +205,24 @@ impl Recipe {
         add(text, "crater", &self.crater, self.seed, canvas)?;
         add(text, "noise", &self.noise, self.seed, canvas)?;
         add(text, "trail", &self.trail, self.seed, canvas)
+    }
+
+    /// Repeats the strokes. They work on the finished field, as they did when they were made.
+    fn sculpt(&self, text: &str, field: &mut HeightField) -> Result<(), TerrainFault> {
+        let mut samples = 0;
+        for (index, table) in self.stroke.iter().enumerate() {
+            let at = Table::at(text, table.begin, "stroke", index);
+            let stroke = Stroke::try_from(&table.value).map_err(|error| at.stroke_fault(error))?;
+            samples += stroke.samples(field);
+            if samples > MAX_SCULPTED_SAMPLES {
+                let expected = format!("at most {MAX_SCULPTED_SAMPLES} in all strokes");
+                return Err(at.fault("samples touched", samples, expected));
+            }
+            for brush in stroke.brushes() {
+                field.sculpt(brush).map_err(|fault| at.fault(fault.field, fault.value, fault.expected))?;
+            }
+        }
+        Ok(())
     }
 }
 

@@ -250,3 +250,32 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn strokes_repeat_what_was_done_by_hand() {
+    let recipe = "name = \"a\"\nsize_m = [20.0, 10.0]\ncell_m = 0.25\n\n[[hill]]\ncentre = [9.0, 5.0]\nheight_m = 2.0\nradius_m = 2.0\n";
+    let keys = "kind = \"raise\"\nradius_m = 2.0\nstrength_m = 0.3\npoints = [[5.0, 5.0], [5.5, 5.25]]\n";
+    let load = |text: &str| load("a.toml", text, &mut |_| Err("none".to_owned()));
+    let mut by_hand = load(recipe).unwrap().field;
+    for brush in Stroke::parse(keys).unwrap().brushes() {
+        by_hand.sculpt(brush).unwrap();
+    }
+    assert_eq!(load(&format!("{recipe}\n[[stroke]]\n{keys}")).unwrap().field, by_hand);
+    let fault =
+        load(&format!("{recipe}\n[[stroke]]\n{}", keys.replace("0.3", "-1"))).unwrap_err().to_string();
+    assert_eq!(
+        fault,
+        "a.toml: line 10, stroke[1].points[1], strength_m = -1: expected a number from 0 to 100"
+    );
+}
+
+#[test]
+fn strokes_without_end_are_refused() {
+    let side = "name = \"a\"\nsize_m = [500.0, 500.0]\ncell_m = 0.5\n";
+    let points = vec!["[250.0, 250.0]"; 501].join(", ");
+    let keys = format!("kind = \"lower\"\nradius_m = 900.0\nstrength_m = 0.0\npoints = [{points}]\n");
+    let fault = build(&format!("{side}[[stroke]]\n{keys}")).unwrap_err().to_string();
+    let expected =
+        "test.toml: line 4, stroke[1].samples touched = 502002501: expected at most 500000000 in all strokes";
+    assert_eq!(fault, expected);
+}

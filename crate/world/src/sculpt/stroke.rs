@@ -1,0 +1,196 @@
+//! Strokes: the touches of one brush, as the table of a recipe that describes them.
+
+use super::{Brush, BrushKind, SampleRect, covered};
+use crate::config::ConfigError;
+use crate::height_field::HeightField;
+use glam::DVec2;
+use serde::Deserialize;
+use thiserror::Error;
+
+/// One tool in one go: `[[stroke]]` of a recipe.
+///
+/// ```toml
+/// kind = "raise"            # raise, lower, smooth, level, roughen, crater, boulder, ramp or ditch
+/// radius_m = 2.0
+/// strength_m = 0.1          # the largest change of a height by one touch
+/// height_m = 4.0            # of `level`
+/// seed = 7                  # of `roughen`
+/// points = [[10.0, 12.0]]   # a touch at each; `ramp` and `ditch` go from each to the next
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    brushes: Vec<Brush>,
+}
+
+/// Why a table describes no stroke.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum StrokeError {
+    /// Not TOML, a wrong key or a value of the wrong kind.
+    #[error("stroke: {0}")]
+    Syntax(String),
+    /// A value is not allowed.
+    #[error("stroke.{key} = {value}: expected {expected}")]
+    Value {
+        /// The key.
+        key: String,
+        /// What stands there.
+        value: String,
+        /// What is allowed there.
+        expected: String,
+    },
+    /// A touch of the brush is not valid.
+    #[error("stroke.points[{point}], {fault}")]
+    Brush {
+        /// The point, counted from 1.
+        point: usize,
+        /// What is wrong.
+        fault: ConfigError,
+    },
+}
+
+/// The table as written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StrokeTable {
+    kind: Kind,
+    radius_m: f64,
+    strength_m: f64,
+    height_m: Option<f64>,
+    seed: Option<u64>,
+    points: Vec<[f64; 2]>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    Raise,
+    Lower,
+    Smooth,
+    Level,
+    Roughen,
+    Crater,
+    Boulder,
+    Ramp,
+    Ditch,
+}
+
+impl Stroke {
+    /// Reads the keys of one stroke, without the header of their table.
+    ///
+    /// # Errors
+    /// [`StrokeError`] names the key, its value and what was expected.
+    pub fn parse(text: &str) -> Result<Self, StrokeError> {
+        let table: StrokeTable =
+            mapless_toml::from_str(text).map_err(|error| StrokeError::Syntax(error.to_string()))?;
+        Self::try_from(&table)
+    }
+
+    /// How many samples of a field the touches cover, each counted for every touch.
+    #[must_use]
+    pub fn samples(&self, field: &HeightField) -> usize {
+        let covered = self.brushes.iter().filter_map(|brush| covered(field, brush));
+        covered.map(SampleRect::samples).sum()
+    }
+
+    /// The touches, in their order.
+    #[must_use]
+    pub fn brushes(&self) -> &[Brush] {
+        &self.brushes
+    }
+}
+
+impl TryFrom<&StrokeTable> for Stroke {
+    type Error = StrokeError;
+
+    fn try_from(table: &StrokeTable) -> Result<Self, StrokeError> {
+        let kinds = table.kinds()?;
+        let brushes = kinds.into_iter().zip(&table.points).enumerate().map(|(index, (kind, &point))| {
+            let centre = DVec2::from_array(point);
+            let brush = Brush { centre, radius_m: table.radius_m, strength_m: table.strength_m, kind };
+            brush.validate().map_err(|fault| StrokeError::Brush { point: index + 1, fault })?;
+            Ok(brush)
+        });
+        Ok(Self { brushes: brushes.collect::<Result<_, _>>()? })
+    }
+}
+
+impl StrokeTable {
+    /// What each touch does.
+    fn kinds(&self) -> Result<Vec<BrushKind>, StrokeError> {
+        let value = |key: &str, value: String, expected: &str| StrokeError::Value {
+            key: key.to_owned(),
+            value,
+            expected: expected.to_owned(),
+        };
+        let missing = |key| value(key, "absent".to_owned(), "a value");
+        if self.height_m.is_some() && self.kind != Kind::Level {
+            return Err(value("height_m", "present".to_owned(), "none beside a kind other than level"));
+        }
+        if self.seed.is_some() && self.kind != Kind::Roughen {
+            return Err(value("seed", "present".to_owned(), "none beside a kind other than roughen"));
+        }
+        let to = |make: fn(DVec2) -> BrushKind| {
+            if self.points.len() < 2 {
+                return Err(value("points", format!("{:?}", self.points), "at least two points"));
+            }
+            Ok(self.points.iter().skip(1).map(|&point| make(DVec2::from_array(point))).collect())
+        };
+        let kind = match self.kind {
+            Kind::Raise => BrushKind::Raise,
+            Kind::Lower => BrushKind::Lower,
+            Kind::Smooth => BrushKind::Smooth,
+            Kind::Level => BrushKind::Level { height_m: self.height_m.ok_or_else(|| missing("height_m"))? },
+            Kind::Roughen => BrushKind::Roughen { seed: self.seed.ok_or_else(|| missing("seed"))? },
+            Kind::Crater => BrushKind::Crater,
+            Kind::Boulder => BrushKind::Boulder,
+            Kind::Ramp => return to(|to| BrushKind::Ramp { to }),
+            Kind::Ditch => return to(|to| BrushKind::Ditch { to }),
+        };
+        if self.points.is_empty() {
+            return Err(value("points", "[]".to_owned(), "at least one point"));
+        }
+        Ok(vec![kind; self.points.len()])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RAISE: &str =
+        "kind = \"raise\"\nradius_m = 2\nstrength_m = 0.5\npoints = [[1.0, 2.0], [3.0, 4.0]]\n";
+
+    fn fault(text: &str) -> String {
+        Stroke::parse(text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_touch_at_each_point_and_a_line_between_two() {
+        let touches = Stroke::parse(RAISE).unwrap();
+        let centres: Vec<DVec2> = touches.brushes().iter().map(|brush| brush.centre).collect();
+        assert_eq!(centres, [DVec2::new(1.0, 2.0), DVec2::new(3.0, 4.0)]);
+        let ditch = Stroke::parse(&RAISE.replace("raise", "ditch")).unwrap();
+        assert_eq!(ditch.brushes().len(), 1);
+        assert_eq!(ditch.brushes()[0].kind, BrushKind::Ditch { to: DVec2::new(3.0, 4.0) });
+        let level = Stroke::parse(&format!("{}height_m = -1.5\n", RAISE.replace("raise", "level"))).unwrap();
+        assert_eq!(level.brushes()[1].kind, BrushKind::Level { height_m: -1.5 });
+    }
+
+    #[test]
+    fn faults_name_key_value_and_expectation() {
+        assert!(fault(&RAISE.replace("raise", "polish")).contains("unknown variant `polish`"));
+        assert!(fault(&format!("{RAISE}colour = 1")).contains("unknown field `colour`"));
+        assert_eq!(fault(&RAISE.replace("raise", "level")), "stroke.height_m = absent: expected a value");
+        assert!(fault(&format!("{RAISE}seed = 3")).starts_with("stroke.seed = present: expected none"));
+        assert!(
+            fault(&RAISE.replace("raise", "ramp").replace(", [3.0, 4.0]", ""))
+                .contains("at least two points")
+        );
+        assert!(fault(&RAISE.replace("[[1.0, 2.0], [3.0, 4.0]]", "[]")).contains("at least one point"));
+        assert!(
+            fault(&RAISE.replace("radius_m = 2", "radius_m = nan"))
+                .starts_with("stroke.points[1], radius_m = NaN")
+        );
+        assert!(fault(&RAISE.replace("3.0", "inf")).starts_with("stroke.points[2], centre.x = inf"));
+    }
+}

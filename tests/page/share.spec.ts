@@ -1,0 +1,128 @@
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { deflateRawSync } from 'node:zlib';
+import { test as plain } from '@playwright/test';
+import { expect, loaded, state, test, until } from './page.ts';
+
+/** A boulder and a rough patch ahead of the start of `ht`, and another goal. */
+async function shape(page: import('@playwright/test').Page): Promise<void> {
+  await page.evaluate(async () => {
+    const { mapless } = window;
+    await mapless?.loadScenario('ht', { seed: 3 });
+    await mapless?.pause();
+    const { x, y } = mapless?.experiment()?.start ?? { x: 0, y: 0 };
+    const at = (east: number, north: number) => [Math.round(100 * (x + east)), Math.round(100 * (y + north))];
+    await mapless?.sculpt({ kind: 'boulder', radius_m: 1.5, strength_m: 0.8, points_cm: at(4, 3) });
+    const rough = { kind: 'roughen' as const, radius_m: 3, strength_m: 0.05, seed: 9 };
+    await mapless?.sculpt({ ...rough, points_cm: [...at(2, 2), ...at(3, 2)] });
+    await mapless?.setGoal({ x: x + 9, y: y + 6 });
+    await mapless?.restart();
+  });
+}
+
+async function runToEnd(page: import('@playwright/test').Page) {
+  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+  await page.evaluate(() => window.mapless?.play());
+  await until(page, (now) => now.outcome !== 'running', 400_000);
+  const { outcome, tick, digest } = await state(page);
+  return { outcome, ticks: tick, digest };
+}
+
+/** Takes an archive of stored files apart by its directory. */
+function unzip(archive: Buffer): Map<string, Buffer> {
+  const files = new Map<string, Buffer>();
+  let at = archive.readUInt32LE(archive.length - 6);
+  while (archive.readUInt32LE(at) === 0x02014b50) {
+    const [size, name] = [archive.readUInt32LE(at + 20), archive.readUInt16LE(at + 28)];
+    const begin = archive.readUInt32LE(at + 42) + 30 + name;
+    files.set(archive.subarray(at + 46, at + 46 + name).toString(), archive.subarray(begin, begin + size));
+    at += 46 + name;
+  }
+  return files;
+}
+
+test('a link drives the same run in another profile, and so does the command line', async ({
+  mapless: page,
+  browser,
+  baseURL,
+}) => {
+  test.setTimeout(600_000);
+  await shape(page);
+  const run = await runToEnd(page);
+  await page.getByRole('button', { name: 'Share and save' }).click();
+  const link = await page.locator('#link').inputValue();
+  expect(link.length).toBeLessThan(700);
+  const [zipped] = await Promise.all([page.waitForEvent('download'), page.locator('#save-scenario').click()]);
+  expect(zipped.suggestedFilename()).toBe('ht.zip');
+
+  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  for (const [name, bytes] of unzip(readFileSync(await zipped.path()))) writeFileSync(join(folder, name), bytes);
+  const { stdout, stderr, error } = spawnSync(
+    'target/release/mapless',
+    ['run', join(folder, 'scenario.toml'), '--json'],
+    {
+      encoding: 'utf8',
+    },
+  );
+  if (error)
+    throw new Error('Build the command line first: cargo build --release --package mapless-cli', { cause: error });
+  expect(stdout, stderr).not.toBe('');
+  const { outcome, ticks, digest } = JSON.parse(stdout);
+  expect({ outcome, ticks, digest }).toEqual(run);
+
+  const other = await (await browser.newContext(baseURL ? { baseURL } : {})).newPage();
+  await other.goto(link);
+  await loaded(other);
+  expect(await runToEnd(other)).toEqual(run);
+  await other.close();
+});
+
+plain('hostile and broken links say so, and lose nothing', async ({ page }) => {
+  await page.goto('/');
+  await loaded(page);
+  await page.locator('#view').click();
+  await shape(page);
+  const own = await page.evaluate(() => window.mapless?.experiment());
+  await page.waitForTimeout(800);
+  const bomb = deflateRawSync(new Uint8Array(64 << 20)).toString('base64url');
+  const links: [link: string, words: string][] = [
+    ['#e=AAAA', 'damaged or was cut short'],
+    [`#e=${bomb}`, 'unpacks to more than 4 MB'],
+    [`#e=${deflateRawSync('{"version":7}').toString('base64url')}`, 'version = 7'],
+    ['?scenario=atlantis', 'atlantis'],
+  ];
+  for (const [link, words] of links) {
+    await page.goto('about:blank');
+    await page.goto(`/${link}`);
+    await expect(page.locator('#notice-text')).toContainText(words);
+    expect(await page.evaluate(() => window.mapless?.experiment())).toEqual(own);
+  }
+});
+
+plain('the page continues where it was left, and starts afresh when asked', async ({ page }) => {
+  await page.goto('/');
+  await loaded(page);
+  await page.locator('#view').click();
+  await shape(page);
+  const own = await page.evaluate(() => window.mapless?.experiment());
+  await page.waitForTimeout(800);
+  await page.reload();
+  await loaded(page);
+  await expect(page.locator('#notice')).toContainText('where you left off');
+  expect(await page.evaluate(() => window.mapless?.experiment())).toEqual(own);
+  await page.getByRole('button', { name: 'Start afresh' }).click();
+  await until(page, (now) => now.scenario === 'cht-ad');
+  await page.locator('#undo').click();
+  await until(page, (now) => now.scenario === 'ht');
+});
+
+plain('a scenario by name, in another page’s frame', async ({ page }) => {
+  await page.goto('/?scenario=gsb&embed');
+  await loaded(page);
+  expect((await state(page)).scenario).toBe('gsb');
+  await expect(page.locator('.transport')).toBeVisible();
+  for (const part of ['.bar', '.panel', '.seen', '.tools']) await expect(page.locator(part)).toBeHidden();
+  await expect(page.locator('#open-page')).toHaveAttribute('href', /^\.\/\?scenario=gsb$|\?scenario=gsb$/);
+});

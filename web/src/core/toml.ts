@@ -1,0 +1,44 @@
+/** An experiment as the files that the command line reads. The page's own core reads the same text. */
+
+import type { Experiment, Stroke } from './experiment.ts';
+import { sectionsOf } from './overrides.ts';
+
+/** The keys of a `[[stroke]]` table. */
+export function strokeKeys(stroke: Stroke): string {
+  const { kind, radius_m, strength_m, height_m, seed, points_cm } = stroke;
+  const points: string[] = [];
+  for (let at = 0; at + 1 < points_cm.length; at += 2) {
+    points.push(`[${(points_cm[at] ?? 0) / 100}, ${(points_cm[at + 1] ?? 0) / 100}]`);
+  }
+  const lines = [`kind = "${kind}"`, `radius_m = ${radius_m}`, `strength_m = ${strength_m}`];
+  if (height_m !== undefined) lines.push(`height_m = ${height_m}`);
+  if (seed !== undefined) lines.push(`seed = ${seed}`);
+  return `${[...lines, `points = [${points.join(', ')}]`].join('\n')}\n`;
+}
+
+/** A recipe with strokes after all else. */
+export function recipeFile(recipe: string, strokes: readonly Stroke[]): string {
+  return [recipe.trimEnd(), '', ...strokes.map((stroke) => `\n[[stroke]]\n${strokeKeys(stroke).trimEnd()}\n`)].join(
+    '\n',
+  );
+}
+
+/** What a scenario file says. */
+export type Scenario = Omit<Experiment, 'version' | 'name' | 'terrain' | 'strokes'>;
+
+/** The scenario file of an experiment whose terrain is in the file `terrain`. */
+export function scenarioFile(scenario: Scenario, terrain: string): string {
+  const { start, waypoints, goal, seed, preset, learning, overrides } = scenario;
+  const lines = [
+    '# Runs as in the page with',
+    `#   mapless run scenario.toml --planner ${preset} --learning ${learning}`,
+    `terrain = ${JSON.stringify(terrain)}`,
+    `start = [${start.x}, ${start.y}, ${start.heading_rad}]`,
+    `goal = [${goal.x}, ${goal.y}]`,
+    `seed = ${seed}`,
+  ];
+  if (waypoints.length > 0) lines.push(`waypoints = [${waypoints.map(({ x, y }) => `[${x}, ${y}]`).join(', ')}]`);
+  const sections = sectionsOf(overrides);
+  if (sections) lines.push('', sections);
+  return `${lines.join('\n')}\n`;
+}

@@ -1,0 +1,82 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { readExperiment } from '../src/core/readExperiment.ts';
+import { recipeFile, scenarioFile, strokeKeys } from '../src/core/toml.ts';
+import { EXPERIMENT, STROKE } from './example.ts';
+
+/** The document with one part replaced, by the path of its keys. */
+function changed(path: readonly (string | number)[], value: unknown): unknown {
+  const copy = structuredClone(EXPERIMENT) as unknown as Record<string | number, unknown>;
+  let part = copy;
+  for (const key of path.slice(0, -1)) part = part[key] as Record<string | number, unknown>;
+  part[path.at(-1) ?? ''] = value;
+  return copy;
+}
+
+test('a document is read as it was written', () => {
+  assert.deepEqual(readExperiment(JSON.parse(JSON.stringify(EXPERIMENT))), EXPERIMENT);
+  const imported = { recipe: 'name = "x"', imported: { name: 'terrain.png', base64: 'AAAA' } };
+  assert.deepEqual(readExperiment(changed(['terrain'], imported)), { ...EXPERIMENT, terrain: imported });
+  const generated = { generated: { difficulty: 'hard', seed: 7 } };
+  assert.deepEqual(readExperiment(changed(['terrain'], generated)), { ...EXPERIMENT, terrain: generated });
+});
+
+const FAULTS: readonly (readonly [path: readonly (string | number)[], value: unknown, message: string])[] = [
+  [['version'], 2, 'version = 2: expected 1: this page reads no other version of experiments'],
+  [['colour'], 1, 'experiment.colour = 1: expected one of the keys version, name'],
+  [['goal'], undefined, 'experiment.goal = absent: expected a value'],
+  [['goal', 'x'], Number.NaN, 'goal.x = NaN: expected a number from -1000000 to 1000000'],
+  [['start', 'heading_rad'], '1', 'start.heading_rad = "1": expected a number'],
+  [['seed'], 1.5, 'seed = 1.5: expected a whole number'],
+  [['seed'], -1, 'seed = -1: expected a number from 0'],
+  [['preset'], 'best', 'preset = "best": expected default or paper'],
+  [['terrain'], { catalogue: '../x' }, 'terrain.catalogue = "../x": expected the name of a terrain'],
+  [['terrain'], { catalogue: 'cht', recipe: '' }, 'terrain.recipe = "": expected one of the keys catalogue'],
+  [['terrain'], { generated: { difficulty: 'wild', seed: 1 } }, 'terrain.generated.difficulty = "wild": expected easy'],
+  [['terrain'], { recipe: 'x'.repeat(1_000_001) }, 'terrain.recipe = "1000001 characters": expected at most 1000000'],
+  [['terrain'], { recipe: '', imported: { name: 'a/b.png', base64: '' } }, 'terrain.imported.name = "a/b.png"'],
+  [
+    ['terrain'],
+    { recipe: '', imported: { name: 'a.png', base64: '<>' } },
+    'terrain.imported.base64 = "<>": expected base64',
+  ],
+  [['strokes', 0, 'kind'], 'explode', 'strokes[0].kind = "explode": expected raise or lower'],
+  [['strokes', 0, 'points_cm', 3], 0.5, 'strokes[0].points_cm[3] = 0.5: expected a whole number'],
+  [['strokes', 0, 'points_cm'], [1, 2, 3], 'strokes[0].points_cm = "3 numbers": expected pairs of x and y'],
+  [['strokes', 1, 'height_m'], undefined, 'strokes[1].height_m = absent'],
+  [['overrides'], { page: {} }, 'overrides.page = {}: expected one of the keys planner, sensor, robot'],
+  [['overrides', 'planner', 'decision'], { 'a"\n[x]': 1 }, 'expected a key of letters, digits and _'],
+];
+
+for (const [path, value, message] of FAULTS) {
+  test(`refused: ${message}`, () => {
+    assert.throws(
+      () => readExperiment(changed(path, value)),
+      (error) => error instanceof Error && error.message.includes(message),
+    );
+  });
+}
+
+test('endless nesting and too many touches are refused', () => {
+  let deep: unknown = 1;
+  for (let depth = 0; depth < 1000; depth += 1) deep = { deep };
+  assert.throws(() => readExperiment(changed(['overrides', 'planner'], deep)), /at most 8 tables within each other/);
+  const many = Array.from({ length: 11 }, () => ({ ...STROKE, points_cm: new Array(10_000).fill(0) }));
+  assert.throws(() => readExperiment(changed(['strokes'], many)), /strokes = "55000 touches": expected at most 50000/);
+  assert.throws(() => readExperiment(null), /version = absent/);
+  assert.throws(() => readExperiment('{}'), /version = absent/);
+});
+
+test('strokes and scenarios are written as the command line reads them', () => {
+  const points = 'points = [[12.34, 5.6], [12.4, 5.75]]\n';
+  assert.equal(strokeKeys(STROKE), `kind = "raise"\nradius_m = 2\nstrength_m = 0.07\n${points}`);
+  const recipe = recipeFile('name = "a"\n\n\n', [STROKE, STROKE]);
+  assert.equal(recipe.split('[[stroke]]').length, 3);
+  assert.ok(recipe.startsWith('name = "a"\n'));
+  const scenario = scenarioFile(EXPERIMENT, 'terrain.toml');
+  assert.ok(scenario.includes('--planner default --learning fixed'));
+  assert.ok(scenario.includes('\nwaypoints = [[20, 31.5]]\n'));
+  const tables = '\n[planner]\ngoal_tolerance_m = 0.5\n\n[planner.decision]\nsteepness_weight = 0.8\n';
+  assert.ok(scenario.includes(tables), scenario);
+  assert.ok(scenario.endsWith('\n[sensor]\nrange_noise_m = 0.02\n'));
+});

@@ -1,0 +1,155 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import type { Command, Ground, GroundPatch, SessionInfo, Source } from '../src/core/protocol.ts';
+import { Workbench } from '../src/workbench.ts';
+import { EXPERIMENT } from './example.ts';
+
+/** A core whose strokes raise whole rows by one metre, and which notes what it is asked. */
+class Core {
+  readonly asked: string[] = [];
+  readonly bench: Workbench;
+  info: SessionInfo | undefined;
+  readonly field: Ground = { columns: 4, rows: 4, cell_m: 1, heights_m: new Float32Array(16) };
+
+  constructor() {
+    this.bench = new Workbench({
+      request: (command) => this.#carryOut(command),
+      ground: () => this.field,
+      info: () => this.info,
+      changed: () => {},
+    });
+  }
+
+  async #carryOut(command: Command): Promise<void> {
+    await Promise.resolve();
+    this.asked.push(command.type);
+    if (command.type === 'load' && 'experiment' in command.source) this.bench.loaded(command.source.experiment);
+    if (command.type === 'goal' && command.goal.x < 0) throw new Error('goal off the terrain');
+    if (command.type === 'sculpt') {
+      for (let at = 0; at < command.stroke.points_cm.length; at += 2) {
+        const row = (command.stroke.points_cm[at + 1] ?? 0) / 100;
+        const heights_m = this.field.heights_m.slice(4 * row, 4 * row + 4).map((height) => height + 1);
+        this.#put({ column: 0, row, columns: 4, rows: 1, heights_m });
+      }
+    }
+    if (command.type === 'replace') this.#put(command.patch);
+  }
+
+  #put(patch: GroundPatch): void {
+    this.field.heights_m.set(patch.heights_m, 4 * patch.row);
+    this.bench.patched(patch);
+  }
+
+  stroke(...rows: number[]): Promise<void> {
+    const stroke = this.bench.stroke({ kind: 'raise', radius_m: 1, strength_m: 1 });
+    for (const y of rows) stroke.touch({ x: 0, y });
+    return stroke.end();
+  }
+
+  heights(): number[] {
+    return [0, 4, 8, 12].map((at) => this.field.heights_m[at] ?? Number.NaN);
+  }
+}
+
+const SOURCE: Source = { experiment: { ...EXPERIMENT, strokes: [] } };
+
+async function opened(): Promise<Core> {
+  const core = new Core();
+  await core.bench.open(SOURCE, false);
+  core.asked.length = 0;
+  return core;
+}
+
+test('strokes are undone and redone by putting heights back, in any number and in order', async () => {
+  const core = await opened();
+  await core.stroke(1, 2);
+  await core.stroke(2, 3, 2);
+  assert.deepEqual(core.heights(), [0, 1, 3, 1]);
+  assert.equal(core.bench.experiment?.strokes[1]?.points_cm.length, 6);
+  await core.bench.undo();
+  assert.deepEqual(core.heights(), [0, 1, 1, 0]);
+  await core.bench.undo();
+  assert.deepEqual(core.heights(), [0, 0, 0, 0]);
+  assert.equal(core.bench.canUndo, false);
+  await core.bench.undo();
+  await core.bench.redo();
+  await core.bench.redo();
+  assert.deepEqual(core.heights(), [0, 1, 3, 1]);
+  assert.equal(core.bench.canRedo, false);
+  assert.ok(
+    core.asked.slice(2).every((type) => type === 'sculpt' || type === 'replace'),
+    core.asked.join(),
+  );
+});
+
+test('goal, start and strokes share one history', async () => {
+  const core = await opened();
+  await core.bench.setRoute([], { x: 8.123456, y: 2 });
+  assert.deepEqual(core.bench.experiment?.goal, { x: 8.12, y: 2 });
+  await core.stroke(1);
+  await core.bench.setStart({ x: 1, y: 1, heading_rad: 0.12345 });
+  core.asked.length = 0;
+  await core.bench.undo();
+  await core.bench.undo();
+  await core.bench.undo();
+  assert.deepEqual(core.asked, ['start', 'replace', 'goal']);
+  assert.deepEqual(core.bench.experiment, SOURCE.experiment);
+});
+
+test('settings and other terrains are undone by loading', async () => {
+  const core = await opened();
+  await core.stroke(1);
+  await core.bench.change({ preset: 'paper' });
+  await core.bench.open({ experiment: { ...EXPERIMENT, name: 'other' } }, true);
+  core.asked.length = 0;
+  await core.bench.undo();
+  assert.equal(core.bench.experiment?.preset, 'paper');
+  await core.bench.undo();
+  assert.equal(core.bench.experiment?.preset, 'default');
+  assert.equal(core.bench.experiment?.strokes.length, 1);
+  assert.deepEqual(core.asked, ['load', 'load']);
+});
+
+test('what the core refuses leaves no trace, and what follows goes on', async () => {
+  const core = await opened();
+  const before = core.bench.experiment;
+  await assert.rejects(core.bench.setRoute([], { x: -1, y: 0 }), /off the terrain/);
+  assert.equal(core.bench.experiment, before);
+  await core.stroke(1);
+  assert.equal(core.bench.experiment?.strokes.length, 1);
+});
+
+test('a new change gives up what was undone; everything waits for the stroke in hand', async () => {
+  const core = await opened();
+  await core.stroke(1);
+  await core.bench.undo();
+  await core.stroke(3);
+  assert.equal(core.bench.canRedo, false);
+  const stroke = core.bench.stroke({ kind: 'raise', radius_m: 1, strength_m: 1 });
+  stroke.touch({ x: 0, y: 0 });
+  const undone = core.bench.undo();
+  stroke.touch({ x: 0, y: 0 });
+  await stroke.end();
+  await undone;
+  assert.deepEqual(core.heights(), [0, 0, 0, 1]);
+});
+
+test('undoing leads from an experiment of somebody else back to one’s own', async () => {
+  const core = new Core();
+  const own = { ...EXPERIMENT, name: 'own' };
+  await core.bench.openAfter(own, SOURCE);
+  assert.equal(core.bench.experiment?.name, EXPERIMENT.name);
+  await core.bench.undo();
+  assert.equal(core.bench.experiment, own);
+});
+
+test('what begins anew does so with the route of the experiment, also from an earlier one', async () => {
+  const core = await opened();
+  const { waypoints, goal } = EXPERIMENT;
+  core.info = { waypoints, goal } as SessionInfo;
+  await core.bench.restart();
+  core.info = { waypoints: [], goal } as unknown as SessionInfo;
+  await core.bench.setOverrides({ sensor: { columns: 900 } });
+  assert.deepEqual(core.asked, ['restart', 'goal', 'parameters']);
+  assert.deepEqual(core.bench.experiment?.overrides, { sensor: { columns: 900 } });
+});
