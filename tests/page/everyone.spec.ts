@@ -24,7 +24,7 @@ for (const scheme of ['light', 'dark'] as const) {
       await page.emulateMedia({ colorScheme: scheme, reducedMotion: 'reduce' });
       await page.evaluate(() => window.mapless?.pause());
       expect(await faults(page)).toEqual([]);
-      for (const button of ['How it works, and keys', 'Enlarge the plots']) {
+      for (const button of ['How it works, and keys', 'Enlarge the plots', 'Terrains', 'Share and save']) {
         await page.getByRole('button', { name: button }).click();
         await expect(page.locator('dialog[open]')).toBeVisible();
         expect(await faults(page), button).toEqual([]);

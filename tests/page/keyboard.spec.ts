@@ -15,7 +15,7 @@ test('everything runs by keyboard', async ({ mapless: page }) => {
   await until(page, (now) => now.playing && now.tick < tick);
   await page.keyboard.press('5');
   await expect(page.getByRole('radio', { name: 'Lower' })).toBeChecked();
-  const size = page.getByRole('slider', { name: 'Brush' });
+  const size = page.getByRole('slider', { name: 'Size' });
   const before = Number(await size.inputValue());
   await page.keyboard.press(']');
   expect(Number(await size.inputValue())).toBeGreaterThan(before);

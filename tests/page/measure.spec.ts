@@ -42,9 +42,14 @@ test('the plots show the run, and their cursor reads it', async ({ mapless: page
   for (let press = 0; press < 7; press += 1) await page.keyboard.press('ArrowRight');
   expect(await time_s(page)).toBeCloseTo(0.7);
   await expect(cursor(page)).toHaveAttribute('aria-valuetext', /^0:00\.7: Roll .*°, Pitch .*, Curvature .* rad\/m$/);
+  // The run goes where the cursor is, and the timeline with it.
+  await until(page, ({ tick }) => tick === 7);
+  await expect(page.getByRole('slider', { name: 'Time of the run' })).toHaveValue('7');
   await page.keyboard.press('End');
-  const { tick } = await state(page);
-  expect(await time_s(page)).toBeCloseTo((tick - 1) / 10);
+  const { timeline } = await state(page);
+  expect(await time_s(page)).toBeCloseTo((timeline.end - 1) / 10);
+  await page.evaluate(() => window.mapless?.seek(12));
+  await expect.poll(() => time_s(page)).toBeCloseTo(1.2);
 });
 
 test('the plots zoom by keys, wheel and buttons, and grow into a sheet', async ({ mapless: page }) => {

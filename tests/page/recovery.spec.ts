@@ -98,7 +98,7 @@ plain('nothing on the page breaks its own policy', async ({ page }) => {
   });
   await page.goto('/');
   await loaded(page);
-  for (const button of ['How it works, and keys', 'Enlarge the plots']) {
+  for (const button of ['How it works, and keys', 'Enlarge the plots', 'Terrains', 'Share and save']) {
     await page.getByRole('button', { name: button }).click();
     await page.keyboard.press('Escape');
   }

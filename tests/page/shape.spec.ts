@@ -65,6 +65,9 @@ test('goal, start and settings are undone with the buttons', async ({ mapless: p
   await page.evaluate((place) => window.mapless?.setStart({ ...place, heading_rad: 0.5 }), at);
   await page.selectOption('#preset', 'paper');
   await until(page, (now) => now.preset === 'paper');
+  await page.evaluate(() => window.mapless?.setOverrides({ robot: { max_speed_m_s: 0.5 } }));
+  await page.locator('#undo').click();
+  await until(page, (now) => Object.keys(now.overrides).length === 0 && now.preset === 'paper');
   await page.locator('#undo').click();
   await until(page, (now) => now.preset === 'default' && now.start.x === at.x);
   await page.locator('#undo').click();
@@ -127,7 +130,11 @@ test('the ground is coloured by slope and by where the robot can stand, with a l
   const picture = () => page.locator('#view').screenshot();
   const seen = [await picture()];
   for (const colouring of ['slope', 'stand']) {
+    await page.keyboard.press('x');
     await page.selectOption('#ground-colours', colouring);
+    // The layers close again, so that only the ground differs.
+    await page.keyboard.press('Escape');
+    await page.locator('#view').focus();
     await page.waitForTimeout(700);
     seen.push(await picture());
   }

@@ -6,7 +6,7 @@ import { deflateRawSync } from 'node:zlib';
 import { test as plain } from '@playwright/test';
 import { expect, loaded, state, test, until } from './page.ts';
 
-/** A boulder and a rough patch ahead of the start of `ht`, and another goal. */
+/** A boulder and a rough patch ahead of the start of `ht`, another goal behind a stop, and another parameter. */
 async function shape(page: import('@playwright/test').Page): Promise<void> {
   await page.evaluate(async () => {
     const { mapless } = window;
@@ -17,7 +17,8 @@ async function shape(page: import('@playwright/test').Page): Promise<void> {
     await mapless?.sculpt({ kind: 'boulder', radius_m: 1.5, strength_m: 0.8, points_cm: at(4, 3) });
     const rough = { kind: 'roughen' as const, radius_m: 3, strength_m: 0.05, seed: 9 };
     await mapless?.sculpt({ ...rough, points_cm: [...at(2, 2), ...at(3, 2)] });
-    await mapless?.setGoal({ x: x + 9, y: y + 6 });
+    await mapless?.setGoal({ x: x + 9, y: y + 6 }, [{ x: x + 4, y: y + 1 }]);
+    await mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } });
     await mapless?.restart();
   });
 }
@@ -123,6 +124,6 @@ plain('a scenario by name, in another page’s frame', async ({ page }) => {
   await loaded(page);
   expect((await state(page)).scenario).toBe('gsb');
   await expect(page.locator('.transport')).toBeVisible();
-  for (const part of ['.bar', '.panel', '.seen', '.tools']) await expect(page.locator(part)).toBeHidden();
+  for (const part of ['.bar', '.panel', '.seen', '.tools', '.timeline']) await expect(page.locator(part)).toBeHidden();
   await expect(page.locator('#open-page')).toHaveAttribute('href', /^\.\/\?scenario=gsb$|\?scenario=gsb$/);
 });

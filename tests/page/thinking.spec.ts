@@ -67,7 +67,7 @@ test('each layer changes the view, and back', async ({ mapless: page }) => {
   await page.waitForTimeout(600);
   expect(await picture(page)).toBe(plain);
   for (const by of ['range', 'height', 'ring', 'none']) {
-    await panel.getByRole('combobox').selectOption(by);
+    await panel.getByRole('combobox', { name: 'Point cloud by' }).selectOption(by);
     await page.waitForTimeout(600);
     expect(await picture(page), by).not.toBe(plain);
   }

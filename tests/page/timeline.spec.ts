@@ -1,4 +1,5 @@
 import type { Page } from '@playwright/test';
+import { tidyPlace } from '../../web/src/core/experiment.ts';
 import { expect, state, test, until } from './page.ts';
 
 /** Restarts with a goal some metres ahead and drives there as fast as it goes; gives the last tick and the digest. */
@@ -61,7 +62,7 @@ test('another goal in the past begins another future, and before it the old goal
   const { goal, pose } = await state(page);
   await page.evaluate(() => window.mapless?.seek(30));
   expect((await state(page)).timeline.end).toBeGreaterThanOrEqual(45);
-  const other = { x: pose.x + 4, y: pose.y + 2 };
+  const other = tidyPlace({ x: pose.x + 4, y: pose.y + 2 });
   await page.evaluate((place) => window.mapless?.setGoal(place), other);
   expect((await state(page)).timeline).toEqual({ first: 0, end: 30, changes: [30] });
   for (let ticks = 0; ticks < 4; ticks += 1) await page.evaluate(() => window.mapless?.step());
@@ -72,6 +73,10 @@ test('another goal in the past begins another future, and before it the old goal
   // Played again, what happened happens again: the goal changes where it was changed.
   await page.evaluate(() => window.mapless?.seek(34));
   expect(await state(page)).toMatchObject({ digest: branch.digest, goal: other });
+  // What begins anew has the route of the experiment, wherever the timeline stands.
+  await page.evaluate(() => window.mapless?.seek(20));
+  await page.evaluate(() => window.mapless?.restart());
+  expect(await state(page)).toMatchObject({ tick: 0, goal: other, disturbed: false });
 });
 
 test('stops are driven to in order, and cleared again', async ({ mapless: page }) => {
@@ -79,10 +84,11 @@ test('stops are driven to in order, and cleared again', async ({ mapless: page }
   await page.evaluate(() => window.mapless?.pause());
   await page.evaluate(() => window.mapless?.restart());
   const { pose } = await state(page);
-  const at = (ahead_m: number, left_m: number) => ({
-    x: pose.x + ahead_m * Math.cos(pose.yaw) - left_m * Math.sin(pose.yaw),
-    y: pose.y + ahead_m * Math.sin(pose.yaw) + left_m * Math.cos(pose.yaw),
-  });
+  const at = (ahead_m: number, left_m: number) =>
+    tidyPlace({
+      x: pose.x + ahead_m * Math.cos(pose.yaw) - left_m * Math.sin(pose.yaw),
+      y: pose.y + ahead_m * Math.sin(pose.yaw) + left_m * Math.cos(pose.yaw),
+    });
   const route = [at(3, 0), at(4.5, 1.5)];
   const [stop, goal] = route;
   await page.evaluate(([first, last]) => first && last && window.mapless?.setGoal(last, [first]), [stop, goal]);

@@ -22,7 +22,7 @@ export type MaplessState = Omit<Frame, Drawn> &
     /** How many segments and subgoals the last tick found. */
     readonly segments: number;
     readonly subgoals: number;
-    /** Whether ground or goal were changed under way, so that a restart drives differently. */
+    /** Whether ground or route were changed under way, so that a restart drives differently. */
     readonly disturbed: boolean;
   };
 

@@ -3,7 +3,7 @@
 import type { MaplessState } from './api.ts';
 import { entry, following } from './core/catalogue.ts';
 import { CoreClient } from './core/client.ts';
-import type { Experiment, Stroke } from './core/experiment.ts';
+import { type Experiment, FIRST_SETUP, type Stroke } from './core/experiment.ts';
 import type { Overrides } from './core/overrides.ts';
 import type {
   Frame,
@@ -13,7 +13,6 @@ import type {
   NamedFile,
   Place,
   SessionInfo,
-  Setting,
   Setup,
   Source,
 } from './core/protocol.ts';
@@ -97,7 +96,7 @@ export class App {
   }
 
   get setup(): Setup {
-    const { preset = 'default', learning = 'fixed', overrides = {} } = this.#info ?? {};
+    const { preset, learning, overrides } = this.#info ?? FIRST_SETUP;
     return { preset, learning, overrides };
   }
 
@@ -146,8 +145,8 @@ export class App {
     return this.#playing;
   }
 
-  load(scenario: string, setting: Partial<Setting> = {}, seed?: number): Promise<void> {
-    return this.open({ scenario, setup: { ...this.setup, ...setting }, seed });
+  load(scenario: string, setup: Partial<Setup> = {}, seed?: number): Promise<void> {
+    return this.open({ scenario, setup: { ...this.setup, ...setup }, seed });
   }
 
   async open(source: Source): Promise<void> {
@@ -192,8 +191,8 @@ export class App {
   }
 
   /** Loads a scenario and runs it at once. */
-  async run(scenario: string, setting?: Partial<Setting>, seed?: number): Promise<void> {
-    await this.load(scenario, setting, seed);
+  async run(scenario: string, setup?: Partial<Setup>, seed?: number): Promise<void> {
+    await this.load(scenario, setup, seed);
     await this.#setPlaying(true);
   }
 
@@ -404,8 +403,8 @@ export class App {
   }
 
   /** Shows what went wrong instead of leaving a promise unhandled. */
-  attempt(action: Promise<void>): void {
-    action.catch((error: unknown) => this.#views.notice(error instanceof Error ? error.message : String(error)));
+  attempt(action: Promise<void>): Promise<void> {
+    return action.catch((error: unknown) => this.#views.notice(error instanceof Error ? error.message : String(error)));
   }
 
   #onFailure(message: string, panicked: boolean): void {

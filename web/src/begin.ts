@@ -3,13 +3,13 @@
 import type { App } from './app.ts';
 import { kept } from './core/autosave.ts';
 import { CATALOGUE } from './core/catalogue.ts';
-import type { Experiment } from './core/experiment.ts';
+import { type Experiment, FIRST_SETUP } from './core/experiment.ts';
 import { carriesExperiment, experimentIn } from './core/link.ts';
 import { byId } from './ui/dom.ts';
 import type { Notice } from './ui/notice.ts';
 
 export async function begin(app: App, notice: Notice): Promise<void> {
-  const first = () => app.run(CATALOGUE[0]?.id ?? '');
+  const first = () => app.run(CATALOGUE[0]?.id ?? '', FIRST_SETUP);
   const link = location.hash;
   const options = new URLSearchParams(location.search);
   const scenario = options.get('scenario');

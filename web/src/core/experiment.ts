@@ -4,7 +4,7 @@
  */
 
 import type { Overrides } from './overrides.ts';
-import type { Heading, Learning, Place, Preset } from './protocol.ts';
+import type { Heading, Learning, Place, Preset, Setup } from './protocol.ts';
 
 export const VERSION = 1;
 
@@ -67,6 +67,9 @@ export interface Experiment {
   /** Tables `planner`, `sensor` and `robot`. */
   readonly overrides: Overrides;
 }
+
+/** How the first visit begins. */
+export const FIRST_SETUP: Setup = { preset: 'default', learning: 'fixed', overrides: {} };
 
 export const OVERRIDDEN = ['planner', 'sensor', 'robot'] as const;
 export const PRESETS: readonly Preset[] = ['default', 'paper'];

@@ -98,7 +98,7 @@ function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, setup:
     seed: read.seed,
     preset: setup.preset,
     learning: setup.learning,
-    // What is set in the page stays set, unless the scenario sets parameters itself.
+    // What is set in the page stays set, unless the scenario sets parameters itself; a file says all there is to it.
     overrides: own.length > 0 ? Object.fromEntries(own) : setup.overrides,
   };
 }
@@ -120,7 +120,7 @@ async function fromFiles(core: CoreModule, files: readonly NamedFile[], setup: S
     const read = core.read_scenario(scenario.name, scenario.text) as ScenarioRead;
     const own = terrainOf(recipe, grid);
     const terrain = own ?? (await catalogued(scenario.name, read.terrain));
-    return fromScenario(read, shortName(scenario.name), terrain, setup);
+    return fromScenario(read, shortName(scenario.name), terrain, { ...setup, overrides: {} });
   }
   const terrain = terrainOf(recipe, grid);
   const [first] = files;

@@ -6,7 +6,7 @@ interface Described {
   readonly name: string;
   readonly unit: string;
   readonly text: string;
-  /** That of the scenario's file, or the planner's own. */
+  /** The default, of the preset. */
   readonly value: OverrideValue;
   /** What the paper gives, where it gives one. */
   readonly paper?: OverrideValue;

@@ -6,7 +6,7 @@ import { html, setText } from '../ui/dom.ts';
 import { degrees } from '../ui/format.ts';
 
 export interface FieldEvents {
-  /** The value somebody chose; nothing for the scenario's own. */
+  /** The value somebody chose; nothing for the default. */
   change(value: OverrideValue | undefined): void;
 }
 
@@ -62,7 +62,7 @@ export class ParameterField {
     return words.every((word) => this.#words.includes(word));
   }
 
-  /** Shows the value that holds; nothing for the scenario's own. */
+  /** Shows the value that holds; nothing for the default. */
   show(value: OverrideValue | undefined): void {
     const now = value ?? this.#parameter.value;
     const values = Array.isArray(now) ? now : [now];

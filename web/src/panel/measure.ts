@@ -17,7 +17,7 @@ export interface MeasureOptions {
   readonly record: RunRecord;
   readonly view: Drawn | undefined;
   /** Takes the run to another time. */
-  go(time_s: number): void;
+  go(time_s: number): Promise<void>;
   notice(message: string): void;
 }
 

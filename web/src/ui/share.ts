@@ -37,12 +37,12 @@ export class ShareSheet {
     this.#copy.disabled = !short;
     this.#link.hidden = !short;
     const changed = this.#app.state()?.disturbed
-      ? ' Ground or goal changed during this run: restart it to see that run.'
+      ? ' Ground or route changed during this run: restart it to see that run.'
       : '';
     setText(
       this.#note,
       short
-        ? `The link holds terrain, strokes, start, goal and settings (${link.length} characters) and drives the same run from its start.${changed}`
+        ? `The link holds terrain, strokes, start, route and settings (${link.length} characters) and drives the same run from its start.${changed}`
         : `This is too much for a link that chats carry (${link.length} characters, ${MAX_LINK_CHARACTERS} at most). Save the experiment as a file and send that.`,
     );
     if (!this.#sheet.open) this.#sheet.showModal();

@@ -3,6 +3,7 @@
 import { type Frame, TIMELINE_START, type Timeline } from '../core/protocol.ts';
 import { byId, setText, svg } from './dom.ts';
 import { clock } from './format.ts';
+import { Pending } from './pending.ts';
 
 export class TimelineBar {
   readonly #slider = byId('scrub', HTMLInputElement);
@@ -14,11 +15,16 @@ export class TimelineBar {
   #timeline: Timeline = TIMELINE_START;
   /** While a finger or the mouse holds the thumb, frames do not move it. */
   #held = false;
+  /** That of the newest frame. */
+  #tick = 0;
+  /** While the run is on its way to where the thumb is, frames do not move it either. */
+  readonly #seeking = new Pending();
 
-  constructor(seek: (tick: number) => void) {
+  constructor(seek: (tick: number) => Promise<void>) {
+    const go = (tick: number) => void this.#seeking.add(seek(tick), () => this.#follow());
     this.#slider.addEventListener('input', () => {
       this.#tell(this.#slider.valueAsNumber);
-      seek(this.#slider.valueAsNumber);
+      go(this.#slider.valueAsNumber);
     });
     this.#slider.addEventListener('pointerdown', () => {
       this.#held = true;
@@ -29,7 +35,7 @@ export class TimelineBar {
       });
     }
     this.#latest.addEventListener('click', () => {
-      seek(this.#timeline.end);
+      go(this.#timeline.end);
       this.#slider.focus();
     });
   }
@@ -48,9 +54,14 @@ export class TimelineBar {
     this.#slider.disabled = timeline.end <= timeline.first;
     setText(this.#end, clock(timeline.end * this.#period_s));
     this.#latest.hidden = tick >= timeline.end;
-    if (this.#held) return;
-    this.#slider.value = String(tick);
-    this.#tell(tick);
+    this.#tick = tick;
+    this.#follow();
+  }
+
+  #follow(): void {
+    if (this.#held || this.#seeking.any) return;
+    this.#slider.value = String(this.#tick);
+    this.#tell(this.#tick);
   }
 
   #tell(tick: number): void {

@@ -4,6 +4,7 @@ import type { Frame, SessionInfo } from '../../core/protocol.ts';
 import type { RunRecord } from '../../core/record.ts';
 import { html } from '../../ui/dom.ts';
 import { clock } from '../../ui/format.ts';
+import { Pending } from '../../ui/pending.ts';
 import type { Published } from '../published.ts';
 import { PlotFigure, plotKey, type References, reading } from './figure.ts';
 import { SERIES } from './series.ts';
@@ -18,7 +19,7 @@ const ZOOM_STEP = 0.6;
 export class TimePlots {
   readonly element: HTMLElement;
   readonly #record: RunRecord;
-  readonly #go: (time_s: number) => void;
+  readonly #go: (time_s: number) => Promise<void>;
   readonly #figure = new PlotFigure();
   readonly #surface: HTMLElement;
   readonly #pointers = new Map<number, number>();
@@ -28,13 +29,16 @@ export class TimePlots {
   #period_s = 0.1;
   /** The time that the run was taken back to; without it, the newest. */
   #pinned_s: number | undefined;
+  /** That of the newest frame. While the run is on its way to a chosen time, the cursor is there already. */
+  #shown_s: number | undefined;
+  readonly #going = new Pending();
   #hovered_s: number | undefined;
   #drawn_ms = 0;
   #scheduled = false;
   #visible = false;
 
-  /** `go` is called when somebody chooses a time of the run. */
-  constructor(record: RunRecord, go: (time_s: number) => void) {
+  /** `go` takes the run to a time that somebody chooses. */
+  constructor(record: RunRecord, go: (time_s: number) => Promise<void>) {
     this.#record = record;
     this.#go = go;
     this.#surface = html('div', 'plots-surface', [this.#figure.svg]);
@@ -70,7 +74,13 @@ export class TimePlots {
 
   /** The record has grown, or the run was taken back to another time. */
   update({ tick, time_s, timeline }: Frame): void {
-    this.#pinned_s = tick < timeline.end ? time_s : undefined;
+    this.#shown_s = tick < timeline.end ? time_s : undefined;
+    this.#follow();
+  }
+
+  /** Puts the cursor where the run is, unless it is on its way to where the cursor is. */
+  #follow(): void {
+    if (!this.#going.any) this.#pinned_s = this.#shown_s;
     this.#schedule();
   }
 
@@ -151,7 +161,7 @@ export class TimePlots {
       this.#zoomed = pan(this.#zoomed, beyond_s, this.#whole_s);
     }
     this.#draw();
-    this.#go(this.#pinned_s);
+    void this.#going.add(this.#go(this.#pinned_s), () => this.#follow());
   }
 
   #listen(): void {
