@@ -17,13 +17,13 @@ import type {
   Source,
 } from './core/protocol.ts';
 import { RunRecord } from './core/record.ts';
+import { Seeker } from './core/seeker.ts';
 import { HeightField } from './scene/heightfield.ts';
 import type { Tool } from './scene/tools.ts';
 import { SPEEDS } from './ui/controls.ts';
+import { Lingering } from './ui/lingering.ts';
 import { Workbench } from './workbench.ts';
 
-/** How long the result of a trial stands before the page goes on by itself. */
-const LINGER_S = 8;
 /** One jump along the timeline. */
 const JUMP_S = 5;
 
@@ -57,16 +57,16 @@ export class App {
   #speed = 1;
   /** Whether somebody has used the page: then it does nothing by itself any more. */
   #touched = false;
-  #lingering: ReturnType<typeof setInterval> | undefined;
+  readonly #lingering: Lingering;
+  readonly #seeker = new Seeker((tick) => this.#core.request({ type: 'seek', tick }));
   /** Whether anything shows the surfaces. */
   #watching = false;
   #recovering = false;
-  #seeking = false;
-  #waitingTick: number | undefined;
   readonly bench: Workbench;
 
   constructor(views: Views) {
     this.#views = views;
+    this.#lingering = new Lingering((seconds) => views.countdown(seconds));
     this.#core = new CoreClient({
       session: (info, ground, experiment) => this.#onSession(info, ground, experiment),
       frame: (frame) => this.#onFrame(frame),
@@ -84,7 +84,7 @@ export class App {
   /** Marks the page as used. */
   touch(): void {
     this.#touched = true;
-    this.#stopLingering();
+    this.#lingering.stop();
   }
 
   get touched(): boolean {
@@ -150,7 +150,7 @@ export class App {
   }
 
   async open(source: Source): Promise<void> {
-    this.#stopLingering();
+    this.#lingering.stop();
     // Before anybody has touched the page there is nothing to go back to.
     await this.bench.open(source, this.#touched || this.bench.canUndo);
     this.#views.clearNotice();
@@ -158,19 +158,19 @@ export class App {
 
   /** Other settings for the experiment as it is. */
   async change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
-    this.#stopLingering();
+    this.#lingering.stop();
     await this.bench.change(part);
     await this.#setPlaying(true);
     this.#views.clearNotice();
   }
 
   async undo(): Promise<void> {
-    this.#stopLingering();
+    this.#lingering.stop();
     await this.bench.undo();
   }
 
   async redo(): Promise<void> {
-    this.#stopLingering();
+    this.#lingering.stop();
     await this.bench.redo();
   }
 
@@ -236,7 +236,7 @@ export class App {
   }
 
   async restart(): Promise<void> {
-    this.#stopLingering();
+    this.#lingering.stop();
     await this.bench.restart();
   }
 
@@ -262,7 +262,7 @@ export class App {
 
   /** The goal, with waypoints to drive to before it. */
   async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
-    this.#stopLingering();
+    this.#lingering.stop();
     await this.bench.setRoute(waypoints, goal);
   }
 
@@ -276,27 +276,16 @@ export class App {
 
   /** Begins anew with these parameters in place of all others, and another seed if given. */
   async setOverrides(overrides: Overrides, seed?: number): Promise<void> {
-    this.#stopLingering();
+    this.#lingering.stop();
     await this.bench.setOverrides(overrides, seed);
     this.#views.clearNotice();
   }
 
-  /** Shows a tick of the run again and pauses there. Of many wishes in a row the last is carried out. */
+  /** Shows a tick of the run again and pauses there. */
   async seek(tick: number): Promise<void> {
-    this.#stopLingering();
+    this.#lingering.stop();
     this.#show(false);
-    this.#waitingTick = tick;
-    if (this.#seeking) return;
-    this.#seeking = true;
-    try {
-      while (this.#waitingTick !== undefined) {
-        const now = this.#waitingTick;
-        this.#waitingTick = undefined;
-        await this.#core.request({ type: 'seek', tick: now });
-      }
-    } finally {
-      this.#seeking = false;
-    }
+    await this.#seeker.to(tick);
   }
 
   async seekTime(time_s: number): Promise<void> {
@@ -307,11 +296,11 @@ export class App {
   async jump(times: number): Promise<void> {
     const [info, frame] = [this.#info, this.#frame];
     if (info && frame)
-      await this.seek((this.#waitingTick ?? frame.tick) + Math.round((times * JUMP_S) / info.period_s));
+      await this.seek((this.#seeker.waiting ?? frame.tick) + Math.round((times * JUMP_S) / info.period_s));
   }
 
   async setStart(start: Heading): Promise<void> {
-    this.#stopLingering();
+    this.#lingering.stop();
     await this.bench.setStart(start);
   }
 
@@ -380,26 +369,8 @@ export class App {
     // The newest frame stays readable; the one before goes back.
     if (last) this.#core.recycle(last.buffers);
     const ended = last?.outcome === 'running' && frame.outcome !== 'running';
-    if (ended) this.#linger();
-  }
-
-  /** Leaves time to look at the result; then, if nobody has touched anything, shows the next scenario. */
-  #linger(): void {
-    this.#stopLingering();
-    if (this.#touched) return;
-    let seconds = LINGER_S;
-    this.#views.countdown(seconds);
-    this.#lingering = setInterval(() => {
-      seconds -= 1;
-      this.#views.countdown(Math.max(seconds, 0));
-      if (seconds <= 0) this.attempt(this.next());
-    }, 1000);
-  }
-
-  #stopLingering(): void {
-    clearInterval(this.#lingering);
-    this.#lingering = undefined;
-    this.#views.countdown(undefined);
+    // If nobody has touched anything, the next scenario comes by itself.
+    if (ended && !this.#touched) this.#lingering.begin(() => this.attempt(this.next()));
   }
 
   /** Shows what went wrong instead of leaving a promise unhandled. */
@@ -409,7 +380,7 @@ export class App {
 
   #onFailure(message: string, panicked: boolean): void {
     this.#show(false);
-    this.#stopLingering();
+    this.#lingering.stop();
     if (!panicked) {
       this.#views.notice(message);
       return;
