@@ -43,6 +43,7 @@ mod cholesky;
 pub mod config;
 pub mod controller;
 pub mod cost;
+mod dead_ends;
 mod edge;
 mod elementary;
 mod error;
@@ -72,9 +73,11 @@ pub mod sparse_gp;
 pub mod subgoals;
 #[cfg(test)]
 mod testing;
+mod ways;
 
 pub use config::PlannerConfig;
 pub use controller::Command;
 pub use error::ConfigError;
 pub use navigator::{Decision, Navigator};
 pub use planner::{Insight, Planner, Status, Step, StopReason};
+pub use ways::WayPoint;

@@ -24,7 +24,7 @@ pub(crate) fn segment(segment: &Segment) -> [f64; 6] {
 }
 
 /// Azimuth and elevation in the sensor frame, world x, y, z, chosen (0 or 1), refusal (0 none, 1 tilt, 2 unseen), the
-/// cost's terms: direction, distance, steepness, commitment, revisit. Without a cost the terms are NaN.
+/// cost's terms: direction, distance, steepness, commitment, dead_end. Without a cost the terms are NaN.
 pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 12] {
     let refusal = match subgoal.refusal {
         None => 0.0,
@@ -33,7 +33,7 @@ pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 12] {
     };
     let terms = subgoal
         .cost
-        .map_or([f64::NAN; 5], |c| [c.direction, c.distance, c.steepness, c.commitment, c.revisit]);
+        .map_or([f64::NAN; 5], |c| [c.direction, c.distance, c.steepness, c.commitment, c.dead_end]);
     let position = subgoal.position_m;
     [
         subgoal.azimuth_rad,

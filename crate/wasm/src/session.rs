@@ -298,7 +298,7 @@ impl Session {
     }
 
     /// Twelve numbers for each subgoal: azimuth and elevation in the sensor frame; world x, y, z; chosen (0 or 1); refusal
-    /// (0 none, 1 tilt, 2 unseen); the weighted costs of direction, distance, steepness, commitment, revisit. The goal
+    /// (0 none, 1 tilt, 2 unseen); the weighted costs of direction, distance, steepness, commitment, dead_end. The goal
     /// itself, once in sight, is a subgoal without cost: NaN.
     pub fn subgoals(&self) -> Vec<f64> {
         let step = self.trial.step();
