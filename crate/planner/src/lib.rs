@@ -9,7 +9,7 @@
 //! 3. [`profile`]: the edge of the variance surface is the skyline of the terrain.
 //! 4. [`segments`]: its stretches of one elevation, each with a verdict.
 //! 5. [`subgoals`]: places on the segments, in the world frame.
-//! 6. [`forecast`]: the tilt that the ground seen so far promises on the way there.
+//! 6. [`forecast`]: what the best way there, over the ground seen so far, promises.
 //! 7. [`cost`]: the cheapest one is chosen.
 //! 8. [`controller`]: a PID drives to it.
 //!
