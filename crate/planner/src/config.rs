@@ -354,6 +354,14 @@ impl PlannerConfig {
         self.segments.validate()?;
         self.ground.validate()?;
         self.forecast.validate()?;
+        let step_m = self.forecast.step_m;
+        require(
+            step_m >= 0.2 && self.perception.surface_radius_m <= 40.0 * step_m,
+            "planner.forecast",
+            "step_m",
+            step_m,
+            "at least 0.2 m and a fortieth of planner.perception.surface_radius_m",
+        )?;
         let ForecastConfig { tilt_margin_rad, escape_margin_rad, .. } = self.forecast;
         for (name, margin) in [("tilt_margin_rad", tilt_margin_rad), ("escape_margin_rad", escape_margin_rad)]
         {
@@ -502,6 +510,17 @@ mod tests {
     fn both_presets_are_valid() {
         PlannerConfig::default().validate().unwrap();
         PlannerConfig::paper().validate().unwrap();
+    }
+
+    #[test]
+    fn a_lattice_too_large_to_search_is_refused() {
+        for (step_m, surface_radius_m) in [(0.1, 3.0), (0.5, 100.0)] {
+            let mut config = PlannerConfig::default();
+            config.forecast.step_m = step_m;
+            config.perception.surface_radius_m = surface_radius_m;
+            let error = config.validate().unwrap_err().to_string();
+            assert!(error.starts_with("planner.forecast.step_m = "), "{error}");
+        }
     }
 
     #[test]

@@ -5,6 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::config::PlannerConfig;
+use crate::forecast::ReachEnd;
 
 fn ways() -> Ways {
     let config = PlannerConfig::default();
