@@ -27,7 +27,7 @@ pub struct PlannerConfig {
     pub segments: SegmentConfig,
     /// What is remembered of the ground for the forecast.
     pub ground: GroundConfig,
-    /// The tilt forecast along the way to a subgoal.
+    /// Ways over that ground, and the tilt they promise.
     pub forecast: ForecastConfig,
     /// The cost of a subgoal.
     pub decision: DecisionConfig,
@@ -102,30 +102,37 @@ pub struct GroundConfig {
     pub radius_m: f64,
     /// Steps after which ground not seen again is forgotten.
     pub memory_ticks: u64,
+    /// Standard deviation of the slope of ground for each metre that it lies from what was seen of it.
+    pub curvature_per_m: f64,
 }
 
-/// The tilt forecast.
+/// The ways that are looked for over remembered ground, and the tilt they promise.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ForecastConfig {
     /// Spacing of the places looked at, metres.
     pub step_m: f64,
-    /// Share of the tilt limits that a forecast may use up.
-    pub max_limit_share: f64,
-    /// Share of the whole inclination that counts as roll, because the robot may have to turn there: 1 keeps every place
-    /// safe for every heading, 0 trusts the heading of the path.
-    pub turning_share: f64,
-    /// Distance over which a robot that stands on steeper ground than a forecast may use is let off it, metres.
+    /// How far inside the tilt limits a way stays, radians.
+    pub tilt_margin_rad: f64,
+    /// As `tilt_margin_rad`, for a robot that finds no way with that one: to get away from where it should not be.
+    pub escape_margin_rad: f64,
+    /// How far from the robot that holds, metres; it leaves out what is uncertain, too.
     pub escape_m: f64,
-    /// Standard deviations of the predicted tilt added to it before it is compared.
+    /// Standard deviations of the predicted slope added to it before it is compared.
     pub deviations: f64,
-    /// Unseen ground bridged on the way, metres.
-    pub max_gap_m: f64,
     /// Unseen ground bridged next to the robot, where no beam reaches, metres.
     pub blind_radius_m: f64,
+    /// What a metre at the tilt limit costs beyond itself, in metres of level ground; in between with the square of the slope.
+    pub tilt_price: f64,
+    /// What turning by a sixteenth of a circle costs, in metres driven.
+    pub turn_cost_m: f64,
+    /// What it costs to begin otherwise than the step before meant to, in metres driven.
+    pub change_cost_m: f64,
+    /// What a metre in reverse costs, in metres forward; without rear sight it is the last choice.
+    pub reverse_price: f64,
     /// How far before steep or unseen ground a subgoal is placed, metres.
     pub clearance_m: f64,
-    /// A subgoal is refused when the forecast reaches less far than this, metres.
+    /// A subgoal is refused when it lies nearer than this, metres.
     pub min_reach_m: f64,
 }
 
@@ -154,8 +161,8 @@ pub struct DecisionConfig {
     pub steepness_weight: f64,
     /// Charge for turning away from the last choice. Paper: none.
     pub commitment_weight: f64,
-    /// Charge for ground driven on before. Paper: none.
-    pub revisit_weight: f64,
+    /// Charge for the detour that is known from a place driven over, on the scale of the distance. Paper: none.
+    pub dead_end_weight: f64,
     /// Steps of turning in place without a candidate before giving up. Paper: not given.
     pub look_ticks: u32,
 }
@@ -188,6 +195,11 @@ pub struct ControllerConfig {
     pub turn_first_rad: f64,
     /// Turn rate while looking for a candidate.
     pub look_turn_rate_rad_s: f64,
+    /// Share of a tilt limit from which on the robot drives more slowly, in proportion to what is left of it: so that it can stop
+    /// before what it did not foresee. Paper: none.
+    pub slow_from_share: f64,
+    /// The least share of its speed that it keeps.
+    pub least_speed_share: f64,
 }
 
 impl Default for PlannerConfig {
@@ -242,7 +254,7 @@ impl Default for SegmentConfig {
 
 impl Default for GroundConfig {
     fn default() -> Self {
-        Self { cell_m: 0.2, radius_m: 9.0, memory_ticks: 600 }
+        Self { cell_m: 0.2, radius_m: 9.0, memory_ticks: 600, curvature_per_m: 0.5 }
     }
 }
 
@@ -250,12 +262,15 @@ impl Default for ForecastConfig {
     fn default() -> Self {
         Self {
             step_m: 0.5,
-            max_limit_share: 0.8,
-            turning_share: 0.9,
+            tilt_margin_rad: 0.09,
+            escape_margin_rad: 0.04,
             escape_m: 2.5,
             deviations: 1.0,
-            max_gap_m: 1.0,
             blind_radius_m: 7.5,
+            tilt_price: 1.0,
+            turn_cost_m: 0.15,
+            change_cost_m: 1.0,
+            reverse_price: 2.0,
             clearance_m: 0.7,
             min_reach_m: 1.0,
         }
@@ -270,7 +285,7 @@ impl Default for DecisionConfig {
             distance_weight: 1.0,
             steepness_weight: 0.5,
             commitment_weight: 0.3,
-            revisit_weight: 0.5,
+            dead_end_weight: 1.0,
             look_ticks: 150,
         }
     }
@@ -285,6 +300,8 @@ impl Default for ControllerConfig {
             max_turn_rate_rad_s: 1.0,
             turn_first_rad: 0.8,
             look_turn_rate_rad_s: 0.5,
+            slow_from_share: 0.3,
+            least_speed_share: 0.2,
         }
     }
 }
@@ -312,7 +329,7 @@ impl PlannerConfig {
                 distance_weight: 0.3,
                 steepness_weight: 0.5,
                 commitment_weight: 0.0,
-                revisit_weight: 0.0,
+                dead_end_weight: 0.0,
                 ..default.decision
             },
             ..default
@@ -337,6 +354,20 @@ impl PlannerConfig {
         self.segments.validate()?;
         self.ground.validate()?;
         self.forecast.validate()?;
+        let step_m = self.forecast.step_m;
+        require(
+            step_m >= 0.2 && self.perception.surface_radius_m <= 40.0 * step_m,
+            "planner.forecast",
+            "step_m",
+            step_m,
+            "at least 0.2 m and a fortieth of planner.perception.surface_radius_m",
+        )?;
+        let ForecastConfig { tilt_margin_rad, escape_margin_rad, .. } = self.forecast;
+        for (name, margin) in [("tilt_margin_rad", tilt_margin_rad), ("escape_margin_rad", escape_margin_rad)]
+        {
+            let least = self.limits.roll_rad.min(self.limits.pitch_rad);
+            require(margin < least, "planner.forecast", name, margin, "less than both tilt limits")?;
+        }
         self.decision.validate()?;
         self.controller.validate()
     }
@@ -401,6 +432,7 @@ impl GroundConfig {
             self.cell_m,
             "cells large enough that 96 of them span twice radius_m",
         )?;
+        not_negative(self.curvature_per_m, place, "curvature_per_m")?;
         require(self.memory_ticks > 0, place, "memory_ticks", self.memory_ticks, "at least 1")
     }
 }
@@ -409,13 +441,17 @@ impl ForecastConfig {
     fn validate(&self) -> Result<(), ConfigError> {
         let place = "planner.forecast";
         positive(self.step_m, place, "step_m")?;
-        let share = self.max_limit_share;
-        require(share > 0.0 && share <= 1.0, place, "max_limit_share", share, "a share between 0 and 1")?;
-        not_negative(self.turning_share, place, "turning_share")?;
+        not_negative(self.tilt_margin_rad, place, "tilt_margin_rad")?;
+        not_negative(self.escape_margin_rad, place, "escape_margin_rad")?;
+        not_negative(self.change_cost_m, place, "change_cost_m")?;
+        let reverse = self.reverse_price;
+        require(reverse >= 1.0 && reverse.is_finite(), place, "reverse_price", reverse, "at least 1")?;
         not_negative(self.escape_m, place, "escape_m")?;
         not_negative(self.deviations, place, "deviations")?;
-        not_negative(self.max_gap_m, place, "max_gap_m")?;
         not_negative(self.blind_radius_m, place, "blind_radius_m")?;
+        not_negative(self.tilt_price, place, "tilt_price")?;
+        let turn = self.turn_cost_m;
+        require(turn >= 0.1 && turn.is_finite(), place, "turn_cost_m", turn, "at least 0.1 m")?;
         not_negative(self.clearance_m, place, "clearance_m")?;
         not_negative(self.min_reach_m, place, "min_reach_m")
     }
@@ -428,7 +464,7 @@ impl DecisionConfig {
         not_negative(self.distance_weight, place, "distance_weight")?;
         not_negative(self.steepness_weight, place, "steepness_weight")?;
         not_negative(self.commitment_weight, place, "commitment_weight")?;
-        not_negative(self.revisit_weight, place, "revisit_weight")
+        not_negative(self.dead_end_weight, place, "dead_end_weight")
     }
 }
 
@@ -445,7 +481,11 @@ impl ControllerConfig {
         positive(self.max_speed_m_s, place, "max_speed_m_s")?;
         positive(self.max_turn_rate_rad_s, place, "max_turn_rate_rad_s")?;
         angle(self.turn_first_rad, place, "turn_first_rad")?;
-        positive(self.look_turn_rate_rad_s, place, "look_turn_rate_rad_s")
+        positive(self.look_turn_rate_rad_s, place, "look_turn_rate_rad_s")?;
+        let from = self.slow_from_share;
+        require((0.0..1.0).contains(&from), place, "slow_from_share", from, "a share below 1")?;
+        let least = self.least_speed_share;
+        require(least > 0.0 && least <= 1.0, place, "least_speed_share", least, "a share above 0")
     }
 }
 
@@ -470,6 +510,17 @@ mod tests {
     fn both_presets_are_valid() {
         PlannerConfig::default().validate().unwrap();
         PlannerConfig::paper().validate().unwrap();
+    }
+
+    #[test]
+    fn a_lattice_too_large_to_search_is_refused() {
+        for (step_m, surface_radius_m) in [(0.1, 3.0), (0.5, 100.0)] {
+            let mut config = PlannerConfig::default();
+            config.forecast.step_m = step_m;
+            config.perception.surface_radius_m = surface_radius_m;
+            let error = config.validate().unwrap_err().to_string();
+            assert!(error.starts_with("planner.forecast.step_m = "), "{error}");
+        }
     }
 
     #[test]

@@ -69,6 +69,14 @@ impl Controller {
         Command { linear_m_s: forward.max(0.0) * ahead, angular_rad_s: turning }
     }
 
+    /// The command as slow as a robot should drive that takes up `share` of a tilt limit.
+    pub(crate) fn slowed(&self, command: Command, share: f64) -> Command {
+        let ControllerConfig { slow_from_share, least_speed_share, .. } = self.config;
+        let left = (1.0 - share) / (1.0 - slow_from_share);
+        let speed = left.clamp(least_speed_share, 1.0);
+        Command { linear_m_s: speed * command.linear_m_s, angular_rad_s: speed * command.angular_rad_s }
+    }
+
     /// Turns in place to look around.
     pub fn look_around(&mut self) -> Command {
         self.reset();

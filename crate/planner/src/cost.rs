@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use crate::angle::difference_rad;
 use crate::config::{CostModel, DecisionConfig};
+use crate::dead_ends::DeadEnds;
 use crate::pose::Pose;
 use crate::subgoals::Subgoal;
 
@@ -20,14 +21,14 @@ pub struct Cost {
     pub steepness: f64,
     /// Charge for turning away from the last choice.
     pub commitment: f64,
-    /// Charge for ground driven on before.
-    pub revisit: f64,
+    /// Charge for the detour that is known from there.
+    pub dead_end: f64,
 }
 
 impl Cost {
     /// J.
     pub fn total(&self) -> f64 {
-        self.direction + self.distance + self.steepness + self.commitment + self.revisit
+        self.direction + self.distance + self.steepness + self.commitment + self.dead_end
     }
 }
 
@@ -45,8 +46,7 @@ pub(crate) struct Situation<'a> {
     pub(crate) surface_radius_m: f64,
     /// World bearing of the last choice.
     pub(crate) last_bearing_rad: Option<f64>,
-    /// Places driven over, oldest first.
-    pub(crate) visited_m: &'a [DVec2],
+    pub(crate) dead_ends: &'a DeadEnds,
 }
 
 /// Gives every candidate its cost and returns the index of the cheapest; the first of equals.
@@ -71,7 +71,7 @@ pub(crate) fn choose(
         cost.distance *= config.distance_weight;
         cost.steepness *= config.steepness_weight;
         cost.commitment *= config.commitment_weight;
-        cost.revisit *= config.revisit_weight;
+        cost.dead_end *= config.dead_end_weight;
         let total = cost.total();
         if best.is_none_or(|(_, least)| total < least) {
             best = Some((index, total));
@@ -109,31 +109,23 @@ fn normalise(subgoals: &mut [Subgoal]) {
     }
 }
 
-/// How near a place driven over must be to count, and how many count as fully visited.
-const VISIT_RADIUS_M: f64 = 1.5;
-const FULL_VISITS: f64 = 4.0;
-/// The last places are where the robot comes from; they say nothing of going round in circles.
-const RECENT_PLACES: usize = 8;
-
 /// Every term on a fixed scale: half a turn, the surface's radius, the tilt limits.
 fn forecast_terms(subgoal: &Subgoal, situation: &Situation<'_>) -> Cost {
     let here = situation.pose.plan_m();
     let there = subgoal.position_m.truncate();
-    let lost = (situation.goal_m - there).length() - (situation.goal_m - here).length();
+    let forecast = subgoal.forecast.unwrap_or_default();
+    let around_m = forecast.way_m - forecast.reach_m;
+    let lost_m = (situation.goal_m - there).length() - (situation.goal_m - here).length() + around_m;
     let turn = situation
         .last_bearing_rad
         .map_or(0.0, |last| difference_rad(situation.pose.yaw_rad + subgoal.bearing_rad, last));
-    let older = situation.visited_m.len().saturating_sub(RECENT_PLACES);
-    let visits = situation.visited_m[..older]
-        .iter()
-        .filter(|place| (**place - there).length_squared() < VISIT_RADIUS_M * VISIT_RADIUS_M)
-        .count();
+    let detour_m = situation.dead_ends.detour_m(there, situation.goal_m);
     Cost {
         direction: subgoal.bearing_rad.abs() / PI,
-        distance: 0.5 + 0.5 * lost / situation.surface_radius_m,
-        steepness: subgoal.forecast.map_or(0.0, |f| f.mean_risk),
+        distance: 0.5 + 0.5 * lost_m / situation.surface_radius_m,
+        steepness: forecast.mean_risk,
         commitment: turn.abs() / PI,
-        revisit: (visits as f64 / FULL_VISITS).min(1.0),
+        dead_end: 0.5 * detour_m / situation.surface_radius_m,
     }
 }
 

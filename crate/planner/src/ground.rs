@@ -67,7 +67,10 @@ impl Ground {
     }
 
     fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
-        self.moments_near(place_m, radius_m).plane()
+        let moments = self.moments_near(place_m, radius_m);
+        let plane = moments.plane()?;
+        let unseen = self.config.curvature_per_m * moments.distance_m();
+        Some(Plane { gradient_deviation: libm::hypot(plane.gradient_deviation, unseen), ..plane })
     }
 
     /// Moments of the fresh cells whose mean is within `radius_m` of a place.

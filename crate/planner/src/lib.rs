@@ -9,7 +9,7 @@
 //! 3. [`profile`]: the edge of the variance surface is the skyline of the terrain.
 //! 4. [`segments`]: its stretches of one elevation, each with a verdict.
 //! 5. [`subgoals`]: places on the segments, in the world frame.
-//! 6. [`forecast`]: the tilt that the ground seen so far promises on the way there.
+//! 6. [`forecast`]: what the best way there, over the ground seen so far, promises.
 //! 7. [`cost`]: the cheapest one is chosen.
 //! 8. [`controller`]: a PID drives to it.
 //!
@@ -43,6 +43,7 @@ mod cholesky;
 pub mod config;
 pub mod controller;
 pub mod cost;
+mod dead_ends;
 mod edge;
 mod elementary;
 mod error;
@@ -72,9 +73,11 @@ pub mod sparse_gp;
 pub mod subgoals;
 #[cfg(test)]
 mod testing;
+mod ways;
 
 pub use config::PlannerConfig;
 pub use controller::Command;
 pub use error::ConfigError;
 pub use navigator::{Decision, Navigator};
 pub use planner::{Insight, Planner, Status, Step, StopReason};
+pub use ways::WayPoint;

@@ -7,6 +7,8 @@ use nalgebra::{Matrix2, Vector2};
 const LARGEST_SLOPE_DEVIATION: f64 = 0.08;
 /// Points a plane needs at least.
 const FEWEST_POINTS: usize = 5;
+/// Distance between wheels, over which roughness becomes tilt.
+const WHEEL_DISTANCE_M: f64 = 0.5;
 /// Roughness that is always allowed for: sensor noise and what a cell averages away.
 const LEAST_ROUGHNESS_M: f64 = 0.02;
 
@@ -45,13 +47,17 @@ pub(crate) struct Moments {
     xz: f64,
     yz: f64,
     zz: f64,
+    nearest_squared: f64,
 }
 
 impl Moments {
     pub(crate) fn add(&mut self, from_place_m: DVec2, height_m: f64) {
+        let squared = from_place_m.length_squared();
         if self.count == 0 {
             self.datum_m = height_m;
+            self.nearest_squared = squared;
         }
+        self.nearest_squared = self.nearest_squared.min(squared);
         self.count += 1;
         let d = from_place_m.extend(height_m - self.datum_m);
         self.sum += d;
@@ -61,6 +67,12 @@ impl Moments {
         self.xz += d.x * d.z;
         self.yz += d.y * d.z;
         self.zz += d.z * d.z;
+    }
+
+    /// How far the place lies from the points: from the nearest one, or from their middle.
+    pub(crate) fn distance_m(&self) -> f64 {
+        let middle = self.sum.truncate() / (self.count as f64).max(1.0);
+        middle.length().max(self.nearest_squared.sqrt())
     }
 
     /// The plane with its height at the place.
@@ -87,10 +99,13 @@ impl Moments {
         let solved = spread.cholesky()?.solve(&Vector2::new(xz, yz));
         let gradient = DVec2::new(solved.x, solved.y);
         let unexplained = (zz - gradient.x * xz - gradient.y * yz).max(0.0) / (count - 2.0);
+        // What the plane does not explain lifts single wheels.
+        let rough_m = (unexplained - least_variance).max(0.0).sqrt();
+        let standard_error = (unexplained.max(least_variance) / least_spread).sqrt();
         Some(Plane {
             height_m: self.datum_m + centroid.z - gradient.dot(centroid.truncate()),
             gradient,
-            gradient_deviation: (unexplained.max(least_variance) / least_spread).sqrt(),
+            gradient_deviation: libm::hypot(standard_error, rough_m / WHEEL_DISTANCE_M),
         })
     }
 }

@@ -1,12 +1,16 @@
 //! The planner: one type with one step.
 
+use core::f64::consts::PI;
+
 use glam::{DVec2, DVec3, Vec3};
 
+use crate::angle::wrap_rad;
 use crate::config::{CostModel, PlannerConfig};
 use crate::controller::{Command, Controller};
 use crate::cost::{self, Situation};
+use crate::dead_ends::DeadEnds;
 use crate::error::ConfigError;
-use crate::forecast::{ReachEnd, Standing, forecast};
+use crate::forecast::{Forecast, ReachEnd};
 use crate::ground::Ground;
 use crate::occupancy::{COLUMNS, LOWEST_ELEVATION_RAD, OccupancySurface, column_azimuth_rad, column_of};
 use crate::perception::{Effort, Perception, PredictedSurface};
@@ -16,12 +20,13 @@ use crate::profile::{Column, ElevationProfile};
 use crate::segments::{Segment, cut_segments};
 use crate::sparse_gp::GpError;
 use crate::subgoals::{Refusal, Subgoal, bearing_rad, carries_subgoals, spread_azimuths, world_position_m};
+use crate::ways::{WayPoint, Ways};
 
 /// Why the planner stands still for good.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum StopReason {
-    /// The pose or the goal is not a number.
-    #[error("the pose or the goal is not finite")]
+    /// The pose or the goal is not a number, or more than 1000 km from the origin.
+    #[error("the pose or the goal is not finite or too far away")]
     InvalidInput,
     /// The scan is empty.
     #[error("the scan has no returns")]
@@ -69,6 +74,8 @@ pub struct Step<'a> {
     pub subgoals: &'a [Subgoal],
     /// Index of the chosen subgoal.
     pub chosen: Option<usize>,
+    /// The way to it, from where the robot stands; empty where subgoals are judged by the paper's height alone.
+    pub way: &'a [WayPoint],
 }
 
 /// What a step is told instead of finding it out from scans; nothing by default. With the truth it tells a fault of
@@ -81,9 +88,12 @@ pub struct Insight<'a> {
     pub ground: Option<&'a dyn Fn(DVec2) -> Option<Plane>>,
 }
 
-/// Places driven over that are kept, one every half metre.
-const MOST_VISITED: usize = 400;
-const VISIT_SPACING_M: f64 = 0.5;
+/// Poses and goals farther from the origin make no sense; cells and places are counted in 32 bits.
+const FARTHEST_M: f64 = 1e6;
+/// Room for the longest way.
+const MOST_WAY_POINTS: usize = 256;
+/// What is known of dead ends is brought up to date when the robot has driven this far.
+const LEARN_SPACING_M: f64 = 0.5;
 
 /// Scan, pose and goal in; subgoal and command out. No map: it keeps the ground that the last scans saw, where it has
 /// been, and its last choice.
@@ -97,7 +107,10 @@ pub struct Planner {
     subgoals: Vec<Subgoal>,
     ground: Ground,
     controller: Controller,
-    visited_m: Vec<DVec2>,
+    ways: Ways,
+    way: Vec<WayPoint>,
+    dead_ends: DeadEnds,
+    learned_at_m: Option<DVec2>,
     goal_m: Option<DVec2>,
     last_bearing_rad: Option<f64>,
     looked_ticks: u32,
@@ -121,7 +134,10 @@ impl Planner {
             subgoals: Vec::new(),
             ground: Ground::new(config.ground),
             controller: Controller::new(config.controller),
-            visited_m: Vec::with_capacity(MOST_VISITED),
+            ways: Ways::new(config.forecast, &config.limits, config.perception.surface_radius_m),
+            way: Vec::with_capacity(MOST_WAY_POINTS),
+            dead_ends: DeadEnds::new(),
+            learned_at_m: None,
             goal_m: None,
             last_bearing_rad: None,
             looked_ticks: 0,
@@ -141,7 +157,7 @@ impl Planner {
     pub fn reset(&mut self) {
         self.perception.reset(self.config.perception);
         self.ground.clear();
-        self.visited_m.clear();
+        self.ways.clear();
         self.goal_m = None;
     }
 
@@ -162,11 +178,14 @@ impl Planner {
         insight: Insight<'_>,
     ) -> Step<'_> {
         self.chosen = None;
+        self.way.clear();
         self.subgoals.clear();
         self.segments.clear();
         if self.goal_m != Some(goal_m) {
             self.goal_m = Some(goal_m);
-            self.visited_m.clear();
+            self.dead_ends.clear();
+            self.ways.drive(None);
+            self.learned_at_m = None;
             self.last_bearing_rad = None;
             self.looked_ticks = 0;
             self.controller.reset();
@@ -174,7 +193,8 @@ impl Planner {
         self.status = self.decide(points_m, pose, goal_m, insight);
         self.command = match self.status {
             Status::Driving => self.command,
-            Status::Looking => self.controller.look_around(),
+            Status::Looking if self.may_look_around() => self.controller.look_around(),
+            Status::Looking => Command::STOP,
             Status::Arrived | Status::Stopped(_) => {
                 self.controller.reset();
                 Command::STOP
@@ -194,6 +214,7 @@ impl Planner {
             segments: &self.segments,
             subgoals: &self.subgoals,
             chosen: self.chosen,
+            way: &self.way,
         }
     }
 
@@ -207,7 +228,8 @@ impl Planner {
     }
 
     fn decide(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2, insight: Insight<'_>) -> Status {
-        if !(pose.is_finite() && goal_m.is_finite()) {
+        let near = |place_m: DVec2| place_m.abs().max_element() < FARTHEST_M;
+        if !(pose.is_finite() && near(pose.plan_m()) && near(goal_m)) {
             return Status::Stopped(StopReason::InvalidInput);
         }
         if points_m.is_empty() && insight.profile.is_none() {
@@ -221,40 +243,110 @@ impl Planner {
             return Status::Arrived;
         }
 
-        self.place_subgoals(pose, insight);
-        let chosen = match self.goal_in_sight(pose, goal_m, insight) {
-            Some(goal) => {
-                self.subgoals.push(goal);
-                Some(self.subgoals.len() - 1)
+        let chosen = match self.config.decision.cost_model {
+            CostModel::Paper => self.choose(pose, goal_m),
+            CostModel::Forecast => {
+                let seen = |place_m| self.ground.plane_at(place_m);
+                self.ways.search(insight.ground.unwrap_or(&seen), pose);
+                self.choose(pose, goal_m).or_else(|| {
+                    self.ways.search_escape();
+                    self.choose(pose, goal_m)
+                })
             }
-            None => cost::choose(
-                &mut self.subgoals,
-                &self.config.decision,
-                &Situation {
-                    pose,
-                    goal_m,
-                    surface_radius_m: self.config.perception.surface_radius_m,
-                    last_bearing_rad: self.last_bearing_rad,
-                    visited_m: &self.visited_m,
-                },
-            ),
         };
         let Some(chosen) = chosen else {
             self.looked_ticks += 1;
             self.last_bearing_rad = None;
-            return if self.looked_ticks > self.config.decision.look_ticks {
-                Status::Stopped(StopReason::NoSubgoal)
-            } else {
-                Status::Looking
-            };
+            self.ways.drive(None);
+            let given_up = self.looked_ticks > self.config.decision.look_ticks;
+            return if given_up { Status::Stopped(StopReason::NoSubgoal) } else { Status::Looking };
         };
         self.looked_ticks = 0;
         self.chosen = Some(chosen);
-        let subgoal = &self.subgoals[chosen];
+        let subgoal = self.subgoals[chosen];
         self.last_bearing_rad = Some(pose.yaw_rad + subgoal.bearing_rad);
-        let distance = (subgoal.position_m.truncate() - pose.plan_m()).length();
-        self.command = self.controller.drive(distance, subgoal.bearing_rad, self.config.period_s);
+        self.command = match self.config.decision.cost_model {
+            CostModel::Paper => {
+                let distance_m = (subgoal.position_m.truncate() - pose.plan_m()).length();
+                self.controller.drive(distance_m, subgoal.bearing_rad, self.config.period_s)
+            }
+            CostModel::Forecast => {
+                self.learn(pose, goal_m);
+                self.follow(&subgoal, pose)
+            }
+        };
         Status::Driving
+    }
+
+    /// Whether turning on the spot stays within the tilt limits, as far as this planner minds.
+    fn may_look_around(&self) -> bool {
+        self.config.decision.cost_model == CostModel::Paper || self.ways.may_turn_around()
+    }
+
+    /// Drives along the way to a subgoal.
+    fn follow(&mut self, subgoal: &Subgoal, pose: &Pose) -> Command {
+        let end_m = subgoal.position_m.truncate();
+        if let Some(reached) = self.ways.to(end_m) {
+            self.ways.follow(reached, &mut self.way);
+        }
+        if let Some(last) = self.way.last_mut() {
+            // The subgoal lies up to half a step from the last place.
+            last.position_m = end_m;
+        }
+        let ahead = self.ways.shortcut(&self.way);
+        self.ways.drive(Some(&ahead));
+        let bearing = bearing_rad(pose, ahead.position_m);
+        let way_m = subgoal.forecast.map_or(0.0, |f| f.way_m);
+        let facing = if ahead.reverse { wrap_rad(bearing + PI) } else { bearing };
+        let mut command = self.controller.drive(way_m, facing, self.config.period_s);
+        if ahead.reverse {
+            command.linear_m_s = -command.linear_m_s;
+        }
+        self.controller.slowed(command, self.ways.share_ahead(&self.way))
+    }
+
+    /// Learns how far the goal is from here and from the places around by the best of the ways on.
+    fn learn(&mut self, pose: &Pose, goal_m: DVec2) {
+        let here = pose.plan_m();
+        if self.learned_at_m.is_some_and(|last| (last - here).length() < LEARN_SPACING_M) {
+            return;
+        }
+        self.learned_at_m = Some(here);
+        let radius = self.config.perception.surface_radius_m;
+        let candidates = self.subgoals.iter().filter(|subgoal| subgoal.refusal.is_none());
+        let to_goal_m = candidates
+            .filter_map(|subgoal| {
+                let there = subgoal.position_m.truncate();
+                let forecast = subgoal.forecast?;
+                // Ground that is known to be steep beyond makes a detour of what lies before it.
+                let blocked_m = if forecast.end == ReachEnd::Tilt { radius - forecast.reach_m } else { 0.0 };
+                let beyond_m = (goal_m - there).length() + self.dead_ends.detour_m(there, goal_m);
+                Some(forecast.way_m + blocked_m + beyond_m)
+            })
+            .fold(f64::INFINITY, f64::min);
+        if to_goal_m.is_finite() {
+            for (place_m, cost_m) in self.ways.reached() {
+                self.dead_ends.learn(place_m, goal_m, to_goal_m - cost_m);
+            }
+        }
+    }
+
+    /// Places the subgoals and chooses one; `None` when there is no candidate.
+    fn choose(&mut self, pose: &Pose, goal_m: DVec2) -> Option<usize> {
+        self.subgoals.clear();
+        self.place_subgoals(pose);
+        if let Some(goal) = self.goal_in_sight(pose, goal_m) {
+            self.subgoals.push(goal);
+            return Some(self.subgoals.len() - 1);
+        }
+        let situation = Situation {
+            pose,
+            goal_m,
+            surface_radius_m: self.config.perception.surface_radius_m,
+            last_bearing_rad: self.last_bearing_rad,
+            dead_ends: &self.dead_ends,
+        };
+        cost::choose(&mut self.subgoals, &self.config.decision, &situation)
     }
 
     fn perceive(&mut self, points_m: &[Vec3], insight: Insight<'_>) -> Result<(), GpError> {
@@ -296,18 +388,10 @@ impl Planner {
                 self.ground.add(pose.position_m + world_from_robot * DVec3::new(x, y, 0.0));
             }
         }
-        let here = pose.plan_m();
-        if self.visited_m.last().is_none_or(|last| (*last - here).length() >= VISIT_SPACING_M) {
-            if self.visited_m.len() == MOST_VISITED {
-                self.visited_m.remove(0);
-            }
-            self.visited_m.push(here);
-        }
     }
 
-    fn place_subgoals(&mut self, pose: &Pose, insight: Insight<'_>) {
+    fn place_subgoals(&mut self, pose: &Pose) {
         let config = &self.config;
-        let seen = |place_m| self.ground.plane_at(place_m);
         let radius = config.perception.surface_radius_m;
         for (index, segment) in self.segments.iter().enumerate() {
             if !carries_subgoals(segment, config.robot_width_m, &config.segments) {
@@ -327,7 +411,7 @@ impl Planner {
                     cost: None,
                 };
                 if config.decision.cost_model == CostModel::Forecast {
-                    look_along(&mut subgoal, insight.ground.unwrap_or(&seen), config, pose, radius);
+                    look_along(&mut subgoal, &self.ways, &mut self.way, config, pose);
                 }
                 self.subgoals.push(subgoal);
             }
@@ -335,9 +419,8 @@ impl Planner {
     }
 
     /// The goal itself, when it is nearer than what was seen in its direction.
-    fn goal_in_sight(&self, pose: &Pose, goal_m: DVec2, insight: Insight<'_>) -> Option<Subgoal> {
+    fn goal_in_sight(&mut self, pose: &Pose, goal_m: DVec2) -> Option<Subgoal> {
         let config = &self.config;
-        let seen = |place_m| self.ground.plane_at(place_m);
         let distance = (goal_m - pose.plan_m()).length();
         let radius = config.perception.surface_radius_m;
         let bearing = bearing_rad(pose, goal_m);
@@ -359,34 +442,37 @@ impl Planner {
                 Column::Unknown | Column::Wall => None,
             },
             CostModel::Forecast if distance < radius => {
-                look_along(&mut goal, insight.ground.unwrap_or(&seen), config, pose, distance);
-                let whole = goal.forecast.is_some_and(|f| f.end == ReachEnd::Whole);
-                goal.position_m = goal_m.extend(goal.position_m.z);
-                whole.then_some(goal)
+                let reached = self.ways.to(goal_m)?;
+                goal.position_m.z = self.ways.height_m(reached);
+                goal.forecast =
+                    Some(Forecast { reach_m: distance, ..self.ways.follow(reached, &mut self.way) });
+                Some(goal)
             }
             CostModel::Forecast => None,
         }
     }
 }
 
-/// Moves a subgoal to where the forecast towards it reaches, and refuses it when that is too near.
+/// Moves a subgoal to where the ways in its direction reach, and refuses it when that is too near.
 fn look_along(
     subgoal: &mut Subgoal,
-    plane_at: &dyn Fn(DVec2) -> Option<Plane>,
+    ways: &Ways,
+    way: &mut Vec<WayPoint>,
     config: &PlannerConfig,
     pose: &Pose,
-    length_m: f64,
 ) {
     let (sin, cos) = libm::sincos(pose.yaw_rad + subgoal.bearing_rad);
     let direction = DVec2::new(cos, sin);
-    let standing = Standing { pose, direction };
-    let found = forecast(plane_at, &config.forecast, &config.limits, &standing, length_m);
-    subgoal.position_m = (pose.plan_m() + direction * found.reach_m).extend(found.reach_height_m);
-    subgoal.refusal = match found.end {
-        _ if found.reach_m >= config.forecast.min_reach_m => None,
-        ReachEnd::Whole => None,
-        ReachEnd::Tilt => Some(Refusal::Tilt),
-        ReachEnd::Unseen => Some(Refusal::Unseen),
+    let (reach_m, end) = ways.reach_along(direction, config.perception.surface_radius_m);
+    let end_m = pose.plan_m() + direction * reach_m;
+    let reached = ways.to(end_m).filter(|_| end == ReachEnd::Whole || reach_m >= config.forecast.min_reach_m);
+    let found = reached.map_or(Forecast::default(), |reached| ways.follow(reached, way));
+    let height_m = reached.map_or(pose.position_m.z, |reached| ways.height_m(reached));
+    subgoal.position_m = end_m.extend(height_m);
+    subgoal.forecast = Some(Forecast { reach_m, end, ..found });
+    subgoal.refusal = match (reached, end) {
+        (Some(_), _) => None,
+        (None, ReachEnd::Unseen) => Some(Refusal::Unseen),
+        (None, _) => Some(Refusal::Tilt),
     };
-    subgoal.forecast = Some(found);
 }

@@ -146,7 +146,7 @@ proptest! {
         for mut planner in both_presets() {
             let limits = planner.config().controller;
             let step = planner.step(&points, &pose, DVec2::new(goal_x, goal_y));
-            prop_assert!(step.command.linear_m_s >= 0.0 && step.command.linear_m_s <= limits.max_speed_m_s);
+            prop_assert!(step.command.linear_m_s.abs() <= limits.max_speed_m_s);
             prop_assert!(step.command.angular_rad_s.abs() <= limits.max_turn_rate_rad_s);
             if let Ok(surface) = planner.predicted_surface() {
                 prop_assert!(surface.relative_variance.iter().all(|v| v.is_finite()));

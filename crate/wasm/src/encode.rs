@@ -26,7 +26,7 @@ pub(crate) fn segment(segment: &Segment) -> [f64; 6] {
 
 /// Azimuth and elevation in the sensor frame, world x, y, z, chosen (0 or 1), refusal (0 none, 1 tilt, 2 unseen), index of
 /// its segment (-1 for the goal itself); reach, mean risk, largest roll and pitch of the forecast and its end (0 whole,
-/// 1 tilt, 2 unseen), NaN without one; the cost's terms: direction, distance, steepness, commitment, revisit, NaN without one.
+/// 1 tilt, 2 unseen), NaN without one; the cost's terms: direction, distance, steepness, commitment, dead_end, NaN without one.
 pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 18] {
     let refusal = match subgoal.refusal {
         None => 0.0,
@@ -43,7 +43,7 @@ pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 18] {
     });
     let terms = subgoal
         .cost
-        .map_or([f64::NAN; 5], |c| [c.direction, c.distance, c.steepness, c.commitment, c.revisit]);
+        .map_or([f64::NAN; 5], |c| [c.direction, c.distance, c.steepness, c.commitment, c.dead_end]);
     let position = subgoal.position_m;
     let mut values = [0.0; 18];
     values[..8].copy_from_slice(&[

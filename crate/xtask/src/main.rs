@@ -1,5 +1,5 @@
 //! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build`, and
-//! `cargo xtask scenarios`, `cargo xtask profile`, `cargo xtask results`, `cargo xtask bench` and `cargo xtask fuzz`, which measure.
+//! `cargo xtask profile`, `cargo xtask results`, `cargo xtask bench` and `cargo xtask fuzz`, which measure.
 //!
 //! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a browser),
 //! so that a fresh clone on a machine with Rust and Node needs nothing by hand.
@@ -12,7 +12,6 @@ mod page;
 mod profile;
 mod python;
 mod results;
-mod scenarios;
 mod setup;
 mod test;
 mod work;
@@ -46,15 +45,6 @@ enum Command {
     Test {
         /// The part to run; all of them when absent.
         part: Option<test::Part>,
-    },
-    /// Run every scenario with both presets and several seeds, and write docs/SCENARIOS.md.
-    Scenarios {
-        /// Seeds 1 to N for the preset `default`.
-        #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
-        seeds: u64,
-        /// Seeds 1 to N for the preset `paper`, whose steps take several times as long.
-        #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..))]
-        paper_seeds: u64,
     },
     /// Compare the elevation profile with the true one for several settings, and write docs/PROFILE.md.
     Profile {
@@ -100,7 +90,6 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Demo { port } => page::demo(&sh, port),
         Command::Build => page::build(&sh),
         Command::Test { part } => test::run(&sh, part),
-        Command::Scenarios { seeds, paper_seeds } => scenarios::run(&sh, [seeds, paper_seeds]),
         Command::Profile { poses } => profile::run(&sh, poses),
         Command::Results { quick } => results::run(&sh, quick),
         Command::Bench { rounds } => bench::run(&sh, rounds),

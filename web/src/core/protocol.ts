@@ -153,7 +153,7 @@ export interface Subgoal {
 }
 
 /** Names of the cost terms. The paper has the first three. */
-export const TERMS = ['direction', 'distance', 'steepness', 'commitment', 'revisit'] as const;
+export const TERMS = ['direction', 'distance', 'steepness', 'commitment', 'dead end'] as const;
 
 /** What the planner does at present. */
 export type Activity = 'driving' | 'arrived' | 'looking' | 'stopped';

@@ -89,7 +89,7 @@ export const STEPS: readonly Step[] = [
   {
     title: 'The cheapest subgoal wins',
     text: (_, { preset }) =>
-      `Subgoals stand on the segments. Each is charged for turning towards it, for what then remains to the goal, and for steepness.${preset === 'paper' ? '' : ' The best planner here also forecasts roll and pitch along the way, refuses ways that would tilt the robot too far, and charges for changing its mind and for ground it has been on.'} Yellow costs least; the ringed one is chosen.`,
+      `Subgoals stand on the segments. Each is charged for turning towards it, for what then remains to the goal, and for steepness.${preset === 'paper' ? '' : ' The best planner here also forecasts roll and pitch along the way, refuses ways that would tilt the robot too far, and charges for changing its mind and for detours that it knows of.'} Yellow costs least; the ringed one is chosen.`,
     camera: 'top',
     layers: { subgoals: true, ways: true },
     marks: (frame) =>

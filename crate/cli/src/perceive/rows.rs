@@ -51,7 +51,7 @@ pub(crate) struct CostRow {
     pub(crate) distance: f64,
     pub(crate) steepness: f64,
     pub(crate) commitment: f64,
-    pub(crate) revisit: f64,
+    pub(crate) dead_end: f64,
     pub(crate) total: f64,
 }
 
@@ -110,7 +110,7 @@ impl CostRow {
             distance: cost.distance,
             steepness: cost.steepness,
             commitment: cost.commitment,
-            revisit: cost.revisit,
+            dead_end: cost.dead_end,
             total: cost.total(),
         }
     }

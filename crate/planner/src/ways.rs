@@ -1,0 +1,246 @@
+//! Ways over the ground that the last scans saw: from where the robot stands to every place around it that it can reach
+//! within its tilt limits.
+//!
+//! Safety is the paper's: |roll| and |pitch| inside the robot's limits. The paper judges a subgoal by its height at
+//! r_oc alone; this looks at the way there. Places half a metre apart and sixteen headings make a graph; a step is a drive
+//! along a heading or a turn to the next, each within a share of the limits with a margin for what is uncertain. Its cost is
+//! its length and the tilt along it.
+
+mod begin;
+mod bridge;
+mod footing;
+mod headings;
+mod queue;
+mod route;
+#[cfg(test)]
+mod tests;
+
+use core::f64::consts::TAU;
+
+use glam::DVec2;
+
+use crate::angle::wrap_rad;
+use crate::config::{ForecastConfig, TiltLimits};
+use crate::plane::Plane;
+use crate::pose::Pose;
+use footing::{Caution, Footing, Slopes};
+use headings::{HEADINGS, STEPS};
+use queue::BucketQueue;
+
+/// Directions in which the way begins.
+const FIRST_DIRECTIONS: usize = 64;
+/// A way joins the lattice at the places within this distance.
+const JOIN_M: f64 = 1.6;
+/// A retreat ends at this share of the slope that a way may use; what lies this far ahead of where it begins is barred.
+const CALM_SHARE: f64 = 0.8;
+/// Turning back on ground at least this steep says that what lies ahead is steeper than it had looked.
+const STEEP_SHARE: f64 = 0.6;
+const BARRED_AHEAD_M: f64 = 0.5;
+/// Costs are whole millimetres of level ground.
+const MILLIMETRES: f64 = 1000.0;
+/// Longest way that is looked for, in metres of level ground.
+const FARTHEST_M: usize = 60;
+/// No step of the search costs less.
+const LEAST_COST_MM: u32 = 100;
+const UNREACHED: u32 = u32::MAX;
+/// Marks a state that was reached straight from where the robot stands.
+const BEGIN: u32 = u32::MAX;
+
+/// Every place within reach, and how to get there.
+#[derive(Clone, Debug)]
+pub(crate) struct Ways {
+    config: ForecastConfig,
+    footing: Footing,
+    first_directions: Vec<DVec2>,
+    costs_mm: Vec<u32>,
+    came_from: Vec<u32>,
+    queue: BucketQueue,
+    here_m: DVec2,
+    standing_height_m: f64,
+    standing_gradient: DVec2,
+    caution: Caution,
+    /// How the way that was last driven began.
+    last: Option<First>,
+    /// Whether the robot goes back the way it came, and then whether in reverse.
+    retreat: Option<bool>,
+    /// The first direction that the robot faces, and how many it may turn to the left and to the right.
+    facing: i32,
+    turns: [i32; 2],
+}
+
+/// How a way begins.
+#[derive(Clone, Copy, Debug)]
+struct First {
+    /// Unit vector along which the robot faces.
+    facing: DVec2,
+    reverse: bool,
+}
+
+/// A place on a way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WayPoint {
+    /// Seen from above, in the world.
+    pub position_m: DVec2,
+    /// What getting there costs, in metres of level ground.
+    pub cost_m: f64,
+    /// Whether the robot gets there in reverse.
+    pub reverse: bool,
+}
+
+/// A place that the robot can reach.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reached {
+    /// Its state in the search.
+    state: u32,
+    /// What getting there costs, metres of level ground.
+    pub(crate) cost_m: f64,
+}
+
+impl Ways {
+    /// Ways within `radius_m`.
+    pub(crate) fn new(config: ForecastConfig, limits: &TiltLimits, radius_m: f64) -> Self {
+        let footing = Footing::new(config, limits, radius_m);
+        let states = footing.count() * HEADINGS;
+        // Each state is entered by two drives, some gaps, two turns and the first directions.
+        let entries = 6 * states + 16 * FIRST_DIRECTIONS;
+        let direction = |k: usize| {
+            let (sin, cos) = libm::sincos(TAU * k as f64 / FIRST_DIRECTIONS as f64);
+            DVec2::new(cos, sin)
+        };
+        Self {
+            config,
+            footing,
+            first_directions: (0..FIRST_DIRECTIONS).map(direction).collect(),
+            costs_mm: vec![UNREACHED; states],
+            came_from: vec![BEGIN; states],
+            queue: BucketQueue::new(
+                LEAST_COST_MM,
+                FARTHEST_M * MILLIMETRES as usize / LEAST_COST_MM as usize,
+                entries,
+            ),
+            here_m: DVec2::ZERO,
+            standing_height_m: 0.0,
+            standing_gradient: DVec2::ZERO,
+            caution: Caution::Usual,
+            last: None,
+            retreat: None,
+            facing: 0,
+            turns: [0; 2],
+        }
+    }
+
+    /// Finds the ways from `pose` over the ground that `plane_at` knows.
+    pub(crate) fn search(&mut self, plane_at: &dyn Fn(DVec2) -> Option<Plane>, pose: &Pose) {
+        self.here_m = pose.plan_m();
+        self.standing_height_m = pose.position_m.z;
+        self.facing = (wrap_rad(pose.yaw_rad) / TAU * FIRST_DIRECTIONS as f64).round() as i32;
+        let up = pose.world_from_robot().z_axis;
+        self.standing_gradient = -up.truncate() / up.z;
+        self.footing.look(plane_at, self.here_m);
+        self.mind_standing();
+        self.search_with(Caution::Usual);
+    }
+
+    /// Where the robot stands steeper than a way may be, what it was told of the ground ahead is not true: it goes back the way it
+    /// came, and what lay ahead is not tried again.
+    fn mind_standing(&mut self) {
+        let share = self.standing_share();
+        if share < CALM_SHARE {
+            self.retreat = None;
+        } else if share > 1.0 && self.retreat.is_none() {
+            self.turn_back();
+        }
+    }
+
+    /// How much of the slope that a way may have the robot stands on.
+    fn standing_share(&self) -> f64 {
+        self.standing_slopes().share_of(self.footing.allowed(Caution::Usual, 0.0))
+    }
+
+    fn standing_slopes(&self) -> Slopes {
+        Slopes::facing(self.standing_gradient, self.first_direction(self.facing))
+    }
+
+    fn turn_back(&mut self) {
+        let Some(last) = self.last else { return };
+        self.retreat = Some(!last.reverse);
+        let facing = self.first_direction(self.facing);
+        let travel = if last.reverse { -facing } else { facing };
+        self.footing.bar(self.here_m + travel * BARRED_AHEAD_M);
+    }
+
+    /// Searches the same ground anew, with less caution near the robot.
+    pub(crate) fn search_escape(&mut self) {
+        self.search_with(Caution::Escape);
+    }
+
+    fn search_with(&mut self, caution: Caution) {
+        self.caution = caution;
+        self.footing.judge(self.here_m, caution);
+        self.costs_mm.fill(UNREACHED);
+        self.queue.clear();
+        self.begin();
+        self.expand();
+    }
+
+    /// Remembers how the way that is driven begins; nothing when none is driven. Where the robot turns back on steep ground, what
+    /// lay ahead is not tried again.
+    pub(crate) fn drive(&mut self, point: Option<&WayPoint>) {
+        let next = point.map(|point| {
+            let way = point.position_m - self.here_m;
+            let facing = if point.reverse { -way } else { way };
+            First { facing: facing.normalize_or_zero(), reverse: point.reverse }
+        });
+        let turns_back = self.last.zip(next).is_some_and(|(last, next)| last.reverse != next.reverse);
+        if self.caution == Caution::Escape {
+            self.footing.bar(self.here_m);
+        } else if turns_back && self.standing_share() > STEEP_SHARE {
+            self.turn_back();
+        }
+        self.last = next;
+    }
+
+    /// Dijkstra's search from the states that [`begin`](Self::begin) reached.
+    fn expand(&mut self) {
+        let step_mm = STEPS.map(|step| step.as_dvec2().length() * self.config.step_m * MILLIMETRES);
+        let turn_mm = (self.config.turn_cost_m * MILLIMETRES) as u32;
+        while let Some((state, cost_mm)) = self.queue.pop() {
+            if self.costs_mm[state as usize] != cost_mm {
+                continue;
+            }
+            let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
+            let offset = self.footing.offset(place);
+            for turned in [(heading + 1) % HEADINGS, (heading + HEADINGS - 1) % HEADINGS] {
+                if self.footing.risk(offset, turned).is_finite() {
+                    self.reach(place * HEADINGS + turned, state, cost_mm.saturating_add(turn_mm));
+                }
+            }
+            for (forward, price) in [(true, 1.0), (false, self.config.reverse_price)] {
+                if let Some((to, risk)) = self.footing.drive(offset, heading, forward) {
+                    let price_mm = price * step_mm[heading] * (1.0 + self.config.tilt_price * risk);
+                    let next = self.footing.index(to) * HEADINGS + heading;
+                    self.reach(next, state, cost_mm.saturating_add(price_mm as u32));
+                }
+            }
+            if let Some((to, price_m)) = self.cross_gap(offset, heading) {
+                let next = self.footing.index(to) * HEADINGS + heading;
+                self.reach(next, state, cost_mm.saturating_add((price_m * MILLIMETRES) as u32));
+            }
+        }
+    }
+
+    fn reach(&mut self, state: usize, from: u32, cost_mm: u32) {
+        if cost_mm < self.costs_mm[state] && self.queue.takes(cost_mm) {
+            self.costs_mm[state] = cost_mm;
+            self.came_from[state] = from;
+            self.queue.push(state as u32, cost_mm);
+        }
+    }
+
+    /// Forgets the ground.
+    pub(crate) fn clear(&mut self) {
+        self.footing.clear();
+        self.last = None;
+        self.retreat = None;
+    }
+}

@@ -1,0 +1,121 @@
+//! How ways begin: from where the robot stands, which is no place of the lattice.
+
+use core::f64::consts::{FRAC_1_SQRT_2, TAU};
+
+use glam::{DVec2, IVec2};
+
+use super::bridge::Station;
+use super::headings::{HEADINGS, nearest};
+use super::{BEGIN, FIRST_DIRECTIONS, First, JOIN_M, MILLIMETRES, Ways};
+
+/// A way begins at a place at least this far from the robot.
+const FIRST_STEP_M: f64 = 0.3;
+/// Ground known no farther than this from the robot may be that under its wheels alone.
+const WHEELS_M: f64 = 1.25;
+/// Beginnings within an eighth of a circle of each other are the same.
+const SAME_COSINE: f64 = FRAC_1_SQRT_2;
+
+impl Ways {
+    /// From where the robot stands straight to the first known places in each direction that it may turn to.
+    pub(super) fn begin(&mut self) {
+        let count = FIRST_DIRECTIONS as i32;
+        let steepest = self.footing.allowed(self.caution, 0.0).across;
+        for (side, sign) in [1, -1].into_iter().enumerate() {
+            self.turns[side] = count / 2;
+            for turn in 0..=count / 2 {
+                let facing = self.first_direction(self.facing + sign * turn);
+                if turn > 0 && self.standing_gradient.dot(facing.perp()).abs() > steepest {
+                    self.turns[side] = turn - 1;
+                    break;
+                }
+                let turn_m = self.config.turn_cost_m * f64::from(turn) * HEADINGS as f64 / f64::from(count);
+                for reverse in [false, true] {
+                    if self.retreat.is_some_and(|back| back != reverse) {
+                        continue;
+                    }
+                    let first = First { facing, reverse };
+                    let change_m = if self.continues(&first) { 0.0 } else { self.config.change_cost_m };
+                    self.begin_along(&first, turn_m + change_m);
+                }
+            }
+        }
+    }
+
+    /// Whether a way that begins like this begins as the last one meant to.
+    fn continues(&self, first: &First) -> bool {
+        self.last
+            .is_none_or(|last| last.reverse == first.reverse && last.facing.dot(first.facing) > SAME_COSINE)
+    }
+
+    pub(super) fn first_direction(&self, index: i32) -> DVec2 {
+        self.first_directions[index.rem_euclid(FIRST_DIRECTIONS as i32) as usize]
+    }
+
+    /// Straight ahead or in reverse to the next known place and, where no beam reaches the ground at the wheels, to the first
+    /// one beyond.
+    fn begin_along(&mut self, first: &First, cost_m: f64) {
+        let travel = if first.reverse { -first.facing } else { first.facing };
+        let mut seen_m = 0.0;
+        let steps = (self.config.blind_radius_m / self.config.step_m) as usize;
+        for step in 1..=steps {
+            let along_m = self.config.step_m * step as f64;
+            let Some(offset) = self.footing.nearest(self.here_m + travel * along_m) else { return };
+            if self.footing.plane(offset).is_none() {
+                if seen_m > WHEELS_M {
+                    return;
+                }
+                continue;
+            }
+            // From the ground at the wheels the search itself goes on.
+            let beyond_blind = along_m - seen_m > 1.5 * self.config.step_m;
+            seen_m = along_m;
+            if !beyond_blind && along_m > JOIN_M {
+                return;
+            }
+            let safe = self.begin_at(offset, first, cost_m);
+            // The place nearest to the robot may miss by rounding what it already stands on.
+            if beyond_blind && along_m > JOIN_M || !safe && step > 1 {
+                return;
+            }
+        }
+    }
+
+    /// Straight to a place, unless that is not safe.
+    fn begin_at(&mut self, offset: IVec2, first: &First, cost_m: f64) -> bool {
+        let Some(plane) = self.footing.plane(offset) else { return false };
+        let way = self.footing.position_m(offset) - self.here_m;
+        let distance_m = way.length();
+        if distance_m < FIRST_STEP_M {
+            return true;
+        }
+        let heading = nearest(first.facing);
+        let start =
+            Station { distance_m: 0.0, height_m: self.standing_height_m, gradient: self.standing_gradient };
+        let end = Station { distance_m, height_m: plane.height_m, gradient: plane.gradient };
+        let risk = self.risk_between(&start, &end, way / distance_m).max(self.footing.risk(offset, heading));
+        if !risk.is_finite() {
+            return false;
+        }
+        let price = if first.reverse { self.config.reverse_price } else { 1.0 };
+        let cost_m = cost_m + price * distance_m * (1.0 + self.config.tilt_price * risk);
+        let state = self.footing.index(offset) * HEADINGS + heading;
+        self.reach(state, BEGIN, (cost_m * MILLIMETRES) as u32);
+        true
+    }
+
+    /// Whether the robot may turn on the spot until it faces a direction.
+    pub(super) fn may_turn_to(&self, facing: DVec2) -> bool {
+        let bearing_rad = libm::atan2(facing.y, facing.x);
+        let count = FIRST_DIRECTIONS as i32;
+        let index = (bearing_rad / TAU * f64::from(count)).round() as i32;
+        let left = (index - self.facing).rem_euclid(count);
+        let [most_left, most_right] = self.turns;
+        // The controller turns the shorter way.
+        if left <= count / 2 { left <= most_left } else { count - left <= most_right }
+    }
+
+    /// Whether the robot may turn all around where it stands.
+    pub(crate) fn may_turn_around(&self) -> bool {
+        self.turns.iter().all(|&turns| turns == FIRST_DIRECTIONS as i32 / 2)
+    }
+}

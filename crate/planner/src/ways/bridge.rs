@@ -1,0 +1,62 @@
+//! Ground that was not seen, between ground that was.
+
+use glam::{DVec2, IVec2};
+
+use super::Ways;
+use super::footing::Slopes;
+
+/// Unseen ground that is driven over between two places, and what a metre of it costs.
+const GAP_M: f64 = 2.5;
+const GAP_PRICE: f64 = 1.5;
+
+impl Ways {
+    /// The place beyond unseen ground that a drive along a heading leads to, and what that costs.
+    pub(super) fn cross_gap(&self, from: IVec2, heading: usize) -> Option<(IVec2, f64)> {
+        let to = self.footing.beyond_gap(from, heading, GAP_M)?;
+        let (begin, end) = (self.footing.plane(from)?, self.footing.plane(to)?);
+        let way = self.footing.position_m(to) - self.footing.position_m(from);
+        let distance_m = way.length();
+        let start = Station { distance_m: 0.0, height_m: begin.height_m, gradient: begin.gradient };
+        let end = Station { distance_m, height_m: end.height_m, gradient: end.gradient };
+        let risk = self.risk_between(&start, &end, way / distance_m);
+        risk.is_finite().then_some((to, GAP_PRICE * distance_m * (1.0 + self.config.tilt_price * risk)))
+    }
+
+    /// Mean risk along a straight line over ground that was not seen, a cubic through both heights and slopes; infinite where
+    /// it is not safe.
+    pub(super) fn risk_between(&self, from: &Station, to: &Station, direction: DVec2) -> f64 {
+        let allowed = *self.footing.allowed(self.caution, to.distance_m);
+        let count = (to.distance_m / self.config.step_m).ceil().max(1.0) as usize;
+        let mut sum = 0.0;
+        for k in 1..=count {
+            let slopes = from.slopes_towards(to, direction, k as f64 / count as f64);
+            if !slopes.within(&allowed, 0.0) {
+                return f64::INFINITY;
+            }
+            let share = slopes.share_of(self.footing.limits());
+            sum += share * share;
+        }
+        sum / count as f64
+    }
+}
+
+/// Ground under a place on a straight line.
+pub(super) struct Station {
+    pub(super) distance_m: f64,
+    pub(super) height_m: f64,
+    pub(super) gradient: DVec2,
+}
+
+impl Station {
+    /// Slopes at a share of the way to another station, on the cubic Hermite polynomial through both heights and slopes.
+    fn slopes_towards(&self, to: &Self, direction: DVec2, share: f64) -> Slopes {
+        let t = share;
+        let length_m = to.distance_m - self.distance_m;
+        let across = self.gradient.lerp(to.gradient, t).dot(direction.perp()).abs();
+        let (from_slope, to_slope) = (self.gradient.dot(direction), to.gradient.dot(direction));
+        let along = 6.0 * t * (1.0 - t) * (to.height_m - self.height_m) / length_m
+            + (1.0 - t) * (1.0 - 3.0 * t) * from_slope
+            + t * (3.0 * t - 2.0) * to_slope;
+        Slopes { across, along: along.abs() }
+    }
+}

@@ -1,0 +1,160 @@
+//! What was found: how far the ways reach, where each leads, and what to head for on it.
+
+use glam::DVec2;
+
+use super::footing::Slopes;
+use super::headings::{DIRECTIONS, HEADINGS, STEPS, nearest};
+use super::{BEGIN, JOIN_M, MILLIMETRES, Reached, UNREACHED, WayPoint, Ways};
+use crate::forecast::{Forecast, ReachEnd};
+
+/// The longest step of the lattice, √5 places, and some.
+const LONGEST_STEP: f64 = 2.3;
+/// The robot minds what lies this far ahead; ground that was not seen counts as this share of the tilt limits, unless the robot
+/// stands on less than that.
+const AHEAD_M: f64 = 1.0;
+const BLIND_SHARE: f64 = 0.75;
+const LEVEL_SHARE: f64 = 0.2;
+
+impl Ways {
+    /// The cheapest way to the place nearest to a point; `None` when there is none.
+    pub(crate) fn to(&self, point_m: DVec2) -> Option<Reached> {
+        let place = self.footing.index(self.footing.nearest(point_m)?);
+        let states = place * HEADINGS..(place + 1) * HEADINGS;
+        let state = states.min_by_key(|&state| self.costs_mm[state])?;
+        let cost_mm = self.costs_mm[state];
+        let cost_m = f64::from(cost_mm) / MILLIMETRES;
+        (cost_mm != UNREACHED).then_some(Reached { state: state as u32, cost_m })
+    }
+
+    /// How far one can get along the straight line from the robot in a direction, up to `length_m`, whatever the way there.
+    pub(crate) fn reach_along(&self, direction: DVec2, length_m: f64) -> (f64, ReachEnd) {
+        let steps = (length_m / self.config.step_m).ceil() as usize;
+        let distance_m = |step: usize| (self.config.step_m * step as f64).min(length_m);
+        let at = |step: usize| self.here_m + direction * distance_m(step);
+        let last = (1..=steps).rev().find(|&step| self.to(at(step)).is_some()).unwrap_or(0);
+        if last == steps {
+            return (length_m, ReachEnd::Whole);
+        }
+        let known =
+            self.footing.nearest(at(last + 1)).is_some_and(|place| self.footing.plane(place).is_some());
+        let end = if known { ReachEnd::Tilt } else { ReachEnd::Unseen };
+        // Stop short of what is steep or unseen: the body reaches further than its centre.
+        let most_m = distance_m(last) - self.config.clearance_m;
+        let reach = (1..last).rev().find(|&step| distance_m(step) <= most_m && self.to(at(step)).is_some());
+        (reach.map_or(0.0, distance_m), end)
+    }
+
+    /// Writes the places on the way to a place, the robot's own first, to `way`, and gives what the way promises.
+    pub(crate) fn follow(&self, reached: Reached, way: &mut Vec<WayPoint>) -> Forecast {
+        way.clear();
+        let (mut across, mut along) = (0.0_f64, 0.0_f64);
+        let (mut risk_sum, mut count) = (0.0, 0.0);
+        let mut state = reached.state;
+        while state != BEGIN {
+            let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
+            let from = self.came_from[state as usize];
+            let turned = from != BEGIN && from as usize / HEADINGS == place;
+            if !turned {
+                let offset = self.footing.offset(place);
+                risk_sum += self.footing.risk(offset, heading);
+                count += 1.0;
+                if let Some(plane) = self.footing.plane(offset) {
+                    let slopes = Slopes::facing(plane.gradient, DIRECTIONS[heading % DIRECTIONS.len()]);
+                    across = across.max(slopes.across);
+                    along = along.max(slopes.along);
+                }
+                let position_m = self.footing.position_m(offset);
+                let last_m = match from {
+                    BEGIN => self.here_m,
+                    _ => self.footing.position_m(self.footing.offset(from as usize / HEADINGS)),
+                };
+                let cost_m = f64::from(self.costs_mm[state as usize]) / MILLIMETRES;
+                let reverse = (position_m - last_m).dot(STEPS[heading].as_dvec2()) < 0.0;
+                way.push(WayPoint { position_m, cost_m, reverse });
+            }
+            state = from;
+        }
+        way.push(WayPoint { position_m: self.here_m, cost_m: 0.0, reverse: false });
+        way.reverse();
+        Forecast {
+            way_m: way.windows(2).map(|pair| (pair[1].position_m - pair[0].position_m).length()).sum(),
+            mean_risk: if count > 0.0 { risk_sum / count } else { 0.0 },
+            max_roll_rad: libm::atan(across),
+            max_pitch_rad: libm::atan(along),
+            ..Forecast::default()
+        }
+    }
+
+    /// Height of the ground at a place that was reached.
+    pub(crate) fn height_m(&self, reached: Reached) -> f64 {
+        let offset = self.footing.offset(reached.state as usize / HEADINGS);
+        self.footing.plane(offset).map_or(self.standing_height_m, |plane| plane.height_m)
+    }
+
+    /// Where to head for on a way: the farthest place before it changes between forward and reverse that costs no more to drive
+    /// to straight.
+    pub(crate) fn shortcut(&self, way: &[WayPoint]) -> WayPoint {
+        let stay = WayPoint { position_m: self.here_m, cost_m: 0.0, reverse: false };
+        let Some(&first) = way.get(1) else { return stay };
+        let blind_m = (first.position_m - self.here_m).length();
+        let leg = way[1..].iter().take_while(|point| point.reverse == first.reverse);
+        let straight = |point: &&WayPoint| self.straight_cost_m(point, blind_m) <= point.cost_m;
+        *leg.filter(straight).last().unwrap_or(&first)
+    }
+
+    /// What the straight line to a place on a way costs, given that its first part is fine; infinite where the robot may not turn
+    /// to it.
+    fn straight_cost_m(&self, point: &WayPoint, blind_m: f64) -> f64 {
+        let way = point.position_m - self.here_m;
+        let facing = if point.reverse { -way } else { way };
+        if !self.may_turn_to(facing) {
+            return f64::INFINITY;
+        }
+        let length_m = way.length();
+        let heading = nearest(facing);
+        let count = (2.0 * length_m / self.config.step_m).ceil();
+        let mut risk = 0.0;
+        for k in 1..=count as usize {
+            let share = k as f64 / count;
+            if share * length_m <= blind_m {
+                continue;
+            }
+            let at = self.footing.nearest(self.here_m + way * share);
+            risk += at.map_or(f64::INFINITY, |at| self.footing.risk(at, heading));
+        }
+        let price = if point.reverse { self.config.reverse_price } else { 1.0 };
+        price * length_m * (1.0 + self.config.tilt_price * risk / count)
+    }
+
+    /// The share of the tilt limits that the robot takes up or soon will on a way, in slope.
+    pub(crate) fn share_ahead(&self, way: &[WayPoint]) -> f64 {
+        let standing = self.standing_slopes().share_of(self.footing.limits());
+        let mut share = standing;
+        for leg in way.windows(2) {
+            let (from_m, to_m) = (leg[0].position_m, leg[1].position_m);
+            if (from_m - self.here_m).length() > AHEAD_M {
+                break;
+            }
+            // On level ground nothing is feared of what no beam reaches.
+            let blind = (to_m - from_m).length() > (LONGEST_STEP * self.config.step_m).max(JOIN_M);
+            if blind && standing > LEVEL_SHARE {
+                share = share.max(BLIND_SHARE);
+            }
+            let risk =
+                self.footing.nearest(to_m).map_or(0.0, |at| self.footing.risk(at, nearest(to_m - from_m)));
+            if risk.is_finite() {
+                share = share.max(risk.sqrt());
+            }
+        }
+        share
+    }
+
+    /// Every place that was reached, and what getting there costs.
+    pub(crate) fn reached(&self) -> impl Iterator<Item = (DVec2, f64)> {
+        self.costs_mm.chunks_exact(HEADINGS).enumerate().filter_map(|(place, costs)| {
+            let cost_mm = costs.iter().copied().min().filter(|&cost| cost != UNREACHED)?;
+            let position_m = self.footing.position_m(self.footing.offset(place));
+            Some((position_m, f64::from(cost_mm) / MILLIMETRES))
+        })
+    }
+}

@@ -1,0 +1,191 @@
+use core::f64::consts::FRAC_PI_2;
+
+use glam::{DVec2, DVec3};
+use proptest::prelude::*;
+
+use super::*;
+use crate::config::PlannerConfig;
+use crate::forecast::ReachEnd;
+
+fn ways() -> Ways {
+    let config = PlannerConfig::default();
+    Ways::new(config.forecast, &config.limits, 7.0)
+}
+
+fn pose(roll_rad: f64, pitch_rad: f64) -> Pose {
+    Pose { position_m: DVec3::ZERO, roll_rad, pitch_rad, yaw_rad: 0.0 }
+}
+
+fn plane(place_m: DVec2, gradient: DVec2) -> Option<Plane> {
+    Some(Plane { height_m: gradient.dot(place_m), gradient, gradient_deviation: 0.0 })
+}
+
+fn level(place_m: DVec2) -> Option<Plane> {
+    plane(place_m, DVec2::ZERO)
+}
+
+/// Level ground with a bank across the way, two metres ahead and four metres wide.
+fn bank(place_m: DVec2) -> Option<Plane> {
+    let on_bank = (1.9..3.1).contains(&place_m.x) && place_m.y.abs() < 2.0;
+    plane(place_m, if on_bank { DVec2::new(1.5, 0.0) } else { DVec2::ZERO })
+}
+
+#[test]
+fn on_level_ground_the_way_is_straight() {
+    let mut ways = ways();
+    ways.search(&level, &pose(0.0, 0.0));
+    let mut way = Vec::new();
+    for goal_m in [DVec2::new(6.0, 0.0), DVec2::new(0.0, -5.0), DVec2::new(-4.0, 3.0)] {
+        let forecast = ways.follow(ways.to(goal_m).unwrap(), &mut way);
+        assert!((forecast.way_m / goal_m.length() - 1.0).abs() < 0.06, "{goal_m}: {forecast:?}");
+        assert!(forecast.mean_risk < 1e-12 && way.iter().all(|point| !point.reverse));
+        assert_eq!(ways.shortcut(&way).position_m, goal_m);
+    }
+    let (reach_m, end) = ways.reach_along(DVec2::X, 7.0);
+    assert!((reach_m - 7.0).abs() < 1e-12 && end == ReachEnd::Whole);
+}
+
+#[test]
+fn a_way_leads_around_what_is_too_steep() {
+    let mut ways = ways();
+    ways.search(&bank, &pose(0.0, 0.0));
+    let beyond_m = DVec2::new(5.0, 0.0);
+    let mut way = Vec::new();
+    let forecast = ways.follow(ways.to(beyond_m).unwrap(), &mut way);
+    assert!(forecast.way_m > 6.0, "{forecast:?}");
+    for point in &way {
+        assert!(bank(point.position_m).unwrap().gradient.length() < 1e-12, "{point:?}");
+    }
+    // Not straight through the bank either.
+    assert!(ways.shortcut(&way).position_m.y.abs() > 1.0);
+    assert!(ways.to(DVec2::new(2.5, 0.0)).is_none());
+}
+
+#[test]
+fn the_reach_ends_before_what_is_steep_or_unseen_and_says_which() {
+    let mut ways = ways();
+    let wall = |place_m: DVec2| plane(place_m, DVec2::new(if place_m.x > 3.1 { 2.0 } else { 0.0 }, 0.0));
+    ways.search(&wall, &pose(0.0, 0.0));
+    let (reach_m, end) = ways.reach_along(DVec2::X, 7.0);
+    assert_eq!(end, ReachEnd::Tilt);
+    assert!((1.5..2.6).contains(&reach_m), "{reach_m}");
+    ways.clear();
+    let edge = |place_m: DVec2| level(place_m).filter(|_| place_m.x < 3.1);
+    ways.search(&edge, &pose(0.0, 0.0));
+    assert_eq!(ways.reach_along(DVec2::X, 7.0).1, ReachEnd::Unseen);
+}
+
+#[test]
+fn ground_that_no_beam_reaches_is_bridged_unless_its_ends_say_it_is_steep() {
+    let ring = |height_m: f64| {
+        move |place_m: DVec2| match place_m.length() {
+            r if r < 0.6 => level(place_m),
+            r if r < 3.0 => None,
+            _ => level(place_m).map(|plane| Plane { height_m, ..plane }),
+        }
+    };
+    let mut ways = ways();
+    ways.search(&ring(0.2), &pose(0.0, 0.0));
+    let mut way = Vec::new();
+    ways.follow(ways.to(DVec2::new(5.0, 0.0)).unwrap(), &mut way);
+    assert!(ways.share_ahead(&way) < 0.1, "level ground is not feared");
+    ways.search(&ring(0.2), &pose(0.15, 0.0));
+    ways.follow(ways.to(DVec2::new(5.0, 0.0)).unwrap(), &mut way);
+    assert!(ways.share_ahead(&way) > 0.7);
+    ways.clear();
+    ways.search(&ring(3.0), &pose(0.0, 0.0));
+    assert!(ways.to(DVec2::new(5.0, 0.0)).is_none());
+}
+
+#[test]
+fn on_a_slope_too_steep_to_turn_on_the_way_back_is_in_reverse() {
+    let steep = DVec2::new(libm::tan(0.6), 0.0);
+    let mut ways = ways();
+    ways.search(&|place_m| plane(place_m, steep), &pose(0.0, 0.6));
+    assert!(!ways.may_turn_around());
+    let mut way = Vec::new();
+    ways.follow(ways.to(DVec2::new(-4.0, 0.0)).unwrap(), &mut way);
+    assert!(way[1..].iter().all(|point| point.reverse));
+    let ahead = ways.shortcut(&way);
+    assert!(ahead.reverse && ahead.position_m.x < -2.0);
+}
+
+#[test]
+fn a_robot_that_stands_steeper_than_told_goes_back_and_does_not_try_again() {
+    let mut ways = ways();
+    let mut way = Vec::new();
+    let goal_m = DVec2::new(4.0, 0.0);
+    ways.search(&level, &pose(0.0, 0.0));
+    ways.follow(ways.to(goal_m).unwrap(), &mut way);
+    let ahead = ways.shortcut(&way);
+    ways.drive(Some(&ahead));
+    // The map says level, the robot feels 42°.
+    ways.search(&level, &pose(0.0, 0.73));
+    ways.search_escape();
+    ways.follow(ways.to(goal_m).unwrap(), &mut way);
+    assert!(way[1].reverse, "{way:?}");
+    let ahead = ways.shortcut(&way);
+    ways.drive(Some(&ahead));
+    // Back on gentle ground it leaves aside what it met.
+    ways.search(&level, &Pose { position_m: DVec3::new(-1.0, 0.0, 0.0), ..pose(0.0, 0.0) });
+    ways.follow(ways.to(goal_m).unwrap(), &mut way);
+    let barred_m = DVec2::new(0.5, 0.0);
+    assert!(way.iter().all(|point| (point.position_m - barred_m).length() > 0.55), "{way:?}");
+}
+
+#[test]
+fn what_costs_a_change_is_not_done_for_less() {
+    // Either side of a narrow obstacle costs the same; the second search keeps to the side of the first.
+    let post = |place_m: DVec2| {
+        plane(
+            place_m,
+            DVec2::new(if (place_m - DVec2::new(3.0, 0.0)).length() < 0.8 { 2.0 } else { 0.0 }, 0.0),
+        )
+    };
+    let mut ways = ways();
+    let mut way = Vec::new();
+    let mut sides = [0.0; 2];
+    for side in &mut sides {
+        ways.search(&post, &pose(0.0, 0.0));
+        ways.follow(ways.to(DVec2::new(6.0, 0.0)).unwrap(), &mut way);
+        let ahead = ways.shortcut(&way);
+        ways.drive(Some(&ahead));
+        *side = ahead.position_m.y.signum();
+    }
+    assert!(sides[0] * sides[1] > 0.0);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    /// Whatever the ground, no way leads over a place or along a heading that is not safe.
+    #[test]
+    fn every_way_keeps_its_margin(
+        waves in prop::collection::vec((-0.9..0.9_f64, -0.9..0.9_f64, 0.0..6.3_f64), 3),
+        bearing in 0.0..6.3_f64,
+    ) {
+        let gradient = |place_m: DVec2| waves.iter().fold(DVec2::ZERO, |sum, &(kx, ky, phase)| {
+            let slope = libm::cos(kx * place_m.x + ky * place_m.y + phase) - libm::cos(phase);
+            sum + DVec2::new(kx, ky) * slope
+        });
+        let ground = |place_m: DVec2| {
+            let height_m = waves.iter().fold(0.0, |sum, &(kx, ky, phase)| {
+                let along = kx * place_m.x + ky * place_m.y;
+                sum + libm::sin(along + phase) - libm::sin(phase) - along * libm::cos(phase)
+            });
+            Some(Plane { height_m, gradient: gradient(place_m), gradient_deviation: 0.0 })
+        };
+        let mut ways = ways();
+        ways.search(&ground, &pose(0.0, 0.0));
+        let (sin, cos) = libm::sincos(bearing);
+        let Some(reached) = ways.to(DVec2::new(cos, sin) * 6.0) else { return Ok(()) };
+        let mut way = Vec::new();
+        let forecast = ways.follow(reached, &mut way);
+        let margin_rad = PlannerConfig::default().forecast.tilt_margin_rad;
+        let limits = PlannerConfig::default().limits;
+        prop_assert!(forecast.max_roll_rad <= limits.roll_rad - margin_rad + 1e-6, "{forecast:?}");
+        prop_assert!(forecast.max_pitch_rad <= limits.pitch_rad - margin_rad + 1e-6, "{forecast:?}");
+        prop_assert!(forecast.max_roll_rad < FRAC_PI_2 && forecast.way_m >= 5.0);
+        prop_assert!(way.windows(2).all(|pair| pair[1].cost_m > pair[0].cost_m));
+    }
+}
