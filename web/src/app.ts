@@ -19,7 +19,6 @@ import type {
 import { RunRecord } from './core/record.ts';
 import { Seeker } from './core/seeker.ts';
 import { HeightField } from './scene/heightfield.ts';
-import type { Tool } from './scene/tools.ts';
 import { SPEEDS } from './ui/controls.ts';
 import { Lingering } from './ui/lingering.ts';
 import { Workbench } from './workbench.ts';
@@ -36,7 +35,6 @@ export interface Views {
   sculpted(): void;
   playing(playing: boolean): void;
   speed(speed: number): void;
-  tool(tool: Tool): void;
   /** Seconds until the next scenario starts by itself, or nothing. */
   countdown(seconds: number | undefined): void;
   /** The experiment, or what can be undone, has changed. */

@@ -131,7 +131,6 @@ const app = new App({
     controls.showSpeed(speed);
     stage?.speed(speed);
   },
-  tool: (tool) => controls.showTool(tool),
   countdown(seconds) {
     setText(element('countdown'), seconds === undefined ? '' : `in ${seconds} s`);
   },
