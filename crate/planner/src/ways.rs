@@ -3,7 +3,7 @@
 //!
 //! Safety is the paper's: |roll| and |pitch| inside the robot's limits. The paper judges a subgoal by its height at
 //! r_oc alone; this looks at the way there. Places half a metre apart and sixteen headings make a graph; a step is a drive
-//! along a heading or a turn to the next, each within a share of the limits with a margin for what is uncertain. Its cost is
+//! along a heading, forward or in reverse, or a turn to the next, each a margin inside the limits with what is uncertain. Its cost is
 //! its length and the tilt along it.
 
 mod begin;
@@ -87,13 +87,10 @@ pub struct WayPoint {
     pub reverse: bool,
 }
 
-/// A place that the robot can reach.
+/// A place that the robot can reach, by its state in the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reached {
-    /// Its state in the search.
     state: u32,
-    /// What getting there costs, metres of level ground.
-    pub(crate) cost_m: f64,
 }
 
 impl Ways {

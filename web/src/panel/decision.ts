@@ -38,7 +38,9 @@ export class DecisionPanel {
   session({ preset }: SessionInfo): void {
     const terms = preset === 'paper' ? TERMS.slice(0, PAPER_TERMS) : TERMS;
     this.#legend.replaceChildren(
-      ...terms.map((name, index) => html('li', `legend-item term-${index % 6}`, [html('i', 'legend-key'), name])),
+      ...terms.map((name, index) =>
+        html('li', `legend-item term-${index % 6}`, [html('i', 'legend-key'), name.replace('_', ' ')]),
+      ),
     );
     this.#lines = Array.from({ length: SHOWN }, () => newLine(terms.length));
     this.#list.replaceChildren(...this.#lines.map(({ row }) => html('li', '', [row])));

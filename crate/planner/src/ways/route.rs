@@ -21,9 +21,7 @@ impl Ways {
         let place = self.footing.index(self.footing.nearest(point_m)?);
         let states = place * HEADINGS..(place + 1) * HEADINGS;
         let state = states.min_by_key(|&state| self.costs_mm[state])?;
-        let cost_mm = self.costs_mm[state];
-        let cost_m = f64::from(cost_mm) / MILLIMETRES;
-        (cost_mm != UNREACHED).then_some(Reached { state: state as u32, cost_m })
+        (self.costs_mm[state] != UNREACHED).then_some(Reached { state: state as u32 })
     }
 
     /// How far one can get along the straight line from the robot in a direction, up to `length_m`, whatever the way there.
