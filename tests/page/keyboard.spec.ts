@@ -1,6 +1,8 @@
 import { expect, state, test, until } from './page.ts';
 
 test('everything runs by keyboard', async ({ mapless: page }) => {
+  // Far enough from the start that a restart shows.
+  await until(page, (now) => now.tick > 20);
   await page.keyboard.press('Space');
   await until(page, (now) => !now.playing);
   await expect(page.locator('#outcome')).toHaveText('Paused');
@@ -62,7 +64,7 @@ test('the ground is reached by keyboard too: a goal and a hill', async ({ maples
 
 test('every control can be reached and has a name', async ({ mapless: page }) => {
   const nameless = await page.evaluate(() =>
-    [...document.querySelectorAll<HTMLElement>('button, select, input, [tabindex]')]
+    [...document.querySelectorAll<HTMLElement>(':is(button, select, input, [tabindex]):not([hidden], :disabled)')]
       .filter(
         (one) =>
           !one.hasAttribute('aria-label') && !(one as HTMLInputElement).labels?.length && !one.textContent?.trim(),

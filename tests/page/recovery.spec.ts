@@ -1,8 +1,8 @@
 import { test as plain } from '@playwright/test';
 import { expect, loaded, state, test, until } from './page.ts';
 
-// A small view leaves a processor without graphics card its time.
-for (const one of [plain, test]) one.use({ viewport: { width: 720, height: 560 } });
+// A small view leaves a processor without graphics card its time. What these tests replace must come from the server.
+for (const one of [plain, test]) one.use({ viewport: { width: 720, height: 560 }, serviceWorkers: 'block' });
 
 plain('a panic loses neither the ground, the start nor the goal', async ({ page }) => {
   plain.setTimeout(300_000);

@@ -1,6 +1,9 @@
 import { test as plain } from '@playwright/test';
 import { colours, expect, loaded, state, test, until } from './page.ts';
 
+// What these tests replace must come from the server, not from what the page keeps.
+for (const one of [plain, test]) one.use({ serviceWorkers: 'block' });
+
 test('an unknown scenario is named in the message, and the old one goes on', async ({ mapless: page }) => {
   const message = await page.evaluate(() => window.mapless?.loadScenario('atlantis').catch((error) => error.message));
   expect(message).toContain('atlantis');

@@ -19,6 +19,18 @@ test('a record keeps every tick while it grows', () => {
   assert.equal(record.cut, false);
 });
 
+test('a copy stays as it was while the record goes on', () => {
+  const record = new RunRecord();
+  record.add(rows(0, 100));
+  const copy = record.copy();
+  record.end(50);
+  record.add(rows(50, 120, 9));
+  assert.equal(copy.length, 100);
+  assert.equal(copy.get(60, 'x'), 0);
+  copy.add(rows(100, 2000));
+  assert.equal(copy.length, 2000);
+});
+
 test('what is run again leaves the rest as it was, until the run goes another way', () => {
   const record = new RunRecord();
   record.add(rows(0, 100));

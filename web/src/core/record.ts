@@ -49,6 +49,15 @@ export class RunRecord {
     return this.#dropped;
   }
 
+  /** The record as it is now. */
+  copy(): RunRecord {
+    const copy = new RunRecord();
+    copy.#values = this.#values.slice();
+    copy.#rows = this.#rows;
+    copy.#dropped = this.#dropped;
+    return copy;
+  }
+
   /** Takes whole rows. A tick that the record already has was run again, which gives the same values. */
   add(rows: Float64Array): void {
     if (rows.length % STRIDE !== 0) throw new Error(`A record of ${rows.length} values was sent in rows of ${STRIDE}.`);

@@ -52,7 +52,7 @@ export async function mcapFile(run: Run): Promise<Blob> {
     pose: { position: { x: 0, y: 0, z: 0 }, orientation: LEVEL },
     point_stride: 12,
     fields: ['x', 'y', 'z'].map((name, index) => ({ name, offset: 4 * index, type: FLOAT32 })),
-    data: base64(frame.buffers.points.subarray(0, 3 * frame.returns)),
+    data: base64(run.points),
   });
   const { scenario, preset, learning, seed } = info;
   const { outcome, digest } = frame;

@@ -3,11 +3,14 @@
 import type { Frame, SessionInfo } from '../core/protocol.ts';
 import type { RunRecord } from '../core/record.ts';
 
+/** A run as it was at one moment: its files take a while to write, and meanwhile it goes on. */
 export interface Run {
   readonly info: SessionInfo;
   /** Where the run stands now: files end there, though the record may know what comes next. */
   readonly frame: Frame;
   readonly record: RunRecord;
+  /** World-frame x, y, z of the newest scan's returns: those of the frame go back to the worker. */
+  readonly points: Float32Array;
 }
 
 /** The trajectory with the columns of `mapless run --out`. The last line is where the robot stands. */

@@ -3,6 +3,7 @@
 import type { Frame, SessionInfo } from '../core/protocol.ts';
 import type { RunRecord } from '../core/record.ts';
 import type { Drawn } from '../keep/film.ts';
+import type { Run } from '../keep/run.ts';
 import { TakeAway } from '../keep/takeAway.ts';
 import { byId, setText } from '../ui/dom.ts';
 import { MetricsPanel } from './metrics.ts';
@@ -52,9 +53,10 @@ export class Measure {
     this.#plots.update(frame);
   }
 
-  #run() {
+  #run(): Run | undefined {
     const [info, frame] = [this.#info, this.#frame];
-    return info && frame ? { info, frame, record: this.#record } : undefined;
+    if (!info || !frame) return undefined;
+    return { info, frame, record: this.#record.copy(), points: frame.buffers.points.slice(0, 3 * frame.returns) };
   }
 
   /** The plots move into a sheet of the whole window, and back. */

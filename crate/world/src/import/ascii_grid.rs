@@ -22,9 +22,7 @@ pub(super) fn read(bytes: &[u8], cell_m: Option<f64>) -> Result<HeightField, Ter
     let text = std::str::from_utf8(bytes).map_err(|error| TerrainFault::damaged(FORMAT, error))?;
     let mut lines = text.lines().enumerate().peekable();
     let mut header = Header::default();
-    while let Some((index, line)) = lines.next_if(|(_, line)| {
-        line.trim_start().starts_with(|c: char| c.is_ascii_alphabetic()) || line.trim().is_empty()
-    }) {
+    while let Some((index, line)) = lines.next_if(|(_, line)| belongs_to_header(line)) {
         header.take(index + 1, line)?;
     }
     let missing = |key: &str| TerrainFault::damaged(FORMAT, format!("the header has no {key}"));
@@ -67,13 +65,21 @@ pub(super) fn read(bytes: &[u8], cell_m: Option<f64>) -> Result<HeightField, Ter
     Ok(HeightField::new(columns, rows, cell_m, heights_m)?)
 }
 
+/// Whether a line begins with a word. `nan` and `inf` are numbers, though not heights.
+fn belongs_to_header(line: &str) -> bool {
+    let first = line.split_ascii_whitespace().next();
+    first.is_none_or(|token| {
+        token.starts_with(|c: char| c.is_ascii_alphabetic()) && token.parse::<f64>().is_err()
+    })
+}
+
 impl Header {
     /// Takes one line of the header.
     fn take(&mut self, number: usize, line: &str) -> Result<(), TerrainFault> {
         let mut tokens = line.split_ascii_whitespace();
         let Some(key) = tokens.next() else { return Ok(()) };
         let (Some(value), None) = (tokens.next(), tokens.next()) else {
-            return Err(TerrainFault::value(format!("line {number}"), line.trim(), "a key and one value"));
+            return Err(TerrainFault::value(format!("line {number}"), key, "a key and one value"));
         };
         let place = || format!("line {number}, {key}");
         let count = || value.parse().map_err(|_| TerrainFault::value(place(), value, "a whole number"));
@@ -133,6 +139,11 @@ mod tests {
             fault(&format!("{head}1 2 3 nan"))
                 .starts_with("line 5, row 2, column 2 = nan: expected a height")
         );
+        assert!(
+            fault(&format!("{head}nan 2 3 4"))
+                .starts_with("line 5, row 1, column 1 = nan: expected a height")
+        );
+        assert_eq!(fault("ncols 2 3\n"), "line 1 = ncols: expected a key and one value");
         assert_eq!(
             fault(&format!("{head}1 2 3")),
             "not a valid ESRI ASCII grid file: it ends after 3 of 4 heights"
