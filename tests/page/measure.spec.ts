@@ -173,6 +173,8 @@ test('the digest goes to the clipboard, the paper’s numbers stand beside the r
   await expect(page.locator('#metrics')).toContainText('paper 84.5 ± 2.3');
   await page.evaluate(() => window.mapless?.loadScenario('gsb'));
   await expect(page.locator('#metrics')).not.toContainText('paper');
+  await page.evaluate(() => window.mapless?.step());
+  await expect(page.locator('#tick-ms')).toHaveText(/\d/);
   const parts = await page.locator('#scan-ms, #planner-ms, #motion-ms').allTextContents();
   const sum = parts.map((text) => Number.parseFloat(text)).reduce((total, part) => total + part, 0);
   expect(Math.abs(sum - Number.parseFloat((await page.locator('#tick-ms').textContent()) ?? ''))).toBeLessThan(0.3);

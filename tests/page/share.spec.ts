@@ -53,6 +53,7 @@ test('a link drives the same run in another profile, and so does the command lin
   await shape(page);
   const run = await runToEnd(page);
   await page.getByRole('button', { name: 'Share and save' }).click();
+  await expect(page.locator('#link')).toHaveValue(/#e=./);
   const link = await page.locator('#link').inputValue();
   expect(link.length).toBeLessThan(700);
   const [zipped] = await Promise.all([page.waitForEvent('download'), page.locator('#save-scenario').click()]);

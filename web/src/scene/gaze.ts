@@ -25,6 +25,8 @@ export class Gaze {
   #turn_rad = 0;
   #tilt_rad = 0;
   #fov_deg = FIRST_DEG;
+  /** Where the robot is and its sensor: also while it stands, the gaze turns. */
+  #place: { readonly pose: Pose; readonly sensor: Vector } | undefined;
 
   constructor(canvas: HTMLCanvasElement, camera: PerspectiveCamera, changed: () => void) {
     this.#camera = camera;
@@ -66,11 +68,19 @@ export class Gaze {
     this.#turn_rad += turn_rad;
     this.#tilt_rad = MathUtils.clamp(this.#tilt_rad + tilt_rad, -STEEPEST_RAD, STEEPEST_RAD);
     this.#fov_deg = MathUtils.clamp(this.#fov_deg * zoom, NARROWEST_DEG, WIDEST_DEG);
+    this.#look();
     this.#changed();
   }
 
   /** Puts the camera where the sensor is. */
   stand(pose: Pose, sensor: Vector): void {
+    this.#place = { pose, sensor };
+    this.#look();
+  }
+
+  #look(): void {
+    if (!this.#place) return;
+    const { pose, sensor } = this.#place;
     // The horizon stays level where moving pictures are unwelcome.
     const [roll, pitch] = this.#reduced.matches ? [0, 0] : [pose.roll, pose.pitch];
     const body = new Quaternion().setFromEuler(new Euler(roll, -pitch, pose.yaw, 'ZYX'));
