@@ -126,8 +126,8 @@ export class CompareTab implements Tab {
     if (message.type === 'ghost') {
       const { planner } = message.result;
       const run = this.#runs.get(planner);
-      if (run) run.extend(message.poses, message.result);
-      else this.#enter(planner, new GhostRun(message.poses, message.result));
+      if (run) run.extend(message.rows, message.result);
+      else this.#enter(planner, new GhostRun(message.rows, message.result));
       this.#show();
     } else if (message.type === 'refused' || message.type === 'failed') {
       setText(this.#fault, message.message);
@@ -157,9 +157,10 @@ export class CompareTab implements Tab {
     const running = this.#running();
     // Once the page's robot has ended, those that are still on their way are shown as far as they are.
     const ended = frame.outcome !== 'running';
-    this.#ghosts.show(running.map(([, run]) => (ended ? run.lastTick : Math.min(frame.tick, run.lastTick))));
+    const shown = ({ lastTick }: GhostRun) => (ended ? lastTick : Math.min(frame.tick, lastTick));
+    this.#ghosts.show(running.map(([, run]) => shown(run)));
     this.#stage?.invalidate();
     if (!this.element.hidden)
-      this.#table.show(frame, new Map(running.map(([rival, run]) => [rival.planner, run.result])));
+      this.#table.show(frame, new Map(running.map(([rival, run]) => [rival.planner, run.at(shown(run))])));
   }
 }

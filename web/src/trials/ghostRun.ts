@@ -1,18 +1,20 @@
-/** What is known of one ghost: its poses by tick and how it stands. */
+/** What is known of one ghost: its rows by tick and how it stands. */
 
+import { named } from '../core/decode.ts';
 import type { Pose } from '../core/protocol.ts';
-import { POSE_STRIDE, type TrialResult } from './protocol.ts';
+import { ROW, type Row, standing, type TrialResult } from './protocol.ts';
 
+const STRIDE = ROW.length;
 const FIRST_TICKS = 512;
 
 export class GhostRun {
-  result: TrialResult;
-  #poses = new Float32Array(POSE_STRIDE * FIRST_TICKS);
+  #result: TrialResult;
+  #rows = new Float64Array(STRIDE * FIRST_TICKS);
   #ticks = 0;
 
-  constructor(poses: Float32Array, result: TrialResult) {
-    this.result = result;
-    this.extend(poses, result);
+  constructor(rows: Float64Array, result: TrialResult) {
+    this.#result = result;
+    this.extend(rows, result);
   }
 
   /** The newest tick; 0 is the start. */
@@ -20,24 +22,31 @@ export class GhostRun {
     return this.#ticks - 1;
   }
 
-  extend(poses: Float32Array, result: TrialResult): void {
-    const needed = POSE_STRIDE * this.#ticks + poses.length;
-    if (needed > this.#poses.length) {
-      const larger = new Float32Array(Math.max(needed, 2 * this.#poses.length));
-      larger.set(this.#poses);
-      this.#poses = larger;
+  extend(rows: Float64Array, result: TrialResult): void {
+    const needed = STRIDE * this.#ticks + rows.length;
+    if (needed > this.#rows.length) {
+      const larger = new Float64Array(Math.max(needed, 2 * this.#rows.length));
+      larger.set(this.#rows);
+      this.#rows = larger;
     }
-    this.#poses.set(poses, POSE_STRIDE * this.#ticks);
-    this.#ticks += poses.length / POSE_STRIDE;
-    this.result = result;
+    this.#rows.set(rows, STRIDE * this.#ticks);
+    this.#ticks += rows.length / STRIDE;
+    this.#result = result;
   }
 
   pose(tick: number): Pose | undefined {
     if (tick < 0 || tick > this.lastTick) return undefined;
-    const [x = 0, y = 0, z = 0, roll = 0, pitch = 0, yaw = 0] = this.#poses.subarray(
-      POSE_STRIDE * tick,
-      POSE_STRIDE * (tick + 1),
-    );
+    const { x, y, z, roll, pitch, yaw } = this.#row(tick);
     return { x, y, z, roll, pitch, yaw };
+  }
+
+  /** How it stood at a tick, or stands now where that is later. */
+  at(tick: number): TrialResult {
+    if (tick >= this.lastTick) return this.#result;
+    return { ...this.#result, outcome: 'running', ...standing(this.#row(tick)) };
+  }
+
+  #row(tick: number): Row {
+    return named(ROW, this.#rows.subarray(STRIDE * tick, STRIDE * (tick + 1)));
   }
 }

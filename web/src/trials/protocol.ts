@@ -31,8 +31,33 @@ export type Job =
 
 export type ToTrials = Job | { type: 'until'; tick: number };
 
-/** Numbers in one row of `poses`: x, y, z, roll, pitch, yaw. */
-export const POSE_STRIDE = 6;
+/** What is known of a trial at one tick, in the order of `WasmRunner.status`. */
+export const ROW = [
+  'tick',
+  'time_s',
+  'x',
+  'y',
+  'z',
+  'roll',
+  'pitch',
+  'yaw',
+  'distance_m',
+  'max_abs_roll_rad',
+  'max_abs_pitch_rad',
+  'mean_vibration_rad_s',
+  'mean_elevation_rate_cm_s',
+  'curvature_change_rad_m',
+] as const;
+
+export type Row = Readonly<Record<(typeof ROW)[number], number>>;
+
+export const METRICS = ROW.slice(ROW.indexOf('distance_m')) as (keyof Metrics)[];
+
+/** How a trial stands by its row. */
+export function standing(row: Row): Pick<TrialResult, 'tick' | 'time_s' | 'metrics'> {
+  const metrics = Object.fromEntries(METRICS.map((key) => [key, row[key]])) as unknown as Metrics;
+  return { tick: row.tick, time_s: row.time_s, metrics };
+}
 
 /** Mean and standard deviation over the trials that reached the goal; NaN where there is none. */
 export interface Summary {
@@ -45,8 +70,8 @@ export interface Summary {
 }
 
 export type FromTrials =
-  /** A ghost's poses since the message before, one row for each tick. */
-  | { type: 'ghost'; poses: Float32Array<ArrayBuffer>; result: TrialResult }
+  /** A ghost's rows since the message before, and how it stands now. */
+  | { type: 'ghost'; rows: Float64Array<ArrayBuffer>; result: TrialResult }
   | { type: 'trial'; result: TrialResult; summary: Summary }
   /** A planner that cannot drive this course. */
   | { type: 'refused'; planner: string; message: string }

@@ -4,28 +4,8 @@ import { named } from '../core/decode.ts';
 import { sectionsOf, withOverride } from '../core/overrides.ts';
 import type { Metrics, Outcome } from '../core/protocol.ts';
 import { scenarioFile } from '../core/toml.ts';
-import type { Course, Summary, TrialResult } from './protocol.ts';
+import { type Course, METRICS, ROW, type Summary, standing, type TrialResult } from './protocol.ts';
 import type { TrialsModule, WasmGround, WasmRunner } from './wasm.ts';
-
-/** Order of the scalars in `WasmRunner.status`. */
-export const RUNNER_STATUS = [
-  'tick',
-  'time_s',
-  'x',
-  'y',
-  'z',
-  'roll',
-  'pitch',
-  'yaw',
-  'distance_m',
-  'max_abs_roll_rad',
-  'max_abs_pitch_rad',
-  'mean_vibration_rad_s',
-  'mean_elevation_rate_cm_s',
-  'curvature_change_rad_m',
-] as const;
-
-const METRICS = RUNNER_STATUS.slice(RUNNER_STATUS.indexOf('distance_m')) as (keyof Metrics)[];
 
 export class Runner {
   readonly planner: string;
@@ -43,25 +23,17 @@ export class Runner {
     this.running = this.#wasm.tick();
   }
 
-  get status() {
-    return named(RUNNER_STATUS, this.#wasm.status());
-  }
-
-  /** x, y, z, roll, pitch, yaw. */
-  get pose(): number[] {
-    const { x, y, z, roll, pitch, yaw } = this.status;
-    return [x, y, z, roll, pitch, yaw];
+  /** The values of `ROW`, now. */
+  get row(): Float64Array {
+    return this.#wasm.status();
   }
 
   get result(): TrialResult {
-    const { status } = this;
     return {
       planner: this.planner,
       seed: this.#seed,
       outcome: this.#wasm.outcome() as Outcome,
-      tick: status.tick,
-      time_s: status.time_s,
-      metrics: Object.fromEntries(METRICS.map((key) => [key, status[key]])) as unknown as Metrics,
+      ...standing(named(ROW, this.row)),
       digest: this.#wasm.digest(),
     };
   }

@@ -32,7 +32,7 @@ async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' 
     try {
       const runner = garage.runner(planner, seed);
       running.push({ runner, tick: 0 });
-      post({ type: 'ghost', poses: new Float32Array(runner.pose), result: runner.result });
+      post({ type: 'ghost', rows: new Float64Array(runner.row), result: runner.result });
     } catch (error) {
       if (error instanceof WebAssembly.RuntimeError) throw error;
       post({ type: 'refused', planner, message: words(error) });
@@ -49,13 +49,13 @@ async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' 
       continue;
     }
     const began_ms = performance.now();
-    const poses: number[] = [];
+    const rows: number[] = [];
     while (next.runner.running && next.tick < until && performance.now() - began_ms < SLICE_MS) {
       next.runner.tick();
       next.tick += 1;
-      poses.push(...next.runner.pose);
+      rows.push(...next.runner.row);
     }
-    post({ type: 'ghost', poses: new Float32Array(poses), result: next.runner.result });
+    post({ type: 'ghost', rows: new Float64Array(rows), result: next.runner.result });
     running = running.filter(({ runner }) => runner.running);
     await rest();
   }
