@@ -11,7 +11,7 @@ import {
 } from './protocol.ts';
 import { Session } from './session.ts';
 import { Trail } from './trail.ts';
-import { type CoreModule, loadCore, panicMessage } from './wasm.ts';
+import { loadCore, panicMessage } from './wasm.ts';
 
 /** Frames that the page may have at once, the one it shows among them; while it is slower, frames are skipped. */
 const FRAMES_IN_FLIGHT = 3;
@@ -24,7 +24,9 @@ const SURFACE_INTERVAL_MS = 80;
 /** Part of the time that predicting surfaces may take while the robot drives. */
 const SURFACE_DUTY = 0.25;
 
-let core: CoreModule | undefined;
+/** Begun at once: it compiles while the page builds its view. Who needs it hears if that fails. */
+const loading = loadCore();
+loading.catch(() => undefined);
 let session: Session | undefined;
 let playing = false;
 let hidden = false;
@@ -188,7 +190,7 @@ function showPatch(patch: GroundPatch): void {
 /** Returns what the request is answered with. */
 async function carryOut(command: Command, id: number): Promise<unknown> {
   if (command.type === 'load') {
-    core ??= await loadCore();
+    const core = await loading;
     const experiment = await experimentFrom(core, command.source);
     const opened = await Session.open(core, experiment);
     session?.free();
@@ -204,12 +206,10 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
     return;
   }
   if (command.type === 'preview') {
-    core ??= await loadCore();
-    return preview(core, command.terrain);
+    return preview(await loading, command.terrain);
   }
   if (command.type === 'export') {
-    core ??= await loadCore();
-    return filesOf(core, command.experiment);
+    return filesOf(await loading, command.experiment);
   }
   if (command.type === 'hidden') {
     hidden = command.hidden;

@@ -284,10 +284,11 @@ export class Stage {
     requestAnimationFrame((next_ms) => this.#loop(next_ms));
     this.#viewpoint.update();
     this.#moveRobot();
-    if (!this.#pacer.due(now_ms) || !this.#dirty) return;
+    // Without ground there is nothing to see yet, and the first picture is dear: its shaders are compiled for it.
+    if (!this.field || !this.#pacer.due(now_ms) || !this.#dirty) return;
     this.#dirty = false;
     const { camera } = this.#viewpoint;
-    if (this.field) this.#viewpoint.clear(this.field);
+    this.#viewpoint.clear(this.field);
     this.#subgoals.attach(this.#sensor, camera.position);
     this.#places.face(camera.position);
     this.#waypoints.face(camera.position);
