@@ -63,7 +63,7 @@ test('each layer changes the view, and back', async ({ mapless: page }) => {
   await expect(panel).toBeVisible();
   await page.waitForTimeout(900);
   const plain = await picture(page);
-  for (const name of ['Observed', 'Reconstructed', 'Variance', 'Segments', 'Ways']) {
+  for (const name of ['Observed', 'Reconstructed', 'Variance', 'Segments', 'Subgoals']) {
     const box = panel.getByRole('checkbox', { name: new RegExp(name) });
     await box.check();
     await page.waitForTimeout(600);

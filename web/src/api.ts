@@ -11,7 +11,7 @@ import type { Frame, Heading, Place, SessionInfo, Setting } from './core/protoco
 import { readExperiment, readStroke } from './core/readExperiment.ts';
 
 /** Arrays and what only drawing needs stay out. */
-type Drawn = 'buffers' | 'path' | 'rows' | 'anew' | 'ahead' | 'world_from_sensor' | 'segments' | 'subgoals';
+type Drawn = 'buffers' | 'path' | 'rows' | 'anew' | 'ahead' | 'way' | 'world_from_sensor' | 'segments' | 'subgoals';
 
 /** What the page shows, as plain data. */
 export type MaplessState = Omit<Frame, Drawn> &

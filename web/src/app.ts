@@ -107,6 +107,7 @@ export class App {
       rows: _rows,
       anew: _anew,
       ahead: _ahead,
+      way: _way,
       world_from_sensor: _sensor,
       segments,
       subgoals,

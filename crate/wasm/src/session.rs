@@ -57,11 +57,16 @@ impl Moment {
 
 #[wasm_bindgen]
 impl Session {
-    /// Loads a scenario. `imported` is the file that the terrain's recipe imports, empty when it imports none. `learning` is `fixed`, `once` or `every_scan`; without it, or a `seed`, it is the scenario's own.
+    /// Loads a scenario. `imported` is the file that the terrain's recipe imports, empty when it imports none. `learning` is
+    /// `fixed`, `once` or `every_scan`; without it, or a `seed`, it is the scenario's own.
     ///
     /// # Errors
     /// A fault in one of the files, or an unknown preset or mode of learning, with place, value and expectation.
     #[wasm_bindgen(constructor)]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "JavaScript hands over plain values: two files, what one imports, and settings"
+    )]
     pub fn new(
         scenario_file: &str,
         scenario_toml: &str,
@@ -410,6 +415,15 @@ impl Session {
     /// height, width; verdict (0 valid, 1 too narrow, 2 too steep, 3 unknown, 4 wall). What is unknown is NaN.
     pub fn segments(&self) -> Vec<f64> {
         self.now.trial.step().segments.iter().flat_map(encode::segment).collect()
+    }
+
+    /// The way to the chosen subgoal, from where the robot stands: world x, y and whether in reverse (0 or 1) for each place.
+    /// Empty without one, and where subgoals are judged by the paper's height alone.
+    pub fn way(&self) -> Vec<f64> {
+        let places = self.now.trial.step().way.iter();
+        places
+            .flat_map(|one| [one.position_m.x, one.position_m.y, f64::from(u8::from(one.reverse))])
+            .collect()
     }
 
     /// Eighteen numbers for each subgoal: azimuth and elevation in the sensor frame; world x, y, z; chosen (0 or 1); refusal

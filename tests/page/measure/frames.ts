@@ -52,7 +52,7 @@ async function showEverything(page: Page): Promise<void> {
   await page.waitForFunction(() => (window.mapless?.state()?.tick ?? 0) > 5);
   await page.keyboard.press('x');
   for (const box of await page.locator('#layers').getByRole('checkbox').all()) await box.check();
-  await page.locator('#layers').getByRole('combobox').selectOption('ring');
+  await page.locator('#layers').getByRole('combobox', { name: 'Point cloud by' }).selectOption('ring');
   await page.keyboard.press('Escape');
   await page.keyboard.press('v');
 }

@@ -220,6 +220,8 @@ export interface Frame {
   readonly threshold: number;
   readonly segments: readonly Segment[];
   readonly subgoals: readonly Subgoal[];
+  /** The way to the chosen one, from where the robot stands: x, y and whether in reverse (0 or 1) for each place; may be empty. */
+  readonly way: Float64Array;
   readonly metrics: Metrics;
   /** Duration of the planner's last step. */
   readonly planner_ms: number;

@@ -210,6 +210,7 @@ export class Session {
       threshold: status.threshold,
       segments: decided ? decodeSegments(core.segments()) : [],
       subgoals: decided ? decodeSubgoals(core.subgoals()) : [],
+      way: decided ? core.way() : new Float64Array(),
       metrics: {
         distance_m: status.distance_m,
         max_abs_roll_rad: status.max_abs_roll_rad,

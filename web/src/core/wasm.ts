@@ -52,6 +52,8 @@ export interface CoreSession {
   kinds(out: Uint8Array): void;
   /** Six numbers for each segment. */
   segments(): Float64Array;
+  /** x, y and whether in reverse for each place on the way to the chosen subgoal. */
+  way(): Float64Array;
   /** Thirteen numbers and then one for each cost term, for each subgoal. */
   subgoals(): Float64Array;
 }

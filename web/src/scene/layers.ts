@@ -15,8 +15,8 @@ export interface Layers {
   readonly variance: boolean;
   readonly segments: boolean;
   readonly subgoals: boolean;
-  /** The straight ways to the subgoals, as far as the forecast reaches. */
-  readonly ways: boolean;
+  /** The way to the chosen subgoal. */
+  readonly way: boolean;
 }
 
 export const FIRST_LAYERS: Layers = {
@@ -26,7 +26,7 @@ export const FIRST_LAYERS: Layers = {
   variance: false,
   segments: false,
   subgoals: true,
-  ways: false,
+  way: true,
 };
 
 /** Whether the layers need the surfaces that the worker predicts on demand. */

@@ -1,8 +1,7 @@
-/** Segments as arcs at the radius where subgoals lie, and the straight ways to the subgoals on the ground. */
+/** Segments as arcs at the radius where subgoals lie, and the way to the chosen subgoal on the ground. */
 
 import { Color, Group } from 'three';
 import type { Frame, Segment } from '../core/protocol.ts';
-import { costColours } from '../ui/costColours.ts';
 import type { Theme } from '../ui/theme.ts';
 import type { Layers } from './layers.ts';
 import { colour } from './relief.ts';
@@ -12,20 +11,18 @@ import { MARKS_ORDER } from './subgoals.ts';
 type Height = (x: number, y: number) => number;
 
 const ARC_STEP_RAD = Math.PI / 90;
-const WAY_STEP_M = 0.5;
 const LIFT_M = 0.06;
-const REFUSED = new Color(0x7d8590);
 
 export class Ways {
   readonly group = new Group();
   readonly #segments = new Strokes(512, 4);
-  readonly #ways = new Strokes(2048, 2, 0.9);
+  readonly #way = new Strokes(512, 4);
   #valid = new Color();
   #refused = new Color();
 
   constructor(theme: Theme) {
-    this.group.add(this.#segments.line, this.#ways.line);
-    for (const { line } of [this.#segments, this.#ways]) line.renderOrder = MARKS_ORDER;
+    this.group.add(this.#segments.line, this.#way.line);
+    for (const { line } of [this.#segments, this.#way]) line.renderOrder = MARKS_ORDER;
     this.theme(theme);
   }
 
@@ -34,14 +31,14 @@ export class Ways {
     this.#refused = colour(theme.danger);
   }
 
-  layers({ segments, ways }: Layers): void {
+  layers({ segments, way }: Layers): void {
     this.#segments.line.visible = segments;
-    this.#ways.line.visible = ways;
+    this.#way.line.visible = way;
   }
 
   show(frame: Frame, radius_m: number, height: Height): void {
     if (this.#segments.line.visible) this.#showSegments(frame, radius_m);
-    if (this.#ways.line.visible) this.#showWays(frame, height);
+    if (this.#way.line.visible) this.#showWay(frame, height);
   }
 
   #showSegments({ segments, world_from_sensor }: Frame, radius_m: number): void {
@@ -53,22 +50,16 @@ export class Ways {
     this.#segments.done();
   }
 
-  #showWays({ subgoals, pose }: Frame, height: Height): void {
-    const colourOf = costColours(subgoals);
-    this.#ways.clear();
-    for (const one of subgoals) {
-      if (!one.forecast) continue;
-      const [east, north] = [one.x - pose.x, one.y - pose.y];
-      const steps = Math.max(1, Math.ceil(Math.hypot(east, north) / WAY_STEP_M));
-      const way: number[] = [];
-      for (let step = 0; step <= steps; step += 1) {
-        const [x, y] = [pose.x + (east * step) / steps, pose.y + (north * step) / steps];
-        way.push(x, y, height(x, y) + LIFT_M);
-      }
-      const cost = colourOf(one);
-      this.#ways.add(way, cost ? colour(cost) : REFUSED);
+  #showWay({ way, pose }: Frame, height: Height): void {
+    this.#way.clear();
+    let from = [pose.x, pose.y, height(pose.x, pose.y) + LIFT_M];
+    for (let at = 0; at < way.length; at += 3) {
+      const [x = 0, y = 0, reverse] = way.subarray(at, at + 3);
+      const to = [x, y, height(x, y) + LIFT_M];
+      this.#way.add([...from, ...to], reverse === 1 ? this.#refused : this.#valid);
+      from = to;
     }
-    this.#ways.done();
+    this.#way.done();
   }
 }
 

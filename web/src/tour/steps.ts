@@ -27,7 +27,7 @@ export const BARE: Layers = {
   variance: false,
   segments: false,
   subgoals: false,
-  ways: false,
+  way: false,
 };
 
 export const STEPS: readonly Step[] = [
@@ -91,7 +91,7 @@ export const STEPS: readonly Step[] = [
     text: (_, { preset }) =>
       `Subgoals stand on the segments. Each is charged for turning towards it, for what then remains to the goal, and for steepness.${preset === 'paper' ? '' : ' The best planner here also forecasts roll and pitch along the way, refuses ways that would tilt the robot too far, and charges for changing its mind and for detours that it knows of.'} Yellow costs least; the ringed one is chosen.`,
     camera: 'top',
-    layers: { subgoals: true, ways: true },
+    layers: { subgoals: true, way: true },
     marks: (frame) =>
       subgoalTarget(
         frame,

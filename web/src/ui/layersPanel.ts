@@ -30,7 +30,7 @@ const SWITCHES: readonly (readonly [Switch, string, string, string])[] = [
   ],
   ['segments', 'Segments', '', 'Level pieces of the skyline; those that carry no subgoals in red.'],
   ['subgoals', 'Subgoals', '', 'Places to go next, coloured by cost.'],
-  ['ways', 'Ways to the subgoals', '', 'The straight ways for which the best planner forecasts roll and pitch.'],
+  ['way', 'Way', '', 'The safest way to the chosen subgoal that the best planner found; red in reverse.'],
 ];
 
 export class LayersPanel {

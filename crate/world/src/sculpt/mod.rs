@@ -172,7 +172,9 @@ impl HeightField {
         if heights_m.len() != expected {
             return Err(FieldError::HeightCount { found: heights_m.len(), expected });
         }
-        if let Some(index) = heights_m.iter().position(|height| !(height.abs() <= HEIGHT_LIMIT_M)) {
+        if let Some(index) =
+            heights_m.iter().position(|height| height.is_nan() || height.abs() > HEIGHT_LIMIT_M)
+        {
             return Err(FieldError::Height {
                 column: column_begin + index % width,
                 row: row_begin + index / width,
