@@ -63,19 +63,17 @@ test('each layer changes the view, and back', async ({ mapless: page }) => {
   await expect(panel).toBeVisible();
   await page.waitForTimeout(900);
   const plain = await picture(page);
-  for (const name of ['Observed', 'Reconstructed', 'Variance', 'Segments', 'Subgoals']) {
+  for (const name of ['Observed', 'Reconstructed', 'Variance', 'Segments', 'Subgoals', 'Way']) {
     const box = panel.getByRole('checkbox', { name: new RegExp(name) });
-    await box.check();
-    await page.waitForTimeout(600);
-    expect(await picture(page), name).not.toBe(plain);
-    await box.uncheck();
+    const shown = await box.isChecked();
+    await box.setChecked(!shown);
+    await expect.poll(() => picture(page), { message: name }).not.toBe(plain);
+    await box.setChecked(shown);
+    await expect.poll(() => picture(page), { message: `${name} put back` }).toBe(plain);
   }
-  await page.waitForTimeout(600);
-  expect(await picture(page)).toBe(plain);
   for (const by of ['range', 'height', 'ring', 'none']) {
     await panel.getByRole('combobox', { name: 'Point cloud by' }).selectOption(by);
-    await page.waitForTimeout(600);
-    expect(await picture(page), by).not.toBe(plain);
+    await expect.poll(() => picture(page), { message: by }).not.toBe(plain);
   }
   await page.keyboard.press('Escape');
   await expect(panel).toBeHidden();
