@@ -43,8 +43,8 @@ const FARTHEST_M: usize = 60;
 /// No step of the search costs less.
 const LEAST_COST_MM: u32 = 100;
 const UNREACHED: u32 = u32::MAX;
-/// Marks a state that was reached straight from where the robot stands.
-const BEGIN: u32 = u32::MAX;
+/// From here on stand the first directions in which a state was reached straight from where the robot stands.
+const BEGIN: u32 = u32::MAX - FIRST_DIRECTIONS as u32;
 
 /// Every place within reach, and how to get there.
 #[derive(Clone, Debug)]
@@ -61,6 +61,8 @@ pub(crate) struct Ways {
     caution: Caution,
     /// How the way that was last driven began.
     last: Option<First>,
+    /// The first direction that its way itself begins with, which the place that was headed for need not lie in.
+    begun: i32,
     /// Whether the robot goes back the way it came, and then whether in reverse.
     retreat: Option<bool>,
     /// The first direction that the robot faces, and how many it may turn to the left and to the right.
@@ -120,6 +122,7 @@ impl Ways {
             standing_gradient: DVec2::ZERO,
             caution: Caution::Usual,
             last: None,
+            begun: 0,
             retreat: None,
             facing: 0,
             turns: [0; 2],
@@ -151,7 +154,8 @@ impl Ways {
 
     /// How much of the slope that a way may have the robot stands on.
     fn standing_share(&self) -> f64 {
-        self.standing_slopes().share_of(self.footing.allowed(Caution::Usual, 0.0))
+        let allowed = self.footing.allowed_in_turn(Caution::Usual, self.is_turning());
+        self.standing_slopes().share_of(allowed)
     }
 
     fn standing_slopes(&self) -> Slopes {
@@ -180,21 +184,27 @@ impl Ways {
         self.expand();
     }
 
-    /// Remembers how the way that is driven begins; nothing when none is driven. Where the robot turns back on steep ground, what
-    /// lay ahead is not tried again.
-    pub(crate) fn drive(&mut self, point: Option<&WayPoint>) {
-        let next = point.map(|point| {
+    /// Remembers how the way to a place begins, on which the robot heads for `point`. Where it turns back on steep ground, what lay
+    /// ahead is not tried again.
+    pub(crate) fn drive(&mut self, reached: Option<Reached>, point: &WayPoint) {
+        self.begun = reached.map_or(self.facing, |reached| self.first_of(reached));
+        let next = {
             let way = point.position_m - self.here_m;
             let facing = if point.reverse { -way } else { way };
             First { facing: facing.normalize_or_zero(), reverse: point.reverse }
-        });
-        let turns_back = self.last.zip(next).is_some_and(|(last, next)| last.reverse != next.reverse);
+        };
+        let turns_back = self.last.is_some_and(|last| last.reverse != next.reverse);
         if self.caution == Caution::Escape {
             self.footing.bar(self.here_m);
         } else if turns_back && self.standing_share() > STEEP_SHARE {
             self.turn_back();
         }
-        self.last = next;
+        self.last = Some(next);
+    }
+
+    /// Forgets what was driven last.
+    pub(crate) fn stand(&mut self) {
+        self.last = None;
     }
 
     /// Dijkstra's search from the states that [`begin`](Self::begin) reached.

@@ -204,6 +204,11 @@ impl Footing {
         if near { &self.allowed_near } else { &self.allowed }
     }
 
+    /// What of the limits may be used in a turn on the spot, as slopes.
+    pub(crate) fn allowed_in_turn(&self, caution: Caution, has_begun: bool) -> &Slopes {
+        if has_begun { &self.allowed_near } else { self.allowed(caution, 0.0) }
+    }
+
     /// How many places there are.
     pub(crate) fn count(&self) -> usize {
         self.places.len()

@@ -48,10 +48,10 @@ impl Ways {
         let (mut across, mut along) = (0.0_f64, 0.0_f64);
         let (mut risk_sum, mut count) = (0.0, 0.0);
         let mut state = reached.state;
-        while state != BEGIN {
+        while state < BEGIN {
             let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
             let from = self.came_from[state as usize];
-            let turned = from != BEGIN && from as usize / HEADINGS == place;
+            let turned = from < BEGIN && from as usize / HEADINGS == place;
             if !turned {
                 let offset = self.footing.offset(place);
                 risk_sum += self.footing.risk(offset, heading);
@@ -62,9 +62,10 @@ impl Ways {
                     along = along.max(slopes.along);
                 }
                 let position_m = self.footing.position_m(offset);
-                let last_m = match from {
-                    BEGIN => self.here_m,
-                    _ => self.footing.position_m(self.footing.offset(from as usize / HEADINGS)),
+                let last_m = if from < BEGIN {
+                    self.footing.position_m(self.footing.offset(from as usize / HEADINGS))
+                } else {
+                    self.here_m
                 };
                 let cost_m = f64::from(self.costs_mm[state as usize]) / MILLIMETRES;
                 let reverse = (position_m - last_m).dot(STEPS[heading].as_dvec2()) < 0.0;

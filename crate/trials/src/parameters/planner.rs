@@ -229,12 +229,7 @@ pub(super) const GROUPS: &[Group] = &[
                 Number(0.0, 5.0),
                 "What it costs to begin otherwise than was meant before, in metres driven.",
             ),
-            open(
-                "reverse_price",
-                "",
-                Number(1.0, 10.0),
-                "What a metre in reverse costs, in metres forward.",
-            ),
+            open("reverse_price", "", Number(1.0, 10.0), "What a metre in reverse costs, in metres forward."),
             open(
                 "clearance_m",
                 "m",
