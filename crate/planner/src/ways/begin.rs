@@ -20,6 +20,7 @@ impl Ways {
     pub(super) fn begin(&mut self) {
         let count = FIRST_DIRECTIONS as i32;
         let begun = self.begun_turns();
+        let most_change_m = self.config.change_cost_m * f64::from(1 << self.changes);
         for (side, sign) in [1, -1].into_iter().enumerate() {
             self.turns[side] = count / 2;
             for turn in 0..=count / 2 {
@@ -35,7 +36,7 @@ impl Ways {
                         continue;
                     }
                     let first = First { facing, reverse };
-                    let change_m = if self.continues(&first) { 0.0 } else { self.config.change_cost_m };
+                    let change_m = if self.continues(&first) { 0.0 } else { most_change_m };
                     self.begin_along(self.facing + sign * turn, &first, turn_m + change_m);
                 }
             }
@@ -75,7 +76,7 @@ impl Ways {
     }
 
     /// Whether a way that begins like this begins as the last one meant to.
-    fn continues(&self, first: &First) -> bool {
+    pub(super) fn continues(&self, first: &First) -> bool {
         self.last
             .is_none_or(|last| last.reverse == first.reverse && last.facing.dot(first.facing) > SAME_COSINE)
     }
@@ -130,7 +131,9 @@ impl Ways {
             return false;
         }
         let price = if first.reverse { self.config.reverse_price } else { 1.0 };
-        let cost_m = cost_m + price * distance_m * (1.0 + self.config.tilt_price * risk);
+        let cost_m = cost_m
+            + price * distance_m * (1.0 + self.config.tilt_price * risk)
+            + self.climb_cost_m((end.height_m - start.height_m).abs());
         let state = self.footing.index(offset) * HEADINGS + heading;
         let from = BEGIN + index.rem_euclid(FIRST_DIRECTIONS as i32) as u32;
         self.reach(state, from, (cost_m * MILLIMETRES) as u32);

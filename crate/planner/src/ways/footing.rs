@@ -279,6 +279,11 @@ impl Footing {
         mean.is_finite().then_some((to, mean))
     }
 
+    /// How much higher or lower one place is than another.
+    pub(crate) fn climb_m(&self, from: IVec2, to: IVec2) -> f64 {
+        self.plane(from).zip(self.plane(to)).map_or(0.0, |(from, to)| (to.height_m - from.height_m).abs())
+    }
+
     /// The next known place along a heading, beyond ground that was not seen; `None` where the ground goes on, or none is known
     /// within `gap_m`.
     pub(crate) fn beyond_gap(&self, from: IVec2, heading: usize, gap_m: f64) -> Option<IVec2> {

@@ -71,6 +71,30 @@ fn a_way_leads_around_what_is_too_steep() {
 }
 
 #[test]
+fn a_way_leads_around_a_knoll_that_it_could_cross() {
+    // 0.8 m high and two metres around its top; nowhere near the limits.
+    let knoll = |place_m: DVec2| {
+        let from_top_m = place_m - DVec2::new(3.0, 0.0);
+        let reach = from_top_m.length_squared() / 4.0;
+        let inside = reach < 1.0;
+        let height_m = if inside { 0.8 * (1.0 - reach) * (1.0 - reach) } else { 0.0 };
+        let gradient = if inside { from_top_m * (-0.8 * (1.0 - reach)) } else { DVec2::ZERO };
+        Some(Plane { height_m, gradient, gradient_deviation: 0.0 })
+    };
+    let limits = PlannerConfig::default().limits;
+    let [over, around] = [0.0, 4.0].map(|climb_price| {
+        let config = ForecastConfig { tilt_price: 0.0, climb_price, ..ForecastConfig::default() };
+        let mut ways = Ways::new(config, &limits, 7.0);
+        ways.search(&knoll, &pose(0.0, 0.0));
+        let mut way = Vec::new();
+        let forecast = ways.follow(ways.to(DVec2::new(6.0, 0.0)).unwrap(), &mut way);
+        (forecast, ways.shortcut(&way).position_m)
+    });
+    assert!((over.0.climb_m - 1.6).abs() < 0.05 && over.1.y.abs() < 0.1, "{over:?}");
+    assert!(around.0.climb_m < 0.4 && around.1.y.abs() > 0.4, "{around:?}");
+}
+
+#[test]
 fn the_reach_ends_before_what_is_steep_or_unseen_and_says_which() {
     let mut ways = ways();
     let wall = |place_m: DVec2| plane(place_m, DVec2::new(if place_m.x > 3.1 { 2.0 } else { 0.0 }, 0.0));
