@@ -4,6 +4,7 @@
 //! planners = ["default", "paper"]
 //! routes = ["../scenarios/*.toml"]        # scenario files, relative to this one
 //! seeds = { from = 1, to = 100 }          # or a list
+//! fewer_seeds = { paper = 30 }            # a planner that drives with so many of them alone, the first ones
 //! truth = ["none", "profile"]             # told to the planners; "none" when absent
 //! trajectories = true                     # keep those of the first seed; false when absent
 //! combine = "one_at_a_time"               # or "grid", of the parameters
@@ -13,7 +14,7 @@
 //! values = [0.0, 0.5, 1.0]
 //! ```
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -38,6 +39,8 @@ pub struct Campaign {
     pub routes: Vec<PathBuf>,
     /// Seeds of the sensor's noise, in the file's order.
     pub seeds: Vec<u64>,
+    /// How many of the seeds, from the first on, a planner drives with that is not to drive with all.
+    pub fewer_seeds: BTreeMap<String, usize>,
     /// What the planners are told.
     pub truths: Vec<Truth>,
     /// Whether the first seed's trajectories are kept.
@@ -65,6 +68,8 @@ struct File {
     planners: Spanned<Vec<Spanned<String>>>,
     routes: Spanned<Vec<Spanned<String>>>,
     seeds: Spanned<Seeds>,
+    #[serde(default)]
+    fewer_seeds: BTreeMap<String, Spanned<usize>>,
     truth: Option<Spanned<Vec<Spanned<Truth>>>>,
     #[serde(default)]
     trajectories: bool,
@@ -88,6 +93,13 @@ struct Seeds(Vec<u64>);
 const MAX_SEEDS: u64 = 1_000_000;
 
 impl Campaign {
+    /// The seeds of a planner, in the file's order.
+    #[must_use]
+    pub fn seeds_of(&self, planner: &str) -> &[u64] {
+        let count = self.fewer_seeds.get(planner).copied().unwrap_or(self.seeds.len());
+        &self.seeds[..count]
+    }
+
     /// Reads a campaign file and finds its routes.
     ///
     /// # Errors
@@ -117,12 +129,28 @@ impl Campaign {
         if seeds.is_empty() || seeds.iter().collect::<BTreeSet<_>>().len() != seeds.len() {
             return Err(place.error(file.seeds.span().start, "seeds: expected at least one, and each once"));
         }
+        for (planner, count) in &file.fewer_seeds {
+            let named = file.planners.as_ref().iter().any(|name| name.as_ref() == planner);
+            if !named || !(1..=seeds.len()).contains(count.as_ref()) {
+                let reason = format!(
+                    "fewer_seeds: {planner} = {}: expected one of planners, and from 1 to {}",
+                    count.as_ref(),
+                    seeds.len()
+                );
+                return Err(place.error(count.span().start, &reason));
+            }
+        }
         let parameters = place.parameters(&file.parameters)?;
         Ok(Self {
             name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
             routes: place.routes(&file.routes)?,
             planners: plain(file.planners),
             seeds: file.seeds.into_inner().0,
+            fewer_seeds: file
+                .fewer_seeds
+                .into_iter()
+                .map(|(planner, count)| (planner, count.into_inner()))
+                .collect(),
             truths: file.truth.map_or_else(|| vec![Truth::None], plain),
             trajectories: file.trajectories,
             combine: file.combine,
@@ -291,7 +319,7 @@ mod tests {
     fn the_campaigns_of_the_repository_are_read() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../terrains/campaigns");
         for (name, routes, seeds, variations) in
-            [("quick", 10, 10, 1), ("paper", 10, 100, 1), ("ablation", 10, 10, 1 + 5 * 4 + 4 + 4)]
+            [("quick", 10, 5, 1), ("paper", 10, 100, 1), ("ablation", 10, 1, 1 + 8 * 3)]
         {
             let campaign = Campaign::read(&folder.join(name).with_extension("toml")).unwrap();
             let counts = (campaign.routes.len(), campaign.seeds.len(), campaign.variations.len());
@@ -334,6 +362,14 @@ mod tests {
             ),
             (GOOD.replace("to = 5", "to = 2"), vec!["line 3", "from = 3, to = 2", "expected from ≤ to"]),
             (GOOD.replace("to = 5", "til = 5"), vec!["line 3", "`til`", "expected"]),
+            (
+                format!("{GOOD}fewer_seeds = {{ default = 4 }}\n"),
+                vec!["line 4", "default = 4", "from 1 to 3"],
+            ),
+            (
+                format!("{GOOD}fewer_seeds = {{ paper = 1 }}\n"),
+                vec!["line 4", "paper = 1", "one of planners"],
+            ),
             (GOOD.replace("{ from = 3, to = 5 }", "[1, 1]"), vec!["line 3", "each once"]),
             (
                 GOOD.replace("{ from = 3, to = 5 }", "7"),

@@ -132,13 +132,14 @@ fn oracle_length_m(loaded: &LoadedScenario) -> Option<f64> {
 
 fn expand(campaign: &Campaign, routes: &[Route]) -> Vec<TrialSpec> {
     let mut planners = campaign.planners.clone();
-    let (mut truths, mut seeds) = (campaign.truths.clone(), campaign.seeds.clone());
+    let mut truths = campaign.truths.clone();
     planners.sort_unstable();
     truths.sort_unstable();
-    seeds.sort_unstable();
     let first_seed = campaign.seeds.first();
     let mut trials = Vec::new();
     for planner in &planners {
+        let mut seeds = campaign.seeds_of(planner).to_vec();
+        seeds.sort_unstable();
         for (index, route) in routes.iter().enumerate() {
             let base = navigators::configuration(planner, &route.loaded.scenario);
             // The others know the truth anyway.
@@ -238,6 +239,18 @@ mod tests {
             plan.trials.iter().map(|trial| trial.id.as_str()).collect();
         assert_eq!(ids.len(), plan.trials.len());
         assert_eq!((plan.routes[0].name.as_str(), plan.trials[0].seed), ("again", 2));
+    }
+
+    #[test]
+    fn a_planner_may_drive_with_fewer_seeds() {
+        let text = "planners = [\"default\", \"paper\"]\nroutes = [\"routes/*.toml\"]\nseeds = [7, 2, 9]\n\
+            fewer_seeds = { paper = 2 }\n";
+        let plan = plan(RECIPE, SCENARIO, text).unwrap();
+        let seeds = |planner| {
+            plan.trials.iter().filter(move |trial| trial.planner == planner).map(|trial| trial.seed)
+        };
+        assert_eq!(seeds("default").collect::<Vec<_>>(), [2, 7, 9, 2, 7, 9]);
+        assert_eq!(seeds("paper").collect::<Vec<_>>(), [2, 7, 2, 7], "the first two in the file's order");
     }
 
     #[test]

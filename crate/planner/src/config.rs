@@ -124,9 +124,11 @@ pub struct ForecastConfig {
     pub blind_radius_m: f64,
     /// What a metre at the tilt limit costs beyond itself, in metres of level ground; in between with the square of the slope.
     pub tilt_price: f64,
+    /// What a metre up or down costs beyond the way itself, in metres of level ground.
+    pub climb_price: f64,
     /// What turning by a sixteenth of a circle costs, in metres driven.
     pub turn_cost_m: f64,
-    /// What it costs to begin otherwise than the step before meant to, in metres driven.
+    /// What it costs to begin otherwise than the step before meant to, in metres driven; twice that with each change nearby.
     pub change_cost_m: f64,
     /// What a metre in reverse costs, in metres forward; without rear sight it is the last choice.
     pub reverse_price: f64,
@@ -159,6 +161,8 @@ pub struct DecisionConfig {
     pub distance_weight: f64,
     /// Steepness factor k_stp. Paper: 0.5.
     pub steepness_weight: f64,
+    /// Metres of level ground that a metre up or down counts for in the distance. Paper: none.
+    pub climb_weight: f64,
     /// Charge for turning away from the last choice. Paper: none.
     pub commitment_weight: f64,
     /// Charge for the detour that is known from a place driven over, on the scale of the distance. Paper: none.
@@ -267,7 +271,8 @@ impl Default for ForecastConfig {
             escape_m: 2.5,
             deviations: 1.0,
             blind_radius_m: 7.5,
-            tilt_price: 1.0,
+            tilt_price: 4.0,
+            climb_price: 4.0,
             turn_cost_m: 0.15,
             change_cost_m: 1.0,
             reverse_price: 2.0,
@@ -283,7 +288,8 @@ impl Default for DecisionConfig {
             cost_model: CostModel::Forecast,
             direction_weight: 0.2,
             distance_weight: 1.0,
-            steepness_weight: 0.5,
+            steepness_weight: 1.0,
+            climb_weight: 1.0,
             commitment_weight: 0.3,
             dead_end_weight: 1.0,
             look_ticks: 150,
@@ -328,6 +334,7 @@ impl PlannerConfig {
                 direction_weight: 0.2,
                 distance_weight: 0.3,
                 steepness_weight: 0.5,
+                climb_weight: 0.0,
                 commitment_weight: 0.0,
                 dead_end_weight: 0.0,
                 ..default.decision
@@ -450,6 +457,7 @@ impl ForecastConfig {
         not_negative(self.deviations, place, "deviations")?;
         not_negative(self.blind_radius_m, place, "blind_radius_m")?;
         not_negative(self.tilt_price, place, "tilt_price")?;
+        not_negative(self.climb_price, place, "climb_price")?;
         let turn = self.turn_cost_m;
         require(turn >= 0.1 && turn.is_finite(), place, "turn_cost_m", turn, "at least 0.1 m")?;
         not_negative(self.clearance_m, place, "clearance_m")?;
@@ -463,6 +471,7 @@ impl DecisionConfig {
         not_negative(self.direction_weight, place, "direction_weight")?;
         not_negative(self.distance_weight, place, "distance_weight")?;
         not_negative(self.steepness_weight, place, "steepness_weight")?;
+        not_negative(self.climb_weight, place, "climb_weight")?;
         not_negative(self.commitment_weight, place, "commitment_weight")?;
         not_negative(self.dead_end_weight, place, "dead_end_weight")
     }

@@ -58,7 +58,7 @@ pub(crate) fn choose(
     for subgoal in subgoals.iter_mut() {
         subgoal.cost = subgoal.refusal.is_none().then(|| match config.cost_model {
             CostModel::Paper => paper_terms(subgoal, situation),
-            CostModel::Forecast => forecast_terms(subgoal, situation),
+            CostModel::Forecast => forecast_terms(subgoal, config, situation),
         });
     }
     if config.cost_model == CostModel::Paper {
@@ -110,11 +110,11 @@ fn normalise(subgoals: &mut [Subgoal]) {
 }
 
 /// Every term on a fixed scale: half a turn, the surface's radius, the tilt limits.
-fn forecast_terms(subgoal: &Subgoal, situation: &Situation<'_>) -> Cost {
+fn forecast_terms(subgoal: &Subgoal, config: &DecisionConfig, situation: &Situation<'_>) -> Cost {
     let here = situation.pose.plan_m();
     let there = subgoal.position_m.truncate();
     let forecast = subgoal.forecast.unwrap_or_default();
-    let around_m = forecast.way_m - forecast.reach_m;
+    let around_m = forecast.way_m - forecast.reach_m + config.climb_weight * forecast.climb_m;
     let lost_m = (situation.goal_m - there).length() - (situation.goal_m - here).length() + around_m;
     let turn = situation
         .last_bearing_rad

@@ -7,6 +7,8 @@ pub struct Forecast {
     pub reach_m: f64,
     /// Length of the way.
     pub way_m: f64,
+    /// What it goes up and down.
+    pub climb_m: f64,
     /// Mean over the way of (slope / slope at the limit)², the worse of roll and pitch at each place.
     pub mean_risk: f64,
     /// Largest predicted |roll| on the way.

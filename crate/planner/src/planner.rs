@@ -184,7 +184,7 @@ impl Planner {
         if self.goal_m != Some(goal_m) {
             self.goal_m = Some(goal_m);
             self.dead_ends.clear();
-            self.ways.drive(None);
+            self.ways.stand();
             self.learned_at_m = None;
             self.last_bearing_rad = None;
             self.looked_ticks = 0;
@@ -257,7 +257,7 @@ impl Planner {
         let Some(chosen) = chosen else {
             self.looked_ticks += 1;
             self.last_bearing_rad = None;
-            self.ways.drive(None);
+            self.ways.stand();
             let given_up = self.looked_ticks > self.config.decision.look_ticks;
             return if given_up { Status::Stopped(StopReason::NoSubgoal) } else { Status::Looking };
         };
@@ -286,7 +286,8 @@ impl Planner {
     /// Drives along the way to a subgoal.
     fn follow(&mut self, subgoal: &Subgoal, pose: &Pose) -> Command {
         let end_m = subgoal.position_m.truncate();
-        if let Some(reached) = self.ways.to(end_m) {
+        let reached = self.ways.to(end_m);
+        if let Some(reached) = reached {
             self.ways.follow(reached, &mut self.way);
         }
         if let Some(last) = self.way.last_mut() {
@@ -294,7 +295,7 @@ impl Planner {
             last.position_m = end_m;
         }
         let ahead = self.ways.shortcut(&self.way);
-        self.ways.drive(Some(&ahead));
+        self.ways.drive(reached, &ahead);
         let bearing = bearing_rad(pose, ahead.position_m);
         let way_m = subgoal.forecast.map_or(0.0, |f| f.way_m);
         let facing = if ahead.reverse { wrap_rad(bearing + PI) } else { bearing };

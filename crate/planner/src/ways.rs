@@ -36,6 +36,10 @@ const CALM_SHARE: f64 = 0.8;
 /// Turning back on ground at least this steep says that what lies ahead is steeper than it had looked.
 const STEEP_SHARE: f64 = 0.6;
 const BARRED_AHEAD_M: f64 = 0.5;
+/// Each change within this distance makes the next one dearer, up to so many: where a way is refused and allowed by turns, the robot
+/// would drive to and fro.
+const SAME_PLACE_M: f64 = 1.0;
+const MOST_CHANGES: i32 = 5;
 /// Costs are whole millimetres of level ground.
 const MILLIMETRES: f64 = 1000.0;
 /// Longest way that is looked for, in metres of level ground.
@@ -43,8 +47,8 @@ const FARTHEST_M: usize = 60;
 /// No step of the search costs less.
 const LEAST_COST_MM: u32 = 100;
 const UNREACHED: u32 = u32::MAX;
-/// Marks a state that was reached straight from where the robot stands.
-const BEGIN: u32 = u32::MAX;
+/// From here on stand the first directions in which a state was reached straight from where the robot stands.
+const BEGIN: u32 = u32::MAX - FIRST_DIRECTIONS as u32;
 
 /// Every place within reach, and how to get there.
 #[derive(Clone, Debug)]
@@ -61,6 +65,11 @@ pub(crate) struct Ways {
     caution: Caution,
     /// How the way that was last driven began.
     last: Option<First>,
+    /// The first direction that its way itself begins with, which the place that was headed for need not lie in.
+    begun: i32,
+    /// Where it last began to change its mind, and how often it did so there.
+    changed_at_m: DVec2,
+    changes: i32,
     /// Whether the robot goes back the way it came, and then whether in reverse.
     retreat: Option<bool>,
     /// The first direction that the robot faces, and how many it may turn to the left and to the right.
@@ -120,6 +129,9 @@ impl Ways {
             standing_gradient: DVec2::ZERO,
             caution: Caution::Usual,
             last: None,
+            begun: 0,
+            changed_at_m: DVec2::ZERO,
+            changes: 0,
             retreat: None,
             facing: 0,
             turns: [0; 2],
@@ -133,6 +145,9 @@ impl Ways {
         self.facing = (wrap_rad(pose.yaw_rad) / TAU * FIRST_DIRECTIONS as f64).round() as i32;
         let up = pose.world_from_robot().z_axis;
         self.standing_gradient = -up.truncate() / up.z;
+        if (self.changed_at_m - self.here_m).length() > SAME_PLACE_M {
+            self.changes = 0;
+        }
         self.footing.look(plane_at, self.here_m);
         self.mind_standing();
         self.search_with(Caution::Usual);
@@ -151,7 +166,8 @@ impl Ways {
 
     /// How much of the slope that a way may have the robot stands on.
     fn standing_share(&self) -> f64 {
-        self.standing_slopes().share_of(self.footing.allowed(Caution::Usual, 0.0))
+        let allowed = self.footing.allowed_in_turn(Caution::Usual, self.is_turning());
+        self.standing_slopes().share_of(allowed)
     }
 
     fn standing_slopes(&self) -> Slopes {
@@ -180,21 +196,33 @@ impl Ways {
         self.expand();
     }
 
-    /// Remembers how the way that is driven begins; nothing when none is driven. Where the robot turns back on steep ground, what
-    /// lay ahead is not tried again.
-    pub(crate) fn drive(&mut self, point: Option<&WayPoint>) {
-        let next = point.map(|point| {
+    /// Remembers how the way to a place begins, on which the robot heads for `point`. Where it turns back on steep ground, what lay
+    /// ahead is not tried again.
+    pub(crate) fn drive(&mut self, reached: Option<Reached>, point: &WayPoint) {
+        self.begun = reached.map_or(self.facing, |reached| self.first_of(reached));
+        let next = {
             let way = point.position_m - self.here_m;
             let facing = if point.reverse { -way } else { way };
             First { facing: facing.normalize_or_zero(), reverse: point.reverse }
-        });
-        let turns_back = self.last.zip(next).is_some_and(|(last, next)| last.reverse != next.reverse);
+        };
+        if !self.continues(&next) {
+            if self.changes == 0 {
+                self.changed_at_m = self.here_m;
+            }
+            self.changes = MOST_CHANGES.min(self.changes + 1);
+        }
+        let turns_back = self.last.is_some_and(|last| last.reverse != next.reverse);
         if self.caution == Caution::Escape {
             self.footing.bar(self.here_m);
         } else if turns_back && self.standing_share() > STEEP_SHARE {
             self.turn_back();
         }
-        self.last = next;
+        self.last = Some(next);
+    }
+
+    /// Forgets what was driven last.
+    pub(crate) fn stand(&mut self) {
+        self.last = None;
     }
 
     /// Dijkstra's search from the states that [`begin`](Self::begin) reached.
@@ -214,7 +242,8 @@ impl Ways {
             }
             for (forward, price) in [(true, 1.0), (false, self.config.reverse_price)] {
                 if let Some((to, risk)) = self.footing.drive(offset, heading, forward) {
-                    let price_mm = price * step_mm[heading] * (1.0 + self.config.tilt_price * risk);
+                    let price_mm = price * step_mm[heading] * (1.0 + self.config.tilt_price * risk)
+                        + self.climb_cost_m(self.footing.climb_m(offset, to)) * MILLIMETRES;
                     let next = self.footing.index(to) * HEADINGS + heading;
                     self.reach(next, state, cost_mm.saturating_add(price_mm as u32));
                 }
@@ -224,6 +253,10 @@ impl Ways {
                 self.reach(next, state, cost_mm.saturating_add((price_m * MILLIMETRES) as u32));
             }
         }
+    }
+
+    fn climb_cost_m(&self, climb_m: f64) -> f64 {
+        self.config.climb_price * climb_m
     }
 
     fn reach(&mut self, state: usize, from: u32, cost_mm: u32) {

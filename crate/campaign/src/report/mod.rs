@@ -139,7 +139,7 @@ fn chapter(
     writeln!(text, "\n## Campaign `{name}`\n")?;
     writeln!(
         text,
-        "{} trials: {} planners, {} routes, {} seeds; identity `{hash}`.",
+        "{} trials: {} planners, {} routes, up to {} seeds; identity `{hash}`.",
         results.rows.len(),
         planners.len(),
         routes.len(),

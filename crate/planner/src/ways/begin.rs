@@ -6,7 +6,7 @@ use glam::{DVec2, IVec2};
 
 use super::bridge::Station;
 use super::headings::{HEADINGS, nearest};
-use super::{BEGIN, FIRST_DIRECTIONS, First, JOIN_M, MILLIMETRES, Ways};
+use super::{BEGIN, FIRST_DIRECTIONS, First, JOIN_M, MILLIMETRES, Reached, Ways};
 
 /// A way begins at a place at least this far from the robot.
 const FIRST_STEP_M: f64 = 0.3;
@@ -19,12 +19,14 @@ impl Ways {
     /// From where the robot stands straight to the first known places in each direction that it may turn to.
     pub(super) fn begin(&mut self) {
         let count = FIRST_DIRECTIONS as i32;
-        let steepest = self.footing.allowed(self.caution, 0.0).across;
+        let begun = self.begun_turns();
+        let most_change_m = self.config.change_cost_m * f64::from(1 << self.changes);
         for (side, sign) in [1, -1].into_iter().enumerate() {
             self.turns[side] = count / 2;
             for turn in 0..=count / 2 {
                 let facing = self.first_direction(self.facing + sign * turn);
-                if turn > 0 && self.standing_gradient.dot(facing.perp()).abs() > steepest {
+                let allowed = self.footing.allowed_in_turn(self.caution, turn <= begun[side]);
+                if turn > 0 && self.standing_gradient.dot(facing.perp()).abs() > allowed.across {
                     self.turns[side] = turn - 1;
                     break;
                 }
@@ -34,15 +36,47 @@ impl Ways {
                         continue;
                     }
                     let first = First { facing, reverse };
-                    let change_m = if self.continues(&first) { 0.0 } else { self.config.change_cost_m };
-                    self.begin_along(&first, turn_m + change_m);
+                    let change_m = if self.continues(&first) { 0.0 } else { most_change_m };
+                    self.begin_along(self.facing + sign * turn, &first, turn_m + change_m);
                 }
             }
         }
     }
 
+    /// How many directions to the left and to the right are left of the turn that the last way began with. On ground at the limit,
+    /// where each attitude says something else of it, a turn that may be begun now may be refused half-way; the robot would turn
+    /// to and fro.
+    fn begun_turns(&self) -> [i32; 2] {
+        let Some(last) = self.last else { return [0; 2] };
+        let turns = [self.turn_to(self.begun), self.turn_to(index_of(last.facing))];
+        [1, -1].map(|side| turns.map(|turn| side * turn).into_iter().fold(0, i32::max))
+    }
+
+    /// The first direction in which the way to a place begins.
+    pub(super) fn first_of(&self, reached: Reached) -> i32 {
+        let mut state = reached.state;
+        while state < BEGIN {
+            state = self.came_from[state as usize];
+        }
+        (state - BEGIN) as i32
+    }
+
+    /// How many directions the robot turns to the left, or if negative to the right, until it faces one. The controller turns
+    /// the shorter way.
+    fn turn_to(&self, index: i32) -> i32 {
+        let count = FIRST_DIRECTIONS as i32;
+        let left = (index - self.facing).rem_euclid(count);
+        if left <= count / 2 { left } else { left - count }
+    }
+
+    /// Whether the robot is turning on the spot.
+    pub(super) fn is_turning(&self) -> bool {
+        let facing = self.first_direction(self.facing);
+        self.last.is_some_and(|last| last.facing.dot(facing) < SAME_COSINE)
+    }
+
     /// Whether a way that begins like this begins as the last one meant to.
-    fn continues(&self, first: &First) -> bool {
+    pub(super) fn continues(&self, first: &First) -> bool {
         self.last
             .is_none_or(|last| last.reverse == first.reverse && last.facing.dot(first.facing) > SAME_COSINE)
     }
@@ -52,8 +86,8 @@ impl Ways {
     }
 
     /// Straight ahead or in reverse to the next known place and, where no beam reaches the ground at the wheels, to the first
-    /// one beyond.
-    fn begin_along(&mut self, first: &First, cost_m: f64) {
+    /// one beyond; `index` is that of the facing.
+    fn begin_along(&mut self, index: i32, first: &First, cost_m: f64) {
         let travel = if first.reverse { -first.facing } else { first.facing };
         let mut seen_m = 0.0;
         let steps = (self.config.blind_radius_m / self.config.step_m) as usize;
@@ -72,7 +106,7 @@ impl Ways {
             if !beyond_blind && along_m > JOIN_M {
                 return;
             }
-            let safe = self.begin_at(offset, first, cost_m);
+            let safe = self.begin_at(offset, index, first, cost_m);
             // The place nearest to the robot may miss by rounding what it already stands on.
             if beyond_blind && along_m > JOIN_M || !safe && step > 1 {
                 return;
@@ -81,7 +115,7 @@ impl Ways {
     }
 
     /// Straight to a place, unless that is not safe.
-    fn begin_at(&mut self, offset: IVec2, first: &First, cost_m: f64) -> bool {
+    fn begin_at(&mut self, offset: IVec2, index: i32, first: &First, cost_m: f64) -> bool {
         let Some(plane) = self.footing.plane(offset) else { return false };
         let way = self.footing.position_m(offset) - self.here_m;
         let distance_m = way.length();
@@ -97,25 +131,29 @@ impl Ways {
             return false;
         }
         let price = if first.reverse { self.config.reverse_price } else { 1.0 };
-        let cost_m = cost_m + price * distance_m * (1.0 + self.config.tilt_price * risk);
+        let cost_m = cost_m
+            + price * distance_m * (1.0 + self.config.tilt_price * risk)
+            + self.climb_cost_m((end.height_m - start.height_m).abs());
         let state = self.footing.index(offset) * HEADINGS + heading;
-        self.reach(state, BEGIN, (cost_m * MILLIMETRES) as u32);
+        let from = BEGIN + index.rem_euclid(FIRST_DIRECTIONS as i32) as u32;
+        self.reach(state, from, (cost_m * MILLIMETRES) as u32);
         true
     }
 
     /// Whether the robot may turn on the spot until it faces a direction.
     pub(super) fn may_turn_to(&self, facing: DVec2) -> bool {
-        let bearing_rad = libm::atan2(facing.y, facing.x);
-        let count = FIRST_DIRECTIONS as i32;
-        let index = (bearing_rad / TAU * f64::from(count)).round() as i32;
-        let left = (index - self.facing).rem_euclid(count);
         let [most_left, most_right] = self.turns;
-        // The controller turns the shorter way.
-        if left <= count / 2 { left <= most_left } else { count - left <= most_right }
+        (-most_right..=most_left).contains(&self.turn_to(index_of(facing)))
     }
 
     /// Whether the robot may turn all around where it stands.
     pub(crate) fn may_turn_around(&self) -> bool {
         self.turns.iter().all(|&turns| turns == FIRST_DIRECTIONS as i32 / 2)
     }
+}
+
+/// The first direction nearest to a facing.
+fn index_of(facing: DVec2) -> i32 {
+    let bearing_rad = libm::atan2(facing.y, facing.x);
+    (bearing_rad / TAU * FIRST_DIRECTIONS as f64).round() as i32
 }

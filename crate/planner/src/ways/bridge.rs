@@ -19,7 +19,9 @@ impl Ways {
         let start = Station { distance_m: 0.0, height_m: begin.height_m, gradient: begin.gradient };
         let end = Station { distance_m, height_m: end.height_m, gradient: end.gradient };
         let risk = self.risk_between(&start, &end, way / distance_m);
-        risk.is_finite().then_some((to, GAP_PRICE * distance_m * (1.0 + self.config.tilt_price * risk)))
+        let climb_m = (end.height_m - start.height_m).abs();
+        let price_m = GAP_PRICE * distance_m * (1.0 + self.config.tilt_price * risk);
+        risk.is_finite().then_some((to, price_m + self.climb_cost_m(climb_m)))
     }
 
     /// Mean risk along a straight line over ground that was not seen, a cubic through both heights and slopes; infinite where

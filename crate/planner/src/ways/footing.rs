@@ -204,6 +204,11 @@ impl Footing {
         if near { &self.allowed_near } else { &self.allowed }
     }
 
+    /// What of the limits may be used in a turn on the spot, as slopes.
+    pub(crate) fn allowed_in_turn(&self, caution: Caution, has_begun: bool) -> &Slopes {
+        if has_begun { &self.allowed_near } else { self.allowed(caution, 0.0) }
+    }
+
     /// How many places there are.
     pub(crate) fn count(&self) -> usize {
         self.places.len()
@@ -272,6 +277,11 @@ impl Footing {
         }
         let mean = 0.5 * (risk + self.risk(from, heading));
         mean.is_finite().then_some((to, mean))
+    }
+
+    /// How much higher or lower one place is than another.
+    pub(crate) fn climb_m(&self, from: IVec2, to: IVec2) -> f64 {
+        self.plane(from).zip(self.plane(to)).map_or(0.0, |(from, to)| (to.height_m - from.height_m).abs())
     }
 
     /// The next known place along a heading, beyond ground that was not seen; `None` where the ground goes on, or none is known

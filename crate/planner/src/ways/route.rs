@@ -46,12 +46,12 @@ impl Ways {
     pub(crate) fn follow(&self, reached: Reached, way: &mut Vec<WayPoint>) -> Forecast {
         way.clear();
         let (mut across, mut along) = (0.0_f64, 0.0_f64);
-        let (mut risk_sum, mut count) = (0.0, 0.0);
+        let (mut risk_sum, mut count, mut climb_m) = (0.0, 0.0, 0.0);
         let mut state = reached.state;
-        while state != BEGIN {
+        while state < BEGIN {
             let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
             let from = self.came_from[state as usize];
-            let turned = from != BEGIN && from as usize / HEADINGS == place;
+            let turned = from < BEGIN && from as usize / HEADINGS == place;
             if !turned {
                 let offset = self.footing.offset(place);
                 risk_sum += self.footing.risk(offset, heading);
@@ -61,10 +61,14 @@ impl Ways {
                     across = across.max(slopes.across);
                     along = along.max(slopes.along);
                 }
+                let height_m = |state: u32| self.height_m(Reached { state });
+                let last_height_m = if from < BEGIN { height_m(from) } else { self.standing_height_m };
+                climb_m += (height_m(state) - last_height_m).abs();
                 let position_m = self.footing.position_m(offset);
-                let last_m = match from {
-                    BEGIN => self.here_m,
-                    _ => self.footing.position_m(self.footing.offset(from as usize / HEADINGS)),
+                let last_m = if from < BEGIN {
+                    self.footing.position_m(self.footing.offset(from as usize / HEADINGS))
+                } else {
+                    self.here_m
                 };
                 let cost_m = f64::from(self.costs_mm[state as usize]) / MILLIMETRES;
                 let reverse = (position_m - last_m).dot(STEPS[heading].as_dvec2()) < 0.0;
@@ -76,6 +80,7 @@ impl Ways {
         way.reverse();
         Forecast {
             way_m: way.windows(2).map(|pair| (pair[1].position_m - pair[0].position_m).length()).sum(),
+            climb_m,
             mean_risk: if count > 0.0 { risk_sum / count } else { 0.0 },
             max_roll_rad: libm::atan(across),
             max_pitch_rad: libm::atan(along),
@@ -111,17 +116,22 @@ impl Ways {
         let length_m = way.length();
         let heading = nearest(facing);
         let count = (2.0 * length_m / self.config.step_m).ceil();
-        let mut risk = 0.0;
+        let (mut risk, mut climb_m) = (0.0, 0.0);
+        let mut height_m = self.standing_height_m;
         for k in 1..=count as usize {
             let share = k as f64 / count;
+            let at = self.footing.nearest(self.here_m + way * share);
+            if let Some(plane) = at.and_then(|at| self.footing.plane(at)) {
+                climb_m += (plane.height_m - height_m).abs();
+                height_m = plane.height_m;
+            }
             if share * length_m <= blind_m {
                 continue;
             }
-            let at = self.footing.nearest(self.here_m + way * share);
             risk += at.map_or(f64::INFINITY, |at| self.footing.risk(at, heading));
         }
         let price = if point.reverse { self.config.reverse_price } else { 1.0 };
-        price * length_m * (1.0 + self.config.tilt_price * risk / count)
+        price * length_m * (1.0 + self.config.tilt_price * risk / count) + self.climb_cost_m(climb_m)
     }
 
     /// The share of the tilt limits that the robot takes up or soon will on a way, in slope.

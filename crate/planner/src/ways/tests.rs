@@ -30,6 +30,15 @@ fn bank(place_m: DVec2) -> Option<Plane> {
     plane(place_m, if on_bank { DVec2::new(1.5, 0.0) } else { DVec2::ZERO })
 }
 
+/// Sets out for a place; gives what the robot heads for.
+fn set_out(ways: &mut Ways, goal_m: DVec2, way: &mut Vec<WayPoint>) -> WayPoint {
+    let reached = ways.to(goal_m).unwrap();
+    ways.follow(reached, way);
+    let ahead = ways.shortcut(way);
+    ways.drive(Some(reached), &ahead);
+    ahead
+}
+
 #[test]
 fn on_level_ground_the_way_is_straight() {
     let mut ways = ways();
@@ -59,6 +68,30 @@ fn a_way_leads_around_what_is_too_steep() {
     // Not straight through the bank either.
     assert!(ways.shortcut(&way).position_m.y.abs() > 1.0);
     assert!(ways.to(DVec2::new(2.5, 0.0)).is_none());
+}
+
+#[test]
+fn a_way_leads_around_a_knoll_that_it_could_cross() {
+    // 0.8 m high and two metres around its top; nowhere near the limits.
+    let knoll = |place_m: DVec2| {
+        let from_top_m = place_m - DVec2::new(3.0, 0.0);
+        let reach = from_top_m.length_squared() / 4.0;
+        let inside = reach < 1.0;
+        let height_m = if inside { 0.8 * (1.0 - reach) * (1.0 - reach) } else { 0.0 };
+        let gradient = if inside { from_top_m * (-0.8 * (1.0 - reach)) } else { DVec2::ZERO };
+        Some(Plane { height_m, gradient, gradient_deviation: 0.0 })
+    };
+    let limits = PlannerConfig::default().limits;
+    let [over, around] = [0.0, 4.0].map(|climb_price| {
+        let config = ForecastConfig { tilt_price: 0.0, climb_price, ..ForecastConfig::default() };
+        let mut ways = Ways::new(config, &limits, 7.0);
+        ways.search(&knoll, &pose(0.0, 0.0));
+        let mut way = Vec::new();
+        let forecast = ways.follow(ways.to(DVec2::new(6.0, 0.0)).unwrap(), &mut way);
+        (forecast, ways.shortcut(&way).position_m)
+    });
+    assert!((over.0.climb_m - 1.6).abs() < 0.05 && over.1.y.abs() < 0.1, "{over:?}");
+    assert!(around.0.climb_m < 0.4 && around.1.y.abs() > 0.4, "{around:?}");
 }
 
 #[test]
@@ -111,21 +144,51 @@ fn on_a_slope_too_steep_to_turn_on_the_way_back_is_in_reverse() {
 }
 
 #[test]
+fn a_turn_that_has_begun_may_be_finished() {
+    // The robot faces up a slope and wants to go back down; across the slope it rolls as far as a way may.
+    let limits = PlannerConfig::default().limits;
+    let roll_rad = limits.roll_rad - PlannerConfig::default().forecast.tilt_margin_rad;
+    let slope = |excess_rad: f64| DVec2::new(libm::tan(roll_rad + excess_rad), 0.0);
+    let knoll =
+        |place_m: DVec2| plane(place_m, if place_m.length() < 0.6 { slope(0.0) } else { DVec2::ZERO });
+    // What attitude it has where it has turned by an angle on ground that is a little steeper.
+    let turned = |yaw_rad: f64, excess_rad: f64| {
+        let (sin, cos) = libm::sincos(yaw_rad);
+        let gradient = slope(excess_rad);
+        let along = gradient.x * cos;
+        let roll_rad = libm::atan(-gradient.x * sin / libm::sqrt(1.0 + along * along));
+        Pose { yaw_rad, ..pose(roll_rad, libm::atan(along)) }
+    };
+    let behind_m = DVec2::new(-4.0, 0.5);
+    let mut ways = ways();
+    let mut way = Vec::new();
+    ways.search(&knoll, &turned(0.0, -0.02));
+    let ahead = set_out(&mut ways, behind_m, &mut way);
+    assert!(!ahead.reverse && ahead.position_m.y > 0.0, "it turns to the left: {ahead:?}");
+    // Half-way round the ground is felt to be steeper than it was at first: still to the left, and forward.
+    for (yaw_rad, excess_rad) in [(0.8, 0.01), (1.2, 0.02), (1.7, 0.02), (2.4, 0.02)] {
+        ways.search(&knoll, &turned(yaw_rad, excess_rad));
+        let ahead = set_out(&mut ways, behind_m, &mut way);
+        assert!(!ahead.reverse && ways.may_turn_to(behind_m), "at {yaw_rad} rad: {ahead:?}");
+    }
+    // A turn that was not begun before is refused there.
+    let mut other = self::ways();
+    other.search(&knoll, &turned(0.8, 0.02));
+    assert!(!other.may_turn_to(behind_m));
+}
+
+#[test]
 fn a_robot_that_stands_steeper_than_told_goes_back_and_does_not_try_again() {
     let mut ways = ways();
     let mut way = Vec::new();
     let goal_m = DVec2::new(4.0, 0.0);
     ways.search(&level, &pose(0.0, 0.0));
-    ways.follow(ways.to(goal_m).unwrap(), &mut way);
-    let ahead = ways.shortcut(&way);
-    ways.drive(Some(&ahead));
+    set_out(&mut ways, goal_m, &mut way);
     // The map says level, the robot feels 42°.
     ways.search(&level, &pose(0.0, 0.73));
     ways.search_escape();
-    ways.follow(ways.to(goal_m).unwrap(), &mut way);
+    set_out(&mut ways, goal_m, &mut way);
     assert!(way[1].reverse, "{way:?}");
-    let ahead = ways.shortcut(&way);
-    ways.drive(Some(&ahead));
     // Back on gentle ground it leaves aside what it met.
     ways.search(&level, &Pose { position_m: DVec3::new(-1.0, 0.0, 0.0), ..pose(0.0, 0.0) });
     ways.follow(ways.to(goal_m).unwrap(), &mut way);
@@ -147,9 +210,7 @@ fn what_costs_a_change_is_not_done_for_less() {
     let mut sides = [0.0; 2];
     for side in &mut sides {
         ways.search(&post, &pose(0.0, 0.0));
-        ways.follow(ways.to(DVec2::new(6.0, 0.0)).unwrap(), &mut way);
-        let ahead = ways.shortcut(&way);
-        ways.drive(Some(&ahead));
+        let ahead = set_out(&mut ways, DVec2::new(6.0, 0.0), &mut way);
         *side = ahead.position_m.y.signum();
     }
     assert!(sides[0] * sides[1] > 0.0);

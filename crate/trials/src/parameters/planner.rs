@@ -175,6 +175,7 @@ pub(super) const GROUPS: &[Group] = &[
             ),
             given("distance_weight", "", Number(0.0, 3.0), "0.3", "Charge for what remains to the goal."),
             given("steepness_weight", "", Number(0.0, 3.0), "0.5", "Charge for steep ways."),
+            given("climb_weight", "", Number(0.0, 5.0), "0.0", "Metres that a metre up or down counts for."),
             given("commitment_weight", "", Number(0.0, 3.0), "0.0", "Charge for leaving the last choice."),
             given(
                 "dead_end_weight",
@@ -216,6 +217,12 @@ pub(super) const GROUPS: &[Group] = &[
                 "",
                 Number(0.0, 5.0),
                 "What a metre at the tilt limit costs beyond itself, in metres of level ground.",
+            ),
+            open(
+                "climb_price",
+                "",
+                Number(0.0, 20.0),
+                "What a metre up or down costs beyond the way itself, in metres of level ground.",
             ),
             open(
                 "turn_cost_m",
