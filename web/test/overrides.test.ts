@@ -48,7 +48,7 @@ test('a complaint of the core is brought to its field', () => {
   ];
   const about = (message: string) => complaintAbout(message, groups);
   assert.equal(about('settings: robot.max_speed_m_s = 0: expected a finite number above 0'), 'robot.max_speed_m_s');
-  assert.equal(about('sensor: invalid type: floating point `1.5`, expected usize\nin `columns`\n'), 'sensor.columns');
+  assert.equal(about('sensor.columns = 1.5: invalid type: floating point `1.5`, expected usize'), 'sensor.columns');
   assert.equal(about('something else'), undefined);
 });
 

@@ -29,6 +29,11 @@ impl Error {
         &self.message
     }
 
+    /// The line of the document that the fault is in, counted from 1, where that is known.
+    pub fn line(&self) -> Option<usize> {
+        self.place.as_ref().map(|place| place.line)
+    }
+
     /// Places the fault here, unless its place is known.
     pub(crate) fn at(mut self, span: Range<usize>) -> Self {
         self.span.get_or_insert(span);

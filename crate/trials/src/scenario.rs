@@ -217,14 +217,22 @@ fn overridden<C: serde::Serialize + serde::de::DeserializeOwned>(
     over: &toml::Table,
     section: &str,
 ) -> Result<C, ScenarioFault> {
-    let fault = |reason: &dyn std::fmt::Display| {
-        ScenarioFault::Value(format!("{section}: {}", reason.to_string().trim_end()))
+    let fault = |place: &str, reason: &dyn std::fmt::Display| {
+        ScenarioFault::Value(format!("{place}: {}", reason.to_string().trim_end()))
     };
-    let mut table = toml::Table::try_from(config).map_err(|e| fault(&e))?;
+    let mut table = toml::Table::try_from(config).map_err(|e| fault(section, &e))?;
     merge(&mut table, over);
     // By way of text: one reader is enough.
-    let text = toml::to_string(&table).map_err(|e| fault(&e))?;
-    mapless_toml::from_str(&text).map_err(|e| fault(&e.message()))
+    let text = toml::to_string(&table).map_err(|e| fault(section, &e))?;
+    mapless_toml::from_str(&text).map_err(|e| fault(&path(section, &text, e.line()), &e.message()))
+}
+
+/// The key and value in a line of a section's text, after the tables that they are in.
+fn path(section: &str, text: &str, line: Option<usize>) -> String {
+    let lines: Vec<&str> = text.lines().take(line.unwrap_or(0)).collect();
+    let table = lines.iter().rev().find_map(|line| line.strip_prefix('[')?.strip_suffix(']'));
+    let value = lines.last().copied().filter(|line| !line.starts_with('['));
+    [Some(section), table, value].into_iter().flatten().collect::<Vec<_>>().join(".")
 }
 
 fn merge(base: &mut toml::Table, over: &toml::Table) {
@@ -324,10 +332,14 @@ mod tests {
         let fault = |sections| scenario.with_parameters("settings", sections).unwrap_err().to_string();
         let noise = "settings: sensor.range_noise_m = 2: expected a number from 0 to 1";
         assert_eq!(fault("[sensor]\nrange_noise_m = 2"), noise);
+        let columns = "settings: sensor.columns = 1.5: invalid type: floating point `1.5`, expected usize";
+        assert_eq!(fault("[sensor]\ncolumns = 1.5"), columns);
+        let planner =
+            scenario.with_parameters("settings", "[planner.perception.kernel]\nvariance = true").unwrap();
+        let fault_of = planner.planner_config(Preset::Default).unwrap_err().to_string();
         assert!(
-            fault("[sensor]\ncolumns = 1.5").contains("`columns`"),
-            "{}",
-            fault("[sensor]\ncolumns = 1.5")
+            fault_of.starts_with("planner.perception.kernel.variance = true: invalid type"),
+            "{fault_of}"
         );
         assert!(fault("seed = 1").contains("unknown field `seed`"));
         let planner = scenario.with_parameters("settings", "[planner]\nperiod_s = -1").unwrap();

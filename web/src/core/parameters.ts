@@ -41,11 +41,6 @@ export function shown(value: OverrideValue): string {
 
 /** The parameter that a message of the core complains about, as `table.name`. */
 export function complaintAbout(message: string, groups: readonly ParameterGroup[]): string | undefined {
-  const paths = groups.flatMap(({ table, parameters }) =>
-    parameters.map(({ name }) => ({ name, path: `${table}.${name}` })),
-  );
-  const full = paths.find(({ path }) => message.includes(`${path} = `));
-  if (full) return full.path;
-  // A value of the wrong kind is only told with its own name.
-  return paths.find(({ name }) => message.includes(`\`${name}\``))?.path;
+  const paths = groups.flatMap(({ table, parameters }) => parameters.map(({ name }) => `${table}.${name}`));
+  return paths.find((path) => message.includes(`${path} = `));
 }
