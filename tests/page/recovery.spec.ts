@@ -100,7 +100,9 @@ plain('nothing on the page breaks its own policy', async ({ page }) => {
   await loaded(page);
   for (const button of ['How it works, and keys', 'Enlarge the plots', 'Terrains', 'Share and save']) {
     await page.getByRole('button', { name: button }).click();
+    await expect(page.locator('dialog[open]')).toBeVisible();
     await page.keyboard.press('Escape');
+    await expect(page.locator('dialog[open]')).toBeHidden();
   }
   for (const id of ['save-csv', 'save-mcap', 'save-plots', 'save-picture']) {
     const waiting = page.waitForEvent('download');
