@@ -71,6 +71,14 @@ async function trace(page: Page): Promise<TraceEvent[]> {
   return events;
 }
 
+/** Megabytes that the page's script holds after everything unused is gone. */
+async function heap_mb(page: Page): Promise<number> {
+  const session = await page.context().newCDPSession(page);
+  await session.send('HeapProfiler.collectGarbage');
+  const { usedSize } = await session.send('Runtime.getHeapUsage');
+  return usedSize / 1e6;
+}
+
 /** The page's main thread: the one that fires animation frames. */
 function mainThread(events: readonly TraceEvent[]): TraceEvent[] {
   const frame = events.find(({ name }) => name === 'FireAnimationFrame');
@@ -105,12 +113,14 @@ const report = await served(async (url) => {
     const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, baseURL: url });
     await showEverything(page);
     const began = await page.evaluate(() => window.mapless?.state()?.tick ?? 0);
+    const before_mb = await heap_mb(page);
     const events = mainThread(await trace(page));
     const ticks = (await page.evaluate(() => window.mapless?.state()?.tick ?? 0)) - began;
     const script_ms = scriptPerFrame(events);
     const tasks_ms = events.filter(({ name }) => /RunTask$/.test(name)).map(({ dur = 0, tdur = dur }) => tdur / 1000);
     return {
       seconds: SECONDS,
+      heap_mb: { before: before_mb, after: await heap_mb(page) },
       ticks,
       frames: script_ms.length,
       script_per_frame_ms: {
