@@ -5,11 +5,10 @@
  * Times are those of the thread's own clock, so that other programs on the machine do not count.
  */
 
-import { spawn } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { chromium, type Page } from '@playwright/test';
+import { served } from './served.ts';
 
-const PORT = 4174;
 const SECONDS = Number(process.env.SECONDS ?? 60);
 const BUDGET = { script_p95_ms: 6, task_ms: 50 };
 
@@ -33,19 +32,6 @@ const SCRIPT = new Set([
   'HandlePostMessage',
   'EventDispatch',
 ]);
-
-async function served<T>(use: (url: string) => Promise<T>): Promise<T> {
-  const server = spawn('node', ['node_modules/vite/bin/vite.js', 'preview', '--port', String(PORT), '--strictPort']);
-  try {
-    await new Promise<void>((resolve, reject) => {
-      server.stdout.on('data', (text) => String(text).includes('http') && resolve());
-      server.once('exit', (code) => reject(new Error(`The server ended with ${code}; is port ${PORT} free?`)));
-    });
-    return await use(`http://127.0.0.1:${PORT}/`);
-  } finally {
-    server.kill();
-  }
-}
 
 async function showEverything(page: Page): Promise<void> {
   await page.goto('.');

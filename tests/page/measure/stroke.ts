@@ -4,8 +4,8 @@
  */
 
 import { chromium, type Page } from '@playwright/test';
-import { preview } from 'vite';
 import config from '../../../playwright.config.ts';
+import { served } from './served.ts';
 
 const GOAL_MS = 33;
 const POINTS = 512;
@@ -35,25 +35,25 @@ async function touches_ms(page: Page): Promise<number[]> {
   return times_ms.sort((a, b) => a - b);
 }
 
-const server = await preview({ preview: { host: '127.0.0.1', port: Number(process.env.MAPLESS_PAGE_PORT ?? 4173) } });
-const address = server.resolvedUrls?.local[0];
-if (!address) throw new Error('The page is not served: build it first, with `npm run build`.');
-const browser = await chromium.launch(config.use?.launchOptions);
-const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
-await page.goto(address);
-await page.waitForFunction(() => window.mapless?.state() !== undefined);
-await page.locator('#files').setInputFiles({ name: 'waves.asc', mimeType: 'text/plain', buffer: Buffer.from(waves()) });
-await page.waitForFunction((points) => window.mapless?.state()?.ground.columns === points, POINTS);
-for (const how of ['standing', 'driving']) {
-  await page.evaluate((drives) => (drives ? window.mapless?.play() : window.mapless?.pause()), how === 'driving');
-  const times_ms = await touches_ms(page);
-  const [median_ms = Number.NaN, slow_ms = Number.NaN] = [0.5, 0.95].map(
-    (share) => times_ms[Math.floor(share * TOUCHES)],
-  );
-  process.stdout.write(
-    `${how}: median ${median_ms.toFixed(1)} ms, 95 % within ${slow_ms.toFixed(1)} ms; goal ${GOAL_MS} ms\n`,
-  );
-  if (!(slow_ms <= GOAL_MS)) process.exitCode = 1;
-}
-await browser.close();
-await server.close();
+await served(async (address) => {
+  const browser = await chromium.launch(config.use?.launchOptions);
+  const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+  await page.goto(address);
+  await page.waitForFunction(() => window.mapless?.state() !== undefined);
+  await page
+    .locator('#files')
+    .setInputFiles({ name: 'waves.asc', mimeType: 'text/plain', buffer: Buffer.from(waves()) });
+  await page.waitForFunction((points) => window.mapless?.state()?.ground.columns === points, POINTS);
+  for (const how of ['standing', 'driving']) {
+    await page.evaluate((drives) => (drives ? window.mapless?.play() : window.mapless?.pause()), how === 'driving');
+    const times_ms = await touches_ms(page);
+    const [median_ms = Number.NaN, slow_ms = Number.NaN] = [0.5, 0.95].map(
+      (share) => times_ms[Math.floor(share * TOUCHES)],
+    );
+    process.stdout.write(
+      `${how}: median ${median_ms.toFixed(1)} ms, 95 % within ${slow_ms.toFixed(1)} ms; goal ${GOAL_MS} ms\n`,
+    );
+    if (!(slow_ms <= GOAL_MS)) process.exitCode = 1;
+  }
+  await browser.close();
+});
