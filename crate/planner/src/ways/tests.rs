@@ -216,6 +216,33 @@ fn what_costs_a_change_is_not_done_for_less() {
     assert!(sides[0] * sides[1] > 0.0);
 }
 
+#[test]
+fn each_change_of_mind_nearby_makes_the_next_one_dearer() {
+    let mut ways = ways();
+    let mut way = Vec::new();
+    let (ahead_m, behind_m) = (DVec2::X, -DVec2::X);
+    // What it costs to begin straight to a place, before a search finds that it may go on a little and turn there.
+    let mut begin_to = |place_m: DVec2, here_m: DVec3| {
+        ways.search(&level, &Pose { position_m: here_m, ..pose(0.0, 0.0) });
+        ways.costs_mm.fill(UNREACHED);
+        ways.begin();
+        let reached = ways.to(here_m.truncate() + place_m).unwrap();
+        let cost_m = f64::from(ways.costs_mm[reached.state as usize]) / MILLIMETRES;
+        ways.search(&level, &Pose { position_m: here_m, ..pose(0.0, 0.0) });
+        set_out(&mut ways, here_m.truncate() + 4.0 * place_m, &mut way);
+        cost_m
+    };
+    let settled_m = begin_to(ahead_m, DVec3::ZERO);
+    // Behind it in reverse, at twice the price of ahead.
+    for (change, price_m) in [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 32.0].into_iter().enumerate() {
+        let (place_m, times) = if change % 2 == 0 { (behind_m, 2.0) } else { (ahead_m, 1.0) };
+        let paid_m = begin_to(place_m, DVec3::ZERO) - times * settled_m;
+        assert!((paid_m - price_m).abs() < 0.01, "change {change}: {paid_m} m");
+    }
+    let paid_m = begin_to(ahead_m, DVec3::new(1.5, 0.0, 0.0)) - settled_m;
+    assert!((paid_m - 1.0).abs() < 0.01, "elsewhere it begins anew: {paid_m} m");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
