@@ -57,14 +57,11 @@ impl Picture<'_> {
 
     fn legend(&self, svg: &mut String, map: &Map<'_>) -> fmt::Result {
         let mut legend = map.legend();
-        let line = |svg: &mut String, at: DVec2, stroke: &str| {
-            writeln!(svg, r#"<path {stroke} d="M{:.1} {:.1}h20"/>"#, at.x - 10.0, at.y)
-        };
         marks::start(svg, legend.place, 0.0)?;
         legend.words(svg, "start")?;
         marks::flag(svg, legend.place + DVec2::new(-6.0, 9.0))?;
         legend.words(svg, "goal")?;
-        line(svg, legend.place, &format!(r#"stroke="{PATH}" stroke-width="3""#))?;
+        legend.stroke(svg, &format!(r#"stroke="{PATH}" stroke-width="3""#))?;
         legend.words(svg, "path")?;
         marks::subgoal(svg, legend.place)?;
         legend.words(svg, "chosen subgoals")?;
@@ -73,7 +70,7 @@ impl Picture<'_> {
             legend.words(svg, self.outcome.name())?;
         }
         if let Some(interval_m) = map.contour_interval_m() {
-            line(svg, legend.place, &format!(r#"stroke="{INK}" stroke-opacity="0.55""#))?;
+            legend.stroke(svg, &format!(r#"stroke="{INK}" stroke-opacity="0.55""#))?;
             legend.words(svg, &format!("contours every {interval_m} m"))?;
         }
         Ok(())

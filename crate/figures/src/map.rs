@@ -215,6 +215,15 @@ impl Legend {
         Ok(())
     }
 
+    /// Draws a stroke with these attributes as the mark at [`Legend::place`].
+    ///
+    /// # Errors
+    /// None: a `String` takes what is written to it.
+    pub fn stroke(&self, svg: &mut String, attributes: &str) -> fmt::Result {
+        let DVec2 { x, y } = self.place;
+        writeln!(svg, r#"<path {attributes} d="M{:.1} {y:.1}h20"/>"#, x - 10.0)
+    }
+
     /// Begins a line of its own where what has `letters` would not fit any more.
     pub fn make_room(&mut self, letters: usize) {
         if self.place.x + 30.0 + 6.6 * letters as f64 > self.right {

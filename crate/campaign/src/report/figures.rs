@@ -219,24 +219,14 @@ fn paths(route: &str, loaded: &LoadedScenario, drives: &[Drive<'_>]) -> Result<S
     marks::flag(&mut svg, legend.place + DVec2::new(-6.0, 9.0))?;
     legend.words(&mut svg, "goal")?;
     if let Some(interval_m) = map.contour_interval_m() {
-        writeln!(
-            svg,
-            r#"<path stroke="{INK}" stroke-opacity="0.55" d="M{:.1} {:.1}h20"/>"#,
-            legend.place.x - 10.0,
-            legend.place.y
-        )?;
+        legend.stroke(&mut svg, &format!(r#"stroke="{INK}" stroke-opacity="0.55""#))?;
         legend.words(&mut svg, &format!("contours every {interval_m} m"))?;
     }
     for Drive { row, colour, .. } in drives {
         let driven_m = row.distance_m.unwrap_or_default();
         let words = format!("{}: {}, {driven_m:.1} m", row.planner, row.outcome);
         legend.make_room(words.chars().count());
-        writeln!(
-            svg,
-            r#"<path stroke="{colour}" stroke-width="3" d="M{:.1} {:.1}h20"/>"#,
-            legend.place.x - 10.0,
-            legend.place.y
-        )?;
+        legend.stroke(&mut svg, &format!(r#"stroke="{colour}" stroke-width="3""#))?;
         legend.words(&mut svg, &words)?;
     }
     svg.push_str("</svg>\n");
