@@ -94,6 +94,7 @@ plain('hostile and broken links say so, and lose nothing', async ({ page }) => {
     [`#e=${bomb}`, 'unpacks to more than 4 MB'],
     [`#e=${deflateRawSync('{"version":7}').toString('base64url')}`, 'version = 7'],
     ['?scenario=atlantis', 'atlantis'],
+    ['?scenario=ht&seed=1.5', 'seed = 1.5: expected a whole number'],
   ];
   for (const [link, words] of links) {
     await page.goto('about:blank');
@@ -121,10 +122,10 @@ plain('the page continues where it was left, and starts afresh when asked', asyn
 });
 
 plain('a scenario by name, in another page’s frame', async ({ page }) => {
-  await page.goto('/?scenario=gsb&embed');
+  await page.goto('/?scenario=gsb&seed=7&preset=paper&embed');
   await loaded(page);
-  expect((await state(page)).scenario).toBe('gsb');
+  expect(await state(page)).toMatchObject({ scenario: 'gsb', seed: 7, preset: 'paper' });
   await expect(page.locator('.transport')).toBeVisible();
   for (const part of ['.bar', '.panel', '.seen', '.tools', '.timeline']) await expect(page.locator(part)).toBeHidden();
-  await expect(page.locator('#open-page')).toHaveAttribute('href', /^\.\/\?scenario=gsb$|\?scenario=gsb$/);
+  await expect(page.locator('#open-page')).toHaveAttribute('href', /\?scenario=gsb&seed=7&preset=paper$/);
 });

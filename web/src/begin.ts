@@ -1,6 +1,7 @@
 /** What the page begins with: a link, a scenario by name, where somebody left off, or the first scenario. */
 
 import type { App } from './app.ts';
+import { askedFor } from './core/address.ts';
 import { kept } from './core/autosave.ts';
 import { CATALOGUE } from './core/catalogue.ts';
 import { type Experiment, FIRST_SETUP } from './core/experiment.ts';
@@ -12,7 +13,6 @@ export async function begin(app: App, notice: Notice): Promise<void> {
   const first = () => app.run(CATALOGUE[0]?.id ?? '', FIRST_SETUP);
   const link = location.hash;
   const options = new URLSearchParams(location.search);
-  const scenario = options.get('scenario');
   if (options.has('embed')) embed(options);
   let own: Experiment | undefined;
   try {
@@ -21,11 +21,13 @@ export async function begin(app: App, notice: Notice): Promise<void> {
     notice.show(`What this browser kept of the last visit cannot be read. ${said(error)}`);
   }
   try {
+    const asked = askedFor(options);
     if (carriesExperiment(link)) {
       await app.runAfter(own, { experiment: await experimentIn(link) });
       if (own) notice.tell('This came with the link. Undo leads back to your own work.');
-    } else if (scenario !== null) {
-      await app.runAfter(own, { scenario, setup: app.setup, seed: undefined });
+    } else if (asked) {
+      const { scenario, preset = app.setup.preset, seed } = asked;
+      await app.runAfter(own, { scenario, setup: { ...app.setup, preset }, seed });
     } else if (own) {
       await app.runAfter(undefined, { experiment: own });
       notice.tell('Here is where you left off.', 'Start afresh', () => app.attempt(first()));

@@ -54,7 +54,7 @@ enum Command {
     },
     /// Run the campaigns of terrains/campaigns, or what is left of them, and write docs/RESULTS.md with its figures.
     Results {
-        /// Only the campaign `quick`: five seeds a route, and fewer for slow planners.
+        /// Only the campaign `quick`: ten seeds a route, and fewer for slow planners.
         #[arg(long)]
         quick: bool,
     },

@@ -1,6 +1,7 @@
 //! The worst trials, each with the command that runs it again.
 
 use std::fmt::{self, Write as _};
+use std::path::Path;
 
 use super::Results;
 use crate::results::TrialRow;
@@ -19,11 +20,12 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     writeln!(text, "\n### The worst trials\n")?;
     writeln!(
         text,
-        "Failures first, then by the largest share of a tilt limit. The command runs a trial again and prints its digest.\n"
+        "Failures first, then by the largest share of a tilt limit. The command runs a trial again and prints its digest; the page \
+         shows it at the address that ends like this, where it has the route and drives that planner.\n"
     )?;
     writeln!(
         text,
-        "| planner | route | seed | outcome | of the tilt limit | command |\n|---|---|---:|---|---:|---|"
+        "| planner | route | seed | outcome | of the tilt limit | command | page |\n|---|---|---:|---|---:|---|---|"
     )?;
     for (row, share) in rows.into_iter().take(SHOWN) {
         let TrialRow { id, planner, route, parameters, truth, seed, outcome, .. } = row;
@@ -41,11 +43,25 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         });
         writeln!(
             text,
-            "| {planner} | {route} | {seed} | {outcome}{reason} | {:.0} % | `{command}` |",
-            100.0 * share
+            "| {planner} | {route} | {seed} | {outcome}{reason} | {:.0} % | `{command}` | {} |",
+            100.0 * share,
+            address(results, row)
         )?;
     }
     Ok(())
+}
+
+/// How the page's address ends that shows a trial; nothing where the page has not its route, or does not drive its planner.
+fn address(results: &Results, row: &TrialRow) -> String {
+    let TrialRow { planner, route, parameters, truth, seed, .. } = row;
+    let has_route = results.manifest.routes.iter().any(|found| {
+        found.name == *route && Path::new(&found.file).ends_with(format!("scenarios/{route}.toml"))
+    });
+    let is_driven = matches!(planner.as_str(), "default" | "paper");
+    if !(has_route && is_driven && parameters.is_empty() && truth == "none") {
+        return String::new();
+    }
+    format!("`?scenario={route}&seed={seed}&preset={planner}`")
 }
 
 /// The largest share of a tilt limit that the robot came to; nothing where the trial did not run.
@@ -55,4 +71,30 @@ fn limit_share(row: &TrialRow) -> f64 {
     let share = |angle_rad: Option<f64>, name: &str| Some(angle_rad? / limit(name)?);
     let roll = share(row.max_abs_roll_rad, "roll_rad").unwrap_or_default();
     roll.max(share(row.max_abs_pitch_rad, "pitch_rad").unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{results, row};
+
+    #[test]
+    fn a_trial_that_the_page_can_show_has_its_address() {
+        let rows = vec![
+            row("default", "gsb", "none", 7, "stuck"),
+            row("default", "gsb", "profile", 8, "stuck"),
+            row("oracle", "gsb", "none", 9, "stuck"),
+            row("paper", "easy-1-0001", "none", 10, "stuck"),
+        ];
+        let mut results = results(&["default", "oracle", "paper"], &["gsb", "easy-1-0001"], rows);
+        for (route, folder) in
+            results.manifest.routes.iter_mut().zip(["terrains/campaigns/../scenarios", "target"])
+        {
+            route.file = format!("{folder}/{}.toml", route.name);
+        }
+        let mut text = String::new();
+        section(&mut text, &results).unwrap();
+        assert!(text.contains("| `?scenario=gsb&seed=7&preset=default` |"), "{text}");
+        assert_eq!(text.matches("?scenario=").count(), 1, "{text}");
+    }
 }
