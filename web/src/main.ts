@@ -131,6 +131,7 @@ const app = new App({
     controls.showSpeed(speed);
     stage?.speed(speed);
   },
+  still: () => stage?.still() ?? Promise.resolve(),
   countdown(seconds) {
     setText(element('countdown'), seconds === undefined ? '' : `in ${seconds} s`);
   },

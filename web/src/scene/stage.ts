@@ -61,6 +61,8 @@ export class Stage {
   #shown: Pose | undefined;
   #speed = 1;
   #dirty = true;
+  /** Who waits until nothing moves. */
+  #patient: (() => void)[] = [];
   /** Called with the view right after each drawing: later its pixels are gone. */
   drawn: ((view: HTMLCanvasElement) => void) | undefined;
   #colouring: Colouring = 'elevation';
@@ -108,6 +110,11 @@ export class Stage {
 
   invalidate(): void {
     this.#dirty = true;
+  }
+
+  /** Resolves once everything is drawn as it is and nothing moves any more. */
+  still(): Promise<void> {
+    return new Promise((resolve) => this.#patient.push(resolve));
   }
 
   theme(theme: Theme): void {
@@ -284,6 +291,7 @@ export class Stage {
     requestAnimationFrame((next_ms) => this.#loop(next_ms));
     this.#viewpoint.update();
     this.#moveRobot();
+    if (!this.#dirty) for (const rested of this.#patient.splice(0)) rested();
     // Without ground there is nothing to see yet, and the first picture is dear: its shaders are compiled for it.
     if (!this.field || !this.#pacer.due(now_ms) || !this.#dirty) return;
     this.#dirty = false;
