@@ -27,6 +27,8 @@ import { Workbench } from './workbench.ts';
 const JUMP_S = 5;
 
 export interface Views {
+  /** The worker has begun to load something. */
+  loading(): void;
   /** A scenario, goal or start changed; with `field`, the ground is another one. */
   session(info: SessionInfo, field: HeightField | undefined): void;
   frame(frame: Frame): void;
@@ -346,6 +348,7 @@ export class App {
   async #drive(loading: Promise<void>): Promise<void> {
     const before = this.#playing;
     this.#show(true);
+    this.#views.loading();
     try {
       await loading;
     } catch (error) {
