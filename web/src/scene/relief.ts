@@ -93,6 +93,7 @@ export class Relief {
   /** Another ground. The material stays: compiling its shaders takes longer than all else here. */
   ground(field: HeightField): void {
     clearTimeout(this.#relightTimer);
+    this.#relightTimer = undefined;
     for (const old of [this.mesh.geometry, this.#heights, this.#light]) old.dispose();
     const { columns, rows, cell_m } = field;
     this.#field = field;
@@ -130,9 +131,15 @@ export class Relief {
     this.#fitRange();
     clearTimeout(this.#relightTimer);
     this.#relightTimer = setTimeout(() => {
+      this.#relightTimer = undefined;
       this.#relight();
       this.#changed();
     }, RELIGHT_DELAY_MS);
+  }
+
+  /** Whether shadows have still to follow a stroke. */
+  get relighting(): boolean {
+    return this.#relightTimer !== undefined;
   }
 
   /** By what to colour, with the tilt that the robot may have. */

@@ -126,7 +126,7 @@ export class Stage {
 
   /** Uses the time until there is ground: has the shaders compiled, by a picture without pixels. */
   prepare(): void {
-    if (!this.field) requestAnimationFrame(() => this.#warmUp());
+    requestAnimationFrame(() => this.#warmUp());
   }
 
   session(info: SessionInfo, field: HeightField | undefined): void {
@@ -287,7 +287,7 @@ export class Stage {
     requestAnimationFrame((next_ms) => this.#loop(next_ms));
     this.#viewpoint.update();
     this.#moveRobot();
-    if (!this.#dirty) for (const rested of this.#patient.splice(0)) rested();
+    if (!this.#dirty && !this.#relief.relighting) for (const rested of this.#patient.splice(0)) rested();
     const { field } = this;
     // No picture of the ground without the robot, which comes right after it.
     if (!field || !this.#shown || !this.#pacer.due(now_ms) || !this.#dirty) return;
@@ -303,6 +303,7 @@ export class Stage {
   }
 
   #warmUp(): void {
+    if (this.field) return;
     this.#viewpoint.follow(this.#husky.group.position);
     this.#renderer.setScissor(0, 0, 0, 0);
     this.#renderer.setScissorTest(true);
