@@ -1,6 +1,6 @@
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { expect, test } from './page.ts';
+import { expect, still, test } from './page.ts';
 
 const GRAVE = ['serious', 'critical'];
 
@@ -19,16 +19,24 @@ for (const scheme of ['light', 'dark'] as const) {
     ['desktop', { width: 1440, height: 900 }],
     ['phone', { width: 390, height: 844 }],
   ] as const) {
-    test(`axe finds nothing serious: ${device}, ${scheme}, also in the open sheets`, async ({ mapless: page }) => {
+    test(`axe finds nothing serious: ${device}, ${scheme}, also in the open sheets and the drawer`, async ({
+      mapless: page,
+    }) => {
       await page.setViewportSize(viewport);
       await page.emulateMedia({ colorScheme: scheme, reducedMotion: 'reduce' });
-      await page.evaluate(() => window.mapless?.pause());
+      await still(page);
       expect(await faults(page)).toEqual([]);
       for (const button of ['How it works, and keys', 'Enlarge the plots', 'Terrains', 'Share and save']) {
         await page.getByRole('button', { name: button }).click();
         await expect(page.locator('dialog[open]')).toBeVisible();
         expect(await faults(page), button).toEqual([]);
         await page.keyboard.press('Escape');
+      }
+      await page.getByRole('button', { name: /^Parameters, comparison/ }).click();
+      for (const tab of ['Parameters', 'Compare', 'Seeds']) {
+        await page.getByRole('tab', { name: tab }).click();
+        await expect(page.getByRole('tabpanel', { name: tab })).toBeVisible();
+        expect(await faults(page), tab).toEqual([]);
       }
     });
   }

@@ -113,9 +113,9 @@ test('a scenario opens with its own terrain, and one of the catalogue by itself'
   await open(page, scenario, file('waves.toml', recipe), file('waves.asc', ascii()));
   await until(page, (now) => now.scenario === 'mine' && now.seed === 5);
   expect(await difference(page)).toBeLessThan(1e-6);
-  const experiment = await page.evaluate(() => window.mapless?.experiment());
-  expect(experiment?.start).toEqual({ x: 4, y: 5, heading_rad: 0.25 });
-  expect(experiment?.overrides).toEqual({ planner: { decision: { steepness_weight: 0.5 } } });
+  const experiment = () => page.evaluate(() => window.mapless?.experiment());
+  await expect.poll(experiment).toMatchObject({ name: 'mine', start: { x: 4, y: 5, heading_rad: 0.25 } });
+  expect((await experiment())?.overrides).toEqual({ planner: { decision: { steepness_weight: 0.5 } } });
   await open(page, file('other.toml', `terrain = "../ht.toml"\n${head}`));
   await until(page, (now) => now.scenario === 'other');
 });

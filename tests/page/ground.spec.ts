@@ -1,7 +1,7 @@
-import { expect, state, test, until } from './page.ts';
+import { expect, state, still, test, until } from './page.ts';
 
 test('a stroke of the brush raises the ground, and the next scan shows it', async ({ mapless: page }) => {
-  await page.evaluate(() => window.mapless?.pause());
+  await still(page);
   // Only handles leave the page: tens of thousands of numbers would take long to hand over and back.
   const before = await page.evaluateHandle(() => window.mapless?.scan() ?? new Float32Array());
   await page.keyboard.press('4');
@@ -17,6 +17,8 @@ test('a stroke of the brush raises the ground, and the next scan shows it', asyn
     await page.waitForTimeout(50);
   }
   await page.mouse.up();
+  await expect.poll(() => page.evaluate(() => window.mapless?.experiment()?.strokes.length)).toBe(1);
+  await still(page);
   const after = await page.evaluate(() => window.mapless?.state()?.returns);
   expect(after).toBeGreaterThan(1000);
   const changed = await page.evaluate((old) => {
@@ -57,7 +59,7 @@ test('raise, lower and smooth do what they say, where they say it, while the rob
 });
 
 test('a click sets the goal, and a drag the start with its heading', async ({ mapless: page }) => {
-  await page.evaluate(() => window.mapless?.pause());
+  await still(page);
   const old = await state(page);
   const box = await page.locator('#view').boundingBox();
   if (!box) throw new Error('The view has no place.');
@@ -65,6 +67,7 @@ test('a click sets the goal, and a drag the start with its heading', async ({ ma
   await page.getByRole('radio', { name: 'Goal' }).check();
   await page.mouse.click(x, y);
   await until(page, (now) => now.goal.x !== old.goal.x);
+  await still(page);
   const { goal, tick } = await state(page);
   expect(tick).toBe(old.tick);
   await page.getByRole('radio', { name: 'Start' }).check();
@@ -73,6 +76,7 @@ test('a click sets the goal, and a drag the start with its heading', async ({ ma
   await page.mouse.move(x + 160, y, { steps: 4 });
   await page.mouse.up();
   await until(page, (now) => now.start.x !== old.start.x);
+  await still(page);
   const now = await state(page);
   expect(Math.hypot(now.start.x - goal.x, now.start.y - goal.y)).toBeLessThan(0.1);
   expect(Math.hypot(now.pose.x - now.start.x, now.pose.y - now.start.y)).toBeLessThan(0.1);

@@ -1,11 +1,12 @@
-import { expect, state, test, until } from './page.ts';
+import { expect, state, still, test, until } from './page.ts';
 
 test('everything runs by keyboard', async ({ mapless: page }) => {
   // Far enough from the start that a restart shows.
-  await until(page, (now) => now.tick > 20);
+  await until(page, (now) => now.tick > 40);
   await page.keyboard.press('Space');
   await until(page, (now) => !now.playing);
   await expect(page.locator('#outcome')).toHaveText('Paused');
+  await still(page);
   const { tick } = await state(page);
   await page.keyboard.press('s');
   await until(page, (now) => now.tick === tick + 1);
@@ -43,9 +44,8 @@ test('the help sheet opens, lists the keys and closes', async ({ mapless: page }
 });
 
 test('the ground is reached by keyboard too: a goal and a hill', async ({ mapless: page }) => {
-  await page.evaluate(() => window.mapless?.pause());
-  // The cursor starts from the robot as it is drawn: it glides to where it stands within a tick.
-  await page.waitForTimeout(500);
+  // The cursor starts from the robot as it is drawn, which glides to where it stands.
+  await still(page);
   const old = await state(page);
   await page.locator('#view').focus();
   await page.keyboard.press('2');
@@ -63,6 +63,7 @@ test('the ground is reached by keyboard too: a goal and a hill', async ({ maples
 });
 
 test('every control can be reached and has a name', async ({ mapless: page }) => {
+  await still(page);
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll<HTMLElement>(':is(button, select, input, [tabindex]):not([hidden], :disabled)')]
       .filter(

@@ -21,10 +21,18 @@ test('after the first visit the page opens and drives without a network', async 
 test('a new version is offered, and starts when asked for', async ({ mapless: page }) => {
   test.setTimeout(300_000);
   await page.evaluate(() => navigator.serviceWorker.ready);
+  await page.addInitScript(() => {
+    const { register } = ServiceWorkerContainer.prototype;
+    ServiceWorkerContainer.prototype.register = async function (...asked) {
+      const registration = await register.apply(this, asked);
+      document.documentElement.dataset.registered = 'yes';
+      return registration;
+    };
+  });
   await page.reload();
   await loaded(page);
   // The page looks for a new version some seconds after it has opened.
-  await page.waitForTimeout(8000);
+  await page.waitForSelector('[data-registered]');
   // To the browser, another address is another version.
   await page.evaluate(() => navigator.serviceWorker.register('./sw.js?new').then(() => undefined));
   await expect(page.locator('#notice-text')).toHaveText('A new version of this page is ready.');

@@ -47,8 +47,25 @@ export async function until(page: Page, check: (now: MaplessState) => boolean, t
   await expect.poll(async () => check(await state(page)), { timeout, intervals: [100] }).toBe(true);
 }
 
-/** Number of different colours in a screenshot of an element: a blank drawing has one or a few. */
-export async function colours(page: Page, selector: string): Promise<number> {
+/** Pauses and waits until nothing changes any more, neither state nor view. */
+export async function still(page: Page): Promise<void> {
+  await page.evaluate(() => window.mapless?.still());
+}
+
+/** Drives on as fast as it goes, to this tick at least, and stands there. */
+export async function driveTo(page: Page, tick: number): Promise<void> {
+  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+  await until(page, (now) => now.tick >= tick || now.outcome !== 'running');
+  await still(page);
+}
+
+/** Waits until an element's drawing has more than so many different colours: a blank one has one or a few. */
+export async function drawnIn(page: Page, selector: string, least: number): Promise<void> {
+  await expect.poll(() => colours(page, selector)).toBeGreaterThan(least);
+}
+
+/** Number of different colours in a screenshot of an element. */
+async function colours(page: Page, selector: string): Promise<number> {
   const png = await page.locator(selector).screenshot();
   return page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));

@@ -1,4 +1,4 @@
-import { colours, expect, state, test, until } from './page.ts';
+import { drawnIn, expect, state, test, until } from './page.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
 
@@ -18,7 +18,7 @@ test('fits a phone: no sideways scrolling, every control in reach of a thumb', a
     expect(box && box.x >= 0 && box.x + box.width <= 390, name).toBe(true);
   }
   await until(page, (now) => now.tick > 5);
-  expect(await colours(page, '#view')).toBeGreaterThan(300);
+  await drawnIn(page, '#view', 300);
 });
 
 test('the measurements scroll under the view', async ({ mapless: page }) => {

@@ -20,6 +20,6 @@ test('docs/page-thinking.png', async ({ page }) => {
   for (const name of [/Observed/, /Variance/, /Segments/]) await layers.getByRole('checkbox', { name }).check();
   await page.keyboard.press('Escape');
   await page.locator('.candidate').nth(1).click();
-  await page.waitForTimeout(1500);
+  await page.evaluate(() => window.mapless?.still());
   await page.screenshot({ path: 'docs/page-thinking.png' });
 });

@@ -1,5 +1,5 @@
 import { test as plain } from '@playwright/test';
-import { colours, expect, loaded, state, test, until } from './page.ts';
+import { drawnIn, expect, loaded, state, test, until } from './page.ts';
 
 // What these tests replace must come from the server, not from what the page keeps.
 for (const one of [plain, test]) one.use({ serviceWorkers: 'block' });
@@ -12,17 +12,17 @@ test('an unknown scenario is named in the message, and the old one goes on', asy
 });
 
 test('a lost graphics context is explained, and the view comes back', async ({ mapless: page }) => {
-  await page.evaluate(() => {
+  const context = await page.evaluateHandle(() => {
     const canvas = document.getElementById('view') as HTMLCanvasElement;
-    const lose = canvas.getContext('webgl2')?.getExtension('WEBGL_lose_context');
-    lose?.loseContext();
-    setTimeout(() => lose?.restoreContext(), 1500);
+    return canvas.getContext('webgl2')?.getExtension('WEBGL_lose_context');
   });
+  await context.evaluate((lose) => lose?.loseContext());
   await expect(page.locator('#notice')).toContainText('3D view');
+  await context.evaluate((lose) => lose?.restoreContext());
   await expect(page.locator('#notice')).toBeHidden();
   const { tick } = await state(page);
   await until(page, (now) => now.tick > tick + 3);
-  expect(await colours(page, '#view')).toBeGreaterThan(500);
+  await drawnIn(page, '#view', 500);
 });
 
 test('the policy of the page allows its own origin only', async ({ mapless: page }) => {

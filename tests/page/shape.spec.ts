@@ -1,6 +1,6 @@
 import type { Page } from '@playwright/test';
 import { BRUSHES } from '../../web/src/scene/brushes.ts';
-import { expect, state, test, until } from './page.ts';
+import { expect, state, still, test, until } from './page.ts';
 
 /** Every fourth sample of the ground, row by row. */
 function ground(page: Page): Promise<number[]> {
@@ -27,7 +27,7 @@ async function strokes(page: Page): Promise<number> {
 }
 
 test('every tool shapes the ground, and undoing leads back to the very heights', async ({ mapless: page }) => {
-  await page.evaluate(() => window.mapless?.pause());
+  await still(page);
   const before = await ground(page);
   const states = [before];
   const { x, y } = await middle(page);
@@ -37,7 +37,6 @@ test('every tool shapes the ground, and undoing leads back to the very heights',
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + 60, y + 12, { steps: 4 });
-    await page.waitForTimeout(150);
     await page.mouse.up();
     await expect.poll(() => strokes(page), { message: tool }).toBe(index + 1);
     const after = await ground(page);
@@ -92,7 +91,7 @@ test('other settings keep the ground, the start and the goal', async ({ mapless:
 });
 
 test('by keyboard alone: a ramp from here to there, a boulder, and back', async ({ mapless: page }) => {
-  await page.evaluate(() => window.mapless?.pause());
+  await still(page);
   const before = await ground(page);
   await page.keyboard.press('9');
   await page.locator('#view').focus();
@@ -126,7 +125,7 @@ test('generated terrains have pictures, a start, a goal, and drive', async ({ ma
 });
 
 test('the ground is coloured by slope and by where the robot can stand, with a legend', async ({ mapless: page }) => {
-  await page.evaluate(() => window.mapless?.pause());
+  await still(page);
   const picture = () => page.locator('#view').screenshot();
   const seen = [await picture()];
   for (const colouring of ['slope', 'stand']) {
@@ -135,7 +134,7 @@ test('the ground is coloured by slope and by where the robot can stand, with a l
     // The layers close again, so that only the ground differs.
     await page.keyboard.press('Escape');
     await page.locator('#view').focus();
-    await page.waitForTimeout(700);
+    await still(page);
     seen.push(await picture());
   }
   expect(seen[1]?.equals(seen[0] ?? Buffer.of())).toBe(false);
@@ -147,7 +146,7 @@ test.describe('on a phone', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true });
 
   test('a finger shapes the ground, and a tap undoes it', async ({ mapless: page }) => {
-    await page.evaluate(() => window.mapless?.pause());
+    await still(page);
     const before = await ground(page);
     await page.getByRole('radio', { name: 'Crater' }).check();
     // The row of tools scrolls, the view does not.

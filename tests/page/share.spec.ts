@@ -3,11 +3,12 @@ import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { deflateRawSync } from 'node:zlib';
-import { test as plain } from '@playwright/test';
+import { type Page, test as plain } from '@playwright/test';
+import type { Experiment } from '../../web/src/core/experiment.ts';
 import { expect, loaded, state, test, until } from './page.ts';
 
 /** A boulder and a rough patch ahead of the start of `ht`, another goal behind a stop, and another parameter. */
-async function shape(page: import('@playwright/test').Page): Promise<void> {
+async function shape(page: Page): Promise<void> {
   await page.evaluate(async () => {
     const { mapless } = window;
     await mapless?.loadScenario('ht', { seed: 3 });
@@ -23,12 +24,32 @@ async function shape(page: import('@playwright/test').Page): Promise<void> {
   });
 }
 
-async function runToEnd(page: import('@playwright/test').Page) {
+async function runToEnd(page: Page) {
   await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
   await page.evaluate(() => window.mapless?.play());
   await until(page, (now) => now.outcome !== 'running', 400_000);
   const { outcome, tick, digest } = await state(page);
   return { outcome, ticks: tick, digest };
+}
+
+/** Waits until the browser has kept the experiment for the next visit; returns it. */
+async function kept(page: Page): Promise<Experiment | undefined> {
+  const own = await page.evaluate(() => window.mapless?.experiment());
+  const stored = () =>
+    page.evaluate(
+      () =>
+        new Promise((resolve, reject) => {
+          const opening = indexedDB.open('mapless', 1);
+          opening.onerror = () => reject(opening.error);
+          opening.onsuccess = () => {
+            const reading = opening.result.transaction('experiments').objectStore('experiments').get('last');
+            reading.onerror = () => reject(reading.error);
+            reading.onsuccess = () => resolve(reading.result);
+          };
+        }),
+    );
+  await expect.poll(stored).toEqual(own);
+  return own;
 }
 
 /** Takes an archive of stored files apart by its directory. */
@@ -86,8 +107,7 @@ plain('hostile and broken links say so, and lose nothing', async ({ page }) => {
   await loaded(page);
   await page.locator('#view').click();
   await shape(page);
-  const own = await page.evaluate(() => window.mapless?.experiment());
-  await page.waitForTimeout(800);
+  const own = await kept(page);
   const bomb = deflateRawSync(new Uint8Array(64 << 20)).toString('base64url');
   const links: [link: string, words: string][] = [
     ['#e=AAAA', 'damaged or was cut short'],
@@ -109,8 +129,7 @@ plain('the page continues where it was left, and starts afresh when asked', asyn
   await loaded(page);
   await page.locator('#view').click();
   await shape(page);
-  const own = await page.evaluate(() => window.mapless?.experiment());
-  await page.waitForTimeout(800);
+  const own = await kept(page);
   await page.reload();
   await loaded(page);
   await expect(page.locator('#notice')).toContainText('where you left off');

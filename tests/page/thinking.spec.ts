@@ -1,18 +1,19 @@
 import { createHash } from 'node:crypto';
 import type { Page } from '@playwright/test';
 import { test as plain } from '@playwright/test';
-import { colours, expect, loaded, state, test, until } from './page.ts';
+import { drawnIn, expect, loaded, state, still, test, until } from './page.ts';
 
 /** Drives until there is something to decide, then pauses. */
 async function pauseAt(page: Page, tick: number): Promise<void> {
   await until(page, (now) => now.tick >= tick);
-  await page.evaluate(() => window.mapless?.pause());
+  await still(page);
 }
 
 /** The part of the view that nothing stands before. */
 const CLIP = { x: 100, y: 140, width: 600, height: 400 };
-/** A fingerprint of it, which a failed test can print. */
+/** A fingerprint of it as it stands, which a failed test can print. */
 async function picture(page: Page): Promise<string> {
+  await still(page);
   return createHash('sha256')
     .update(await page.screenshot({ clip: CLIP }))
     .digest('hex');
@@ -28,13 +29,11 @@ test('each camera shows something else, by key and by button', async ({ mapless:
   ] as const) {
     await page.keyboard.press(key);
     await expect(page.getByRole('button', { name: name.replace('’', "'") })).toHaveAttribute('aria-pressed', 'true');
-    await page.waitForTimeout(700);
     seen.add(await picture(page));
-    expect(await colours(page, '#view')).toBeGreaterThan(200);
+    await drawnIn(page, '#view', 200);
   }
   await page.keyboard.press('o');
   await expect(page.locator('.camera [aria-pressed="true"]')).toHaveCount(0);
-  await page.waitForTimeout(700);
   seen.add(await picture(page));
   expect(seen.size).toBe(4);
   await page.getByRole('button', { name: 'See from above' }).click();
@@ -44,7 +43,6 @@ test('each camera shows something else, by key and by button', async ({ mapless:
 test('through the robot’s eye a drag turns the gaze', async ({ mapless: page }) => {
   await pauseAt(page, 10);
   await page.keyboard.press('e');
-  await page.waitForTimeout(700);
   const before = await picture(page);
   const box = await page.locator('#view').boundingBox();
   const [x, y] = [(box?.x ?? 0) + 500, (box?.y ?? 0) + 250];
@@ -52,7 +50,6 @@ test('through the robot’s eye a drag turns the gaze', async ({ mapless: page }
   await page.mouse.down();
   await page.mouse.move(x - 200, y, { steps: 5 });
   await page.mouse.up();
-  await page.waitForTimeout(700);
   expect(await picture(page)).not.toBe(before);
 });
 
@@ -61,20 +58,21 @@ test('each layer changes the view, and back', async ({ mapless: page }) => {
   await page.keyboard.press('x');
   const panel = page.locator('#layers');
   await expect(panel).toBeVisible();
-  await page.waitForTimeout(900);
   const plain = await picture(page);
   for (const name of ['Observed', 'Reconstructed', 'Variance', 'Segments', 'Subgoals', 'Way']) {
     const box = panel.getByRole('checkbox', { name: new RegExp(name) });
     const shown = await box.isChecked();
     await box.setChecked(!shown);
-    await expect.poll(() => picture(page), { message: name }).not.toBe(plain);
+    expect(await picture(page), name).not.toBe(plain);
     await box.setChecked(shown);
-    await expect.poll(() => picture(page), { message: `${name} put back` }).toBe(plain);
+    expect(await picture(page), `${name} put back`).toBe(plain);
   }
+  const seen = new Set([plain]);
   for (const by of ['range', 'height', 'ring', 'none']) {
     await panel.getByRole('combobox', { name: 'Point cloud by' }).selectOption(by);
-    await expect.poll(() => picture(page), { message: by }).not.toBe(plain);
+    seen.add(await picture(page));
   }
+  expect(seen.size).toBe(5);
   await page.keyboard.press('Escape');
   await expect(panel).toBeHidden();
 });
@@ -105,7 +103,7 @@ test('a subgoal pointed at anywhere shows its cost terms and is marked everywher
   await expect(card).toBeHidden();
   // In the view from above, subgoals lie on a circle around the middle.
   await page.keyboard.press('t');
-  await page.waitForTimeout(700);
+  await still(page);
   const box = await page.locator('#view').boundingBox();
   const middle = { x: (box?.x ?? 0) + (box?.width ?? 0) / 2, y: (box?.y ?? 0) + (box?.height ?? 0) / 2 };
   const reach_px = ((box?.height ?? 0) * 7) / (2 * 34 * Math.tan((21 * Math.PI) / 180));
@@ -144,7 +142,7 @@ test('the large image shows more, and a second press makes it small again', asyn
   const small = await height();
   await page.keyboard.press('v');
   await expect.poll(height).toBeGreaterThan(1.5 * small);
-  expect(await colours(page, '#variance')).toBeGreaterThan(100);
+  await drawnIn(page, '#variance', 100);
   await page.getByRole('button', { name: 'Large image' }).click();
   await expect.poll(height).toBe(small);
 });
@@ -199,7 +197,7 @@ plain.describe('on a phone', () => {
   plain('a tap on the image explains what is there, and the tour is taken by touch', async ({ page }) => {
     await page.goto('/');
     await loaded(page);
-    await until(page, (now) => now.tick > 5);
+    await pauseAt(page, 6);
     const box = await page.locator('#variance').boundingBox();
     await page.touchscreen.tap((box?.x ?? 0) + 200, (box?.y ?? 0) + (box?.height ?? 0) / 2);
     await expect(page.locator('#detail')).toBeVisible();

@@ -1,6 +1,6 @@
 import type { Page } from '@playwright/test';
 import { tidyPlace } from '../../web/src/core/experiment.ts';
-import { expect, state, test, until } from './page.ts';
+import { expect, state, still, test, until } from './page.ts';
 
 /** Restarts with a goal some metres ahead and drives there as fast as it goes; gives the last tick and the digest. */
 async function driveAhead(page: Page, ahead_m: number): Promise<{ tick: number; digest: string }> {
@@ -102,6 +102,7 @@ test('stops are driven to in order, and cleared again', async ({ mapless: page }
   await page.evaluate(() => window.mapless?.restart());
   await page.getByRole('radio', { name: 'Goal' }).check();
   await page.getByLabel('Add stops').check();
+  await still(page);
   const box = await page.locator('#view').boundingBox();
   if (!box) throw new Error('The view has no size.');
   await page.mouse.click(box.x + 0.55 * box.width, box.y + 0.55 * box.height);

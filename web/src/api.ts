@@ -32,7 +32,10 @@ export interface MaplessApi {
   /** Loads a scenario by its name, such as `cht-ad`; the seed is the scenario's own unless given. */
   loadScenario(scenario: string, options?: Partial<Setting> & { seed?: number }): Promise<void>;
   play(): Promise<void>;
+  /** Resolves once the state is that of the last tick. */
   pause(): Promise<void>;
+  /** Pauses; resolves once the view is drawn and nothing in it moves any more: a picture taken then is the picture. */
+  still(): Promise<void>;
   /** One planning tick, 0.1 s; pauses first. */
   step(): Promise<void>;
   restart(): Promise<void>;
@@ -78,6 +81,7 @@ export function publish(app: App): void {
     loadScenario: used((scenario, { seed, ...setting } = {}) => app.load(scenario, setting, seed)),
     play: used(() => app.play()),
     pause: used(() => app.pause()),
+    still: used(() => app.still()),
     step: used(() => app.step()),
     restart: used(() => app.restart()),
     setSpeed: used((speed: number) => app.setSpeed(speed)),

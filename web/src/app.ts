@@ -27,6 +27,8 @@ import { Workbench } from './workbench.ts';
 const JUMP_S = 5;
 
 export interface Views {
+  /** The worker has begun to load something. */
+  loading(): void;
   /** A scenario, goal or start changed; with `field`, the ground is another one. */
   session(info: SessionInfo, field: HeightField | undefined): void;
   frame(frame: Frame): void;
@@ -35,6 +37,8 @@ export interface Views {
   sculpted(): void;
   playing(playing: boolean): void;
   speed(speed: number): void;
+  /** Resolves once all is drawn and nothing moves any more. */
+  still(): Promise<void>;
   /** Seconds until the next scenario starts by itself, or nothing. */
   countdown(seconds: number | undefined): void;
   /** The experiment, or what can be undone, has changed. */
@@ -148,18 +152,17 @@ export class App {
     return this.open({ scenario, setup: { ...this.setup, ...setup }, seed });
   }
 
-  async open(source: Source): Promise<void> {
+  async open(source: Source, play = false): Promise<void> {
     this.#lingering.stop();
     // Before anybody has touched the page there is nothing to go back to.
-    await this.bench.open(source, this.#touched || this.bench.canUndo);
+    await this.bench.open(source, this.#touched || this.bench.canUndo, play);
     this.#views.clearNotice();
   }
 
   /** Other settings for the experiment as it is. */
   async change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
     this.#lingering.stop();
-    await this.bench.change(part);
-    await this.#setPlaying(true);
+    await this.#drive(this.bench.change(part));
     this.#views.clearNotice();
   }
 
@@ -191,27 +194,23 @@ export class App {
 
   /** Loads a scenario and runs it at once. */
   async run(scenario: string, setup?: Partial<Setup>, seed?: number): Promise<void> {
-    await this.load(scenario, setup, seed);
-    await this.#setPlaying(true);
+    await this.#drive(this.open({ scenario, setup: { ...this.setup, ...setup }, seed }, true));
   }
 
   /** Runs what the page begins with; undoing leads back to one's own work. */
   async runAfter(own: Experiment | undefined, source: Source): Promise<void> {
     this.touch();
-    await this.bench.openAfter(own, source);
-    await this.#setPlaying(true);
+    await this.#drive(this.bench.openAfter(own, source));
   }
 
   /** A terrain by itself, with a start and a goal where it is level. */
   async runTerrain(terrain: Experiment['terrain'], name: string): Promise<void> {
-    await this.open({ terrain, name, setup: this.setup });
-    await this.#setPlaying(true);
+    await this.#drive(this.open({ terrain, name, setup: this.setup }, true));
   }
 
   /** Files that somebody opened. */
   async runFiles(files: readonly NamedFile[]): Promise<void> {
-    await this.open({ files, setup: this.setup });
-    await this.#setPlaying(true);
+    await this.#drive(this.open({ files, setup: this.setup }, true));
   }
 
   async play(): Promise<void> {
@@ -219,8 +218,15 @@ export class App {
     await this.#setPlaying(true);
   }
 
+  /** Resolves once the frame of the last tick is in. */
   pause(): Promise<void> {
     return this.#setPlaying(false);
+  }
+
+  /** Pauses; resolves once the view shows the last tick and nothing in it moves any more. */
+  async still(): Promise<void> {
+    await this.pause();
+    await this.#views.still();
   }
 
   togglePlay(): Promise<void> {
@@ -336,6 +342,19 @@ export class App {
   async #setPlaying(playing: boolean): Promise<void> {
     this.#show(playing);
     await this.#core.request({ type: 'play', playing });
+  }
+
+  /** While something that drives at once is loading: a pause meanwhile comes after it, here as in the worker. */
+  async #drive(loading: Promise<void>): Promise<void> {
+    const before = this.#playing;
+    this.#show(true);
+    this.#views.loading();
+    try {
+      await loading;
+    } catch (error) {
+      this.#show(before && this.#playing);
+      throw error;
+    }
   }
 
   #show(playing: boolean): void {

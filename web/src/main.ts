@@ -73,15 +73,11 @@ function labCount(count: number): void {
   );
 }
 
-/** Without WebGL the numbers, the image and the controls still work. */
 let stage: Stage | undefined;
-try {
-  stage = new Stage(view, readTheme());
-} catch {
-  notice.show('This browser offers no WebGL 2, so the 3D view stays empty. Everything else works.');
-}
 
+// Begun first: the worker loads the core while the rest of the page is made.
 const app = new App({
+  loading: () => stage?.prepare(),
   session(info, field) {
     stage?.session(info, field);
     timeline.session(info.period_s);
@@ -131,6 +127,7 @@ const app = new App({
     controls.showSpeed(speed);
     stage?.speed(speed);
   },
+  still: () => stage?.still() ?? Promise.resolve(),
   countdown(seconds) {
     setText(element('countdown'), seconds === undefined ? '' : `in ${seconds} s`);
   },
@@ -143,6 +140,13 @@ const app = new App({
   notice: (message) => notice.show(message),
   clearNotice: () => notice.hide(),
 });
+
+/** Without WebGL the numbers, the image and the controls still work. */
+try {
+  stage = new Stage(view, readTheme());
+} catch {
+  notice.show('This browser offers no WebGL 2, so the 3D view stays empty. Everything else works.');
+}
 
 const measure = new Measure({
   record: app.record,

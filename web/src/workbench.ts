@@ -58,19 +58,19 @@ export class Workbench {
     this.#inHand?.patched(patch);
   }
 
-  /** Shows an experiment from elsewhere; undoing leads back to one's own. */
+  /** Drives an experiment from elsewhere; undoing leads back to one's own. */
   openAfter(own: Experiment | undefined, source: Source): Promise<void> {
     return this.#next(async () => {
-      await this.#core.request({ type: 'load', source });
+      await this.#core.request({ type: 'load', source, play: true });
       if (own) this.#history.push(own);
       if (this.#loaded) this.#push(this.#loaded);
     });
   }
 
-  /** Shows another experiment; unless it is `undoable`, the history begins with it. */
-  open(source: Source, undoable: boolean): Promise<void> {
+  /** Shows another experiment, and drives it at once with `play`; unless it is `undoable`, the history begins with it. */
+  open(source: Source, undoable: boolean, play: boolean): Promise<void> {
     return this.#next(async () => {
-      await this.#core.request({ type: 'load', source });
+      await this.#core.request({ type: 'load', source, play });
       if (!undoable) this.#history = new History();
       if (this.#loaded) this.#push(this.#loaded);
     });
@@ -80,7 +80,7 @@ export class Workbench {
   reopen(): Promise<void> {
     return this.#next(async () => {
       const { experiment } = this;
-      if (experiment) await this.#core.request({ type: 'load', source: { experiment } });
+      if (experiment) await this.#core.request({ type: 'load', source: { experiment }, play: false });
     });
   }
 
@@ -92,9 +92,9 @@ export class Workbench {
     });
   }
 
-  /** Settings: the trial begins anew with them, on the ground as it is. */
+  /** Settings: the trial begins anew with them and drives, on the ground as it is. */
   change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
-    return this.#edit(part, (experiment) => ({ type: 'load', source: { experiment } }));
+    return this.#edit(part, (experiment) => ({ type: 'load', source: { experiment }, play: true }));
   }
 
   /** Parameters, and another seed if given: the trial begins anew with them. */
@@ -189,7 +189,7 @@ export class Workbench {
     const from = this.experiment;
     if (!to || !from) return;
     const patches = this.#patchesBetween(from, to);
-    if (!patches) return this.#core.request({ type: 'load', source: { experiment: to } });
+    if (!patches) return this.#core.request({ type: 'load', source: { experiment: to }, play: false });
     for (const patch of patches) await this.#core.request({ type: 'replace', patch });
     if (from.start !== to.start) await this.#core.request({ type: 'start', start: to.start });
     const { goal, waypoints } = to;

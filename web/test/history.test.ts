@@ -55,7 +55,7 @@ const SOURCE: Source = { experiment: { ...EXPERIMENT, strokes: [] } };
 
 async function opened(): Promise<Core> {
   const core = new Core();
-  await core.bench.open(SOURCE, false);
+  await core.bench.open(SOURCE, false, false);
   core.asked.length = 0;
   return core;
 }
@@ -100,7 +100,7 @@ test('settings and other terrains are undone by loading', async () => {
   const core = await opened();
   await core.stroke(1);
   await core.bench.change({ preset: 'paper' });
-  await core.bench.open({ experiment: { ...EXPERIMENT, name: 'other' } }, true);
+  await core.bench.open({ experiment: { ...EXPERIMENT, name: 'other' } }, true, false);
   core.asked.length = 0;
   await core.bench.undo();
   assert.equal(core.bench.experiment?.preset, 'paper');

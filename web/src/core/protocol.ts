@@ -262,7 +262,8 @@ export type Source =
   | { readonly files: readonly NamedFile[]; readonly setup: Setup };
 
 export type Command =
-  | { type: 'load'; source: Source }
+  /** With `play`, it drives at once; otherwise it does so if what was there before did. */
+  | { type: 'load'; source: Source; play: boolean }
   | { type: 'restart' }
   | { type: 'play'; playing: boolean }
   | { type: 'speed'; speed: Speed }

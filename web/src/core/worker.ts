@@ -107,18 +107,24 @@ function advance(): void {
 
 /** Posts the newest state unless the page is still busy with earlier ones. */
 function showIfDue(): void {
-  const now_ms = performance.now();
+  const wait_ms = lastFrame_ms + FRAME_INTERVAL_MS - performance.now();
   const last = session?.outcome !== 'running';
   if (!unsent || inFlight >= FRAMES_IN_FLIGHT) return;
-  if (!last && now_ms - lastFrame_ms < FRAME_INTERVAL_MS) return;
-  lastFrame_ms = now_ms;
-  show();
+  if (last || wait_ms <= 0) show();
+  // What stands still has no tick after which to look again.
+  else if (!running()) setTimeout(loop, wait_ms);
+}
+
+/** What stands still is shown whole: its last tick, and the surfaces where they are looked at. */
+function showAtRest(): void {
+  if (!running() && (unsent || (watched && surfacesOld))) show();
 }
 
 function show(): void {
   if (!session) return;
   if (session.followRoute()) tellSession();
   const began_ms = performance.now();
+  lastFrame_ms = began_ms;
   // What stands still shows everything.
   const surfaces = watched && (!running() || began_ms >= surfacesDue_ms);
   const { tick } = session.status();
@@ -195,6 +201,7 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
     const opened = await Session.open(core, experiment);
     session?.free();
     session = opened;
+    playing ||= command.play;
     const ground = session.ground();
     post({ type: 'session', info: session.info, ground, experiment }, [ground.heights_m.buffer]);
     openFromStart();
@@ -214,6 +221,7 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
   if (command.type === 'hidden') {
     hidden = command.hidden;
     due_ms = performance.now();
+    showAtRest();
     return;
   }
   if (!session) throw new Error('No scenario is loaded yet.');
@@ -221,7 +229,7 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
     case 'play':
       playing = command.playing;
       due_ms = performance.now();
-      if (!playing && watched && surfacesOld) show();
+      showAtRest();
       break;
     case 'speed':
       speed = command.speed;

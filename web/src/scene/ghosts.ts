@@ -43,7 +43,8 @@ export class Ghosts {
         opacity: OPACITY,
         roughness: 0.7,
       });
-      const husky = new Husky(sensorHeight_m);
+      const husky = new Husky();
+      husky.mast(sensorHeight_m);
       husky.group.traverse((part) => {
         if (part instanceof Mesh) part.material = look;
       });

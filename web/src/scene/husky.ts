@@ -2,15 +2,13 @@
 
 import {
   BoxGeometry,
-  type BufferGeometry,
+  BufferGeometry,
   CylinderGeometry,
-  ExtrudeGeometry,
+  Float32BufferAttribute,
   Group,
   Mesh,
   MeshStandardMaterial,
-  Shape,
   TorusGeometry,
-  Vector2,
 } from 'three';
 import type { Pose } from '../core/protocol.ts';
 
@@ -32,10 +30,9 @@ export class Husky {
   readonly group = new Group();
   readonly #wheels: Group[] = [];
 
-  constructor(sensorHeight_m: number) {
+  constructor() {
     this.group.rotation.order = 'ZYX';
     this.#chassis();
-    this.#mast(sensorHeight_m);
     for (const x of [HALF_WHEELBASE_M, -HALF_WHEELBASE_M]) {
       for (const y of [HALF_TRACK_M, -HALF_TRACK_M]) this.#wheel(x, y);
     }
@@ -74,9 +71,7 @@ export class Husky {
       [-0.37, 0.33],
       [-0.43, 0.27],
     ] as const;
-    const hull = new Shape(outline.map(([x, y]) => new Vector2(x, y)));
-    const body = this.#add(new ExtrudeGeometry(hull, { depth: 0.42, bevelEnabled: false }), DARK, 0, 0.21, 0);
-    body.rotation.x = Math.PI / 2;
+    this.#add(prism(outline, 0.42), DARK, 0, 0, 0);
     this.#add(new BoxGeometry(0.7, 0.44, 0.035), YELLOW, 0, 0, 0.345);
     this.#add(new BoxGeometry(0.3, 0.3, 0.014), BLACK, -0.12, 0, 0.368);
     for (const end of [1, -1]) {
@@ -89,7 +84,8 @@ export class Husky {
     }
   }
 
-  #mast(sensorHeight_m: number): void {
+  /** Puts the sensor on its mast. */
+  mast(sensorHeight_m: number): void {
     const puck_m = 0.072;
     const plate_m = sensorHeight_m - puck_m / 2 - 0.012;
     const post_m = plate_m - 0.36;
@@ -131,4 +127,20 @@ export class Husky {
     this.#wheels.push(wheel);
     this.group.add(wheel);
   }
+}
+
+/** A convex outline in x and z, anticlockwise as seen from the right, across `width_m`. */
+function prism(outline: readonly (readonly [number, number])[], width_m: number): BufferGeometry {
+  const right = outline.map(([x, z]) => [x, -width_m / 2, z]);
+  const left = outline.map(([x, z]) => [x, width_m / 2, z]);
+  const corners: (number[] | undefined)[] = [];
+  for (let at = 0; at < outline.length; at += 1) {
+    const next = (at + 1) % outline.length;
+    corners.push(right[at], left[at], left[next], right[at], left[next], right[next]);
+    corners.push(right[0], right[at], right[next], left[0], left[next], left[at]);
+  }
+  const places = corners.flatMap((corner) => corner ?? []);
+  const geometry = new BufferGeometry().setAttribute('position', new Float32BufferAttribute(places, 3));
+  geometry.computeVertexNormals();
+  return geometry;
 }

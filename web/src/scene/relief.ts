@@ -19,7 +19,7 @@ import type { Place } from '../core/protocol.ts';
 import { COLOURINGS, type Colouring } from '../ui/groundKey.ts';
 import type { Rgb } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
-import type { HeightField } from './heightfield.ts';
+import { HeightField } from './heightfield.ts';
 import { FRAGMENT, VERTEX } from './reliefShader.ts';
 import { SUN, sunlight } from './sunlight.ts';
 
@@ -30,41 +30,36 @@ export const STEEPEST_SHOWN_RAD = (40 * Math.PI) / 180;
 /** Half a Husky's length: slopes are taken over what it stands on. */
 const FOOTPRINT_M = 0.4;
 
+/** There is a ground before one is loaded. */
+const LEVEL = { columns: 2, rows: 2, cell_m: 1, heights_m: new Float32Array(4) };
+
 export class Relief {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
-  readonly field: HeightField;
-  readonly #heights: DataTexture;
-  readonly #light: DataTexture;
-  readonly #brightness: Uint8Array<ArrayBuffer>;
+  readonly #verticesPerSide: number;
   readonly #changed: () => void;
+  #field: HeightField;
+  #heights = new DataTexture();
+  #light = new DataTexture();
+  #brightness = new Uint8Array();
   #relightTimer: ReturnType<typeof setTimeout> | undefined;
 
-  /** A grid of at most `verticesPerSide` squared; `changed` is called when the picture changes by itself. */
-  constructor(field: HeightField, verticesPerSide: number, theme: Theme, changed: () => void) {
-    this.field = field;
+  /** A grid of at most `verticesPerSide` squared, level at first; `changed` is called when the picture changes by itself. */
+  constructor(verticesPerSide: number, theme: Theme, changed: () => void) {
+    this.#verticesPerSide = verticesPerSide;
     this.#changed = changed;
-    const { columns, rows } = field;
-    this.#heights = new DataTexture(field.heights_m, columns, rows, RedFormat, FloatType);
-    this.#heights.needsUpdate = true;
-    this.#brightness = new Uint8Array(columns * rows);
-    this.#light = new DataTexture(this.#brightness, columns, rows, RedFormat);
-    this.#light.unpackAlignment = 1;
-    this.#light.minFilter = LinearFilter;
-    this.#light.magFilter = LinearFilter;
-    this.#relight();
     this.mesh = new Mesh(
-      geometry(field, verticesPerSide),
+      new BufferGeometry(),
       new ShaderMaterial({
         vertexShader: VERTEX,
         fragmentShader: FRAGMENT,
         side: DoubleSide,
         uniforms: {
-          heights: { value: this.#heights },
-          light: { value: this.#light },
-          cell: { value: field.cell_m },
-          size: { value: new Vector2(columns, rows) },
+          heights: { value: null },
+          light: { value: null },
+          cell: { value: 1 },
+          size: { value: new Vector2() },
           base: { value: 0 },
-          reach: { value: Math.max(1, Math.round(FOOTPRINT_M / field.cell_m)) },
+          reach: { value: 1 },
           colouring: { value: 0 },
           steepest: { value: STEEPEST_SHOWN_RAD },
           limits: { value: new Vector2() },
@@ -86,24 +81,48 @@ export class Relief {
     );
     // Heights live in a texture: three cannot know the true bounds.
     this.mesh.frustumCulled = false;
-    this.#fitRange();
+    this.#field = new HeightField(LEVEL);
+    this.ground(this.#field);
     this.theme(theme);
   }
 
+  get field(): HeightField {
+    return this.#field;
+  }
+
+  /** Another ground. The material stays: compiling its shaders takes longer than all else here. */
+  ground(field: HeightField): void {
+    clearTimeout(this.#relightTimer);
+    this.#relightTimer = undefined;
+    for (const old of [this.mesh.geometry, this.#heights, this.#light]) old.dispose();
+    const { columns, rows, cell_m } = field;
+    this.#field = field;
+    this.mesh.geometry = geometry(field, this.#verticesPerSide);
+    this.#heights = new DataTexture(field.heights_m, columns, rows, RedFormat, FloatType);
+    this.#heights.needsUpdate = true;
+    this.#brightness = new Uint8Array(columns * rows);
+    this.#light = new DataTexture(this.#brightness, columns, rows, RedFormat);
+    this.#light.unpackAlignment = 1;
+    this.#light.minFilter = LinearFilter;
+    this.#light.magFilter = LinearFilter;
+    this.#relight();
+    this.#set('heights', this.#heights);
+    this.#set('light', this.#light);
+    this.#set('cell', cell_m);
+    this.#set('size', new Vector2(columns, rows));
+    this.#set('reach', Math.max(1, Math.round(FOOTPRINT_M / cell_m)));
+    this.#fitRange();
+  }
+
   theme(theme: Theme): void {
-    const { uniforms } = this.mesh.material;
-    const set = (name: string, value: unknown) => {
-      const uniform = uniforms[name];
-      if (uniform) uniform.value = value;
-    };
-    set('relief', theme.relief.map(colour));
-    set('slopeColours', theme.slope.map(colour));
-    set('standColours', theme.stand.map(colour));
-    set('rock', colour(theme.rock));
+    this.#set('relief', theme.relief.map(colour));
+    this.#set('slopeColours', theme.slope.map(colour));
+    this.#set('standColours', theme.stand.map(colour));
+    this.#set('rock', colour(theme.rock));
     const line = colour(theme.contour);
-    set('contour', new Vector4(line.r, line.g, line.b, theme.dark ? 0.34 : 0.3));
-    set('ringColour', colour(theme.ink));
-    set('brushColour', colour(theme.accent));
+    this.#set('contour', new Vector4(line.r, line.g, line.b, theme.dark ? 0.34 : 0.3));
+    this.#set('ringColour', colour(theme.ink));
+    this.#set('brushColour', colour(theme.accent));
   }
 
   /** Shows the field's new heights. */
@@ -112,39 +131,39 @@ export class Relief {
     this.#fitRange();
     clearTimeout(this.#relightTimer);
     this.#relightTimer = setTimeout(() => {
+      this.#relightTimer = undefined;
       this.#relight();
       this.#changed();
     }, RELIGHT_DELAY_MS);
   }
 
+  /** Whether shadows have still to follow a stroke. */
+  get relighting(): boolean {
+    return this.#relightTimer !== undefined;
+  }
+
   /** By what to colour, with the tilt that the robot may have. */
   colouring(colouring: Colouring, limits: { readonly roll_rad: number; readonly pitch_rad: number }): void {
-    const { uniforms } = this.mesh.material;
-    if (uniforms.colouring) uniforms.colouring.value = COLOURINGS.indexOf(colouring);
+    this.#set('colouring', COLOURINGS.indexOf(colouring));
     const { roll_rad, pitch_rad } = limits;
-    uniforms.limits?.value.set(Math.min(roll_rad, pitch_rad), Math.max(roll_rad, pitch_rad));
+    this.mesh.material.uniforms.limits?.value.set(Math.min(roll_rad, pitch_rad), Math.max(roll_rad, pitch_rad));
   }
 
   /** Ring of the occupancy radius and soft shadow under the robot. */
   robot(x: number, y: number, yaw: number, ringRadius_m: number): void {
-    const { uniforms } = this.mesh.material;
-    uniforms.robot?.value.set(x, y, Math.cos(yaw), Math.sin(yaw));
-    if (uniforms.ringRadius) uniforms.ringRadius.value = ringRadius_m;
+    this.mesh.material.uniforms.robot?.value.set(x, y, Math.cos(yaw), Math.sin(yaw));
+    this.#set('ringRadius', ringRadius_m);
   }
 
   /** The brush's ring, drawn out along a line; a radius of zero hides it. */
   brush(at: Place, from: Place, radius_m: number): void {
-    const { uniforms } = this.mesh.material;
-    uniforms.brush?.value.set(at.x, at.y, from.x, from.y);
-    if (uniforms.brushRadius) uniforms.brushRadius.value = radius_m;
+    this.mesh.material.uniforms.brush?.value.set(at.x, at.y, from.x, from.y);
+    this.#set('brushRadius', radius_m);
   }
 
-  dispose(): void {
-    clearTimeout(this.#relightTimer);
-    this.mesh.geometry.dispose();
-    this.mesh.material.dispose();
-    this.#heights.dispose();
-    this.#light.dispose();
+  #set(name: string, value: unknown): void {
+    const uniform = this.mesh.material.uniforms[name];
+    if (uniform) uniform.value = value;
   }
 
   #relight(): void {
@@ -153,10 +172,9 @@ export class Relief {
   }
 
   #fitRange(): void {
-    const { uniforms } = this.mesh.material;
     const { min_m, max_m, width_m } = this.field;
-    uniforms.range?.value.set(min_m, Math.max(max_m, min_m + 1));
-    if (uniforms.base) uniforms.base.value = min_m - 0.035 * width_m;
+    this.mesh.material.uniforms.range?.value.set(min_m, Math.max(max_m, min_m + 1));
+    this.#set('base', min_m - 0.035 * width_m);
   }
 }
 

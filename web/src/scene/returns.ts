@@ -65,7 +65,7 @@ export class Returns {
   constructor() {
     this.#positions = new BufferAttribute(new Float32Array(3 * CAPACITY), 3).setUsage(DynamicDrawUsage);
     const geometry = new BufferGeometry().setAttribute('position', this.#positions);
-    geometry.setDrawRange(0, 0);
+    geometry.setDrawRange(0, 1);
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
       defines: { FARTHEST: FARTHEST_RANGE_M.toFixed(1) },

@@ -54,22 +54,25 @@ export class Stage {
   readonly #glide = new Glide();
   readonly #overlays: Overlays;
   readonly #sensor = new Vector3();
-  #husky: Husky | undefined;
-  #relief: Relief | undefined;
-  #theme: Theme;
+  readonly #husky = new Husky();
+  readonly #relief: Relief;
   #info: SessionInfo | undefined;
   #shown: Pose | undefined;
   #speed = 1;
   #dirty = true;
+  /** Who waits until nothing moves. */
+  #patient: (() => void)[] = [];
   /** Called with the view right after each drawing: later its pixels are gone. */
   drawn: ((view: HTMLCanvasElement) => void) | undefined;
   #colouring: Colouring = 'elevation';
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
     this.#canvas = canvas;
-    this.#theme = theme;
     this.#renderer = new WebGLRenderer({ canvas, antialias: !this.#pacer.software, alpha: true });
     this.#viewpoint = new Viewpoint(canvas, () => this.invalidate());
+    const vertices = this.#pacer.software ? GRID_VERTICES.software : GRID_VERTICES.hardware;
+    this.#relief = new Relief(vertices, theme, () => this.invalidate());
+    this.#scene.add(this.#relief.mesh, this.#husky.group);
     const sun = new DirectionalLight(0xfff3df, 3.2);
     sun.position.set(...SUN);
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
@@ -84,7 +87,7 @@ export class Stage {
   }
 
   get field(): HeightField | undefined {
-    return this.#relief?.field;
+    return this.#info && this.#relief.field;
   }
 
   /** The robot as it is drawn now, between two ticks. */
@@ -110,30 +113,36 @@ export class Stage {
     this.#dirty = true;
   }
 
+  /** Resolves once everything is drawn as it is and nothing moves any more. */
+  still(): Promise<void> {
+    return new Promise((resolve) => this.#patient.push(resolve));
+  }
+
   theme(theme: Theme): void {
-    this.#theme = theme;
     const marks = [this.#returns, this.#route, this.#ahead, this.#subgoals, this.#places, this.#waypoints];
-    for (const part of [this.#relief, ...marks, this.#overlays]) part?.theme(theme);
+    for (const part of [this.#relief, ...marks, this.#overlays]) part.theme(theme);
     this.invalidate();
   }
 
+  /** Uses the time until there is ground: has the shaders compiled, by a picture without pixels. */
+  prepare(): void {
+    requestAnimationFrame(() => this.#warmUp());
+  }
+
   session(info: SessionInfo, field: HeightField | undefined): void {
+    if (!this.#info) this.#husky.mast(info.sensor_height_m);
     this.#info = info;
     if (field) this.#replaceGround(field);
-    if (!this.#husky) {
-      this.#husky = new Husky(info.sensor_height_m);
-      this.#scene.add(this.#husky.group);
-    }
     this.#overlays.session(info);
     if (field) this.#returns.heights(field.min_m, field.max_m);
-    this.#relief?.colouring(this.#colouring, info.limits);
+    this.#relief.colouring(this.#colouring, info.limits);
     const { start, goal } = info;
     this.#places.show(goal, start, this.#height);
     this.#waypoints.show(info.waypoints, this.#height);
     if (field) {
       const towards = Math.atan2(goal.y - start.y, goal.x - start.x);
       this.#viewpoint.reset();
-      if (this.#husky) this.#husky.group.visible = true;
+      this.#husky.group.visible = true;
       this.#viewpoint.follow({ ...start, z: this.#height(start.x, start.y) }, towards - FIRST_LOOK_RAD);
     }
     this.invalidate();
@@ -180,7 +189,7 @@ export class Stage {
 
   /** The field's heights have changed. */
   sculpted(): void {
-    this.#relief?.sculpted();
+    this.#relief.sculpted();
     if (this.field) this.#returns.heights(this.field.min_m, this.field.max_m);
     this.#places.settle(this.#height);
     this.#waypoints.settle(this.#height);
@@ -190,7 +199,7 @@ export class Stage {
   /** By what the ground is coloured. */
   colouring(colouring: Colouring): void {
     this.#colouring = colouring;
-    if (this.#info) this.#relief?.colouring(colouring, this.#info.limits);
+    if (this.#info) this.#relief.colouring(colouring, this.#info.limits);
     this.invalidate();
   }
 
@@ -206,7 +215,7 @@ export class Stage {
     else if (robot && mode === 'chase') this.#viewpoint.follow(robot, robot.yaw - FIRST_LOOK_RAD);
     else if (robot && mode === 'top') this.#viewpoint.above(robot);
     else if (robot && mode === 'eye') this.#viewpoint.eye(robot, this.#sensorAt(robot));
-    if (this.#husky) this.#husky.group.visible = mode !== 'eye';
+    this.#husky.group.visible = mode !== 'eye';
     this.#resize();
   }
 
@@ -226,7 +235,7 @@ export class Stage {
 
   /** The brush's ring, drawn out along the line from `from`; a radius of zero hides it. */
   brush(at: Place, from: Place, radius_m: number): void {
-    this.#relief?.brush(at, from, radius_m);
+    this.#relief.brush(at, from, radius_m);
     this.invalidate();
   }
 
@@ -259,13 +268,7 @@ export class Stage {
   }
 
   #replaceGround(field: HeightField): void {
-    if (this.#relief) {
-      this.#scene.remove(this.#relief.mesh);
-      this.#relief.dispose();
-    }
-    const vertices = this.#pacer.software ? GRID_VERTICES.software : GRID_VERTICES.hardware;
-    this.#relief = new Relief(field, vertices, this.#theme, () => this.invalidate());
-    this.#scene.add(this.#relief.mesh);
+    this.#relief.ground(field);
     this.#shown = undefined;
     this.#glide.reset();
   }
@@ -284,11 +287,13 @@ export class Stage {
     requestAnimationFrame((next_ms) => this.#loop(next_ms));
     this.#viewpoint.update();
     this.#moveRobot();
-    // Without ground there is nothing to see yet, and the first picture is dear: its shaders are compiled for it.
-    if (!this.field || !this.#pacer.due(now_ms) || !this.#dirty) return;
+    if (!this.#dirty && !this.#relief.relighting) for (const rested of this.#patient.splice(0)) rested();
+    const { field } = this;
+    // No picture of the ground without the robot, which comes right after it.
+    if (!field || !this.#shown || !this.#pacer.due(now_ms) || !this.#dirty) return;
     this.#dirty = false;
     const { camera } = this.#viewpoint;
-    this.#viewpoint.clear(this.field);
+    this.#viewpoint.clear(field);
     this.#subgoals.attach(this.#sensor, camera.position);
     this.#places.face(camera.position);
     this.#waypoints.face(camera.position);
@@ -297,19 +302,28 @@ export class Stage {
     if (this.#pacer.drew(now_ms)) this.#resize();
   }
 
+  #warmUp(): void {
+    if (this.field) return;
+    this.#viewpoint.follow(this.#husky.group.position);
+    this.#renderer.setScissor(0, 0, 0, 0);
+    this.#renderer.setScissorTest(true);
+    this.#renderer.render(this.#scene, this.#viewpoint.camera);
+    this.#renderer.setScissorTest(false);
+  }
+
   #moveRobot(): void {
     const pose = this.#glide.at(performance.now());
     const before = this.#shown;
     if (!pose || pose === before) return;
     this.#shown = pose;
-    this.#husky?.pose(pose);
+    this.#husky.pose(pose);
     this.#overlays.pose(pose);
     if (before) {
       const [east, north] = [pose.x - before.x, pose.y - before.y];
-      this.#husky?.roll(east * Math.cos(pose.yaw) + north * Math.sin(pose.yaw), wrap(pose.yaw - before.yaw));
+      this.#husky.roll(east * Math.cos(pose.yaw) + north * Math.sin(pose.yaw), wrap(pose.yaw - before.yaw));
     }
     this.#viewpoint.track(pose, this.#sensorAt(pose));
-    this.#relief?.robot(pose.x, pose.y, pose.yaw, this.#radius_m);
+    this.#relief.robot(pose.x, pose.y, pose.yaw, this.#radius_m);
     this.invalidate();
   }
 }
