@@ -287,6 +287,7 @@ export class Stage {
     requestAnimationFrame((next_ms) => this.#loop(next_ms));
     this.#viewpoint.update();
     this.#moveRobot();
+    if (this.#patient.length > 0) this.#viewpoint.settle();
     if (!this.#dirty && !this.#relief.relighting) for (const rested of this.#patient.splice(0)) rested();
     const { field } = this;
     // No picture of the ground without the robot, which comes right after it.

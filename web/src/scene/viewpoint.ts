@@ -23,6 +23,8 @@ const CLEARANCE_M = 0.8;
 const TOP_DISTANCE_M = 34;
 /** The chasing camera swings behind a turning robot within about this time. */
 const SWING_MS = 900;
+/** Less than this it makes at once. */
+const LEAST_SWING_RAD = 0.002;
 /** How far the camera rises with each picture while a hill hides the robot. */
 const RISE_RAD = 0.03;
 
@@ -36,7 +38,7 @@ export class Viewpoint {
   /** The robot's heading when it was tracked last, and how much of its turns the camera has still to make. */
   #heading_rad: number | undefined;
   #swing_rad = 0;
-  #tracked_ms = 0;
+  #swung_ms = 0;
 
   constructor(canvas: HTMLCanvasElement, changed: () => void) {
     this.camera.up.set(0, 0, 1);
@@ -77,9 +79,18 @@ export class Viewpoint {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Lets a drag run out gently. */
+  /** Lets a drag run out gently, and goes on to swing behind the robot, which may stand by now. */
   update(): void {
     if (this.#mode !== 'eye') this.#controls.update();
+    const now_ms = performance.now();
+    const rest = Math.abs(this.#swing_rad) < LEAST_SWING_RAD ? 0 : Math.exp((this.#swung_ms - now_ms) / SWING_MS);
+    this.#swung_ms = now_ms;
+    this.#swing(1 - rest);
+  }
+
+  /** Swings all the way behind the robot at once. */
+  settle(): void {
+    this.#swing(1);
   }
 
   /** Stands behind the robot as seen along `heading_rad`, and follows it from now on. */
@@ -116,14 +127,8 @@ export class Viewpoint {
       this.#aim(robot);
       this.camera.position.add(this.#controls.target).sub(before);
     }
-    const now_ms = performance.now();
     this.#swing_rad += wrap(robot.yaw - (this.#heading_rad ?? robot.yaw));
-    if (this.#mode !== 'chase' || this.#reduced.matches || this.#dragging) this.#swing_rad = 0;
-    const part_rad = this.#swing_rad * (1 - Math.exp((this.#tracked_ms - now_ms) / SWING_MS));
-    this.#swing_rad -= part_rad;
     this.#heading_rad = robot.yaw;
-    this.#tracked_ms = now_ms;
-    if (part_rad !== 0) this.nudge(part_rad, 0, 1);
   }
 
   /** Forgets the robot: the next place is that of another run. */
@@ -138,6 +143,14 @@ export class Viewpoint {
     const width_m = Math.max(field.width_m / Math.min(this.camera.aspect, 1.5), field.depth_m);
     this.#controls.target.set(field.width_m / 2, field.depth_m / 2, field.min_m);
     this.#stand(-Math.PI / 2, 0.85, (1.1 * width_m) / this.heightAtOneMetre);
+  }
+
+  /** Makes a share of the robot's turns that the chasing camera has still to make; any other makes none. */
+  #swing(share: number): void {
+    if (this.#mode !== 'chase' || this.#reduced.matches || this.#dragging) this.#swing_rad = 0;
+    const part_rad = share * this.#swing_rad;
+    this.#swing_rad -= part_rad;
+    if (part_rad !== 0) this.nudge(part_rad, 0, 1);
   }
 
   #aim(robot: Vector): void {
