@@ -55,7 +55,7 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
 fn address(results: &Results, row: &TrialRow) -> String {
     let TrialRow { planner, route, parameters, truth, seed, .. } = row;
     let has_route = results.manifest.routes.iter().any(|found| {
-        found.name == *route && Path::new(&found.file).ends_with(format!("scenarios/{route}.toml"))
+        found.name == *route && Path::new(&found.file).ends_with(format!("terrains/scenarios/{route}.toml"))
     });
     let is_driven = matches!(planner.as_str(), "default" | "paper");
     if !(has_route && is_driven && parameters.is_empty() && truth == "none") {
@@ -87,9 +87,7 @@ mod tests {
             row("paper", "easy-1-0001", "none", 10, "stuck"),
         ];
         let mut results = results(&["default", "oracle", "paper"], &["gsb", "easy-1-0001"], rows);
-        for (route, folder) in
-            results.manifest.routes.iter_mut().zip(["terrains/campaigns/../scenarios", "target"])
-        {
+        for (route, folder) in results.manifest.routes.iter_mut().zip(["terrains/scenarios", "target"]) {
             route.file = format!("{folder}/{}.toml", route.name);
         }
         let mut text = String::new();
