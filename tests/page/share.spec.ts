@@ -114,7 +114,7 @@ plain('hostile and broken links say so, and lose nothing', async ({ page }) => {
     [`#e=${bomb}`, 'unpacks to more than 4 MB'],
     [`#e=${deflateRawSync('{"version":7}').toString('base64url')}`, 'version = 7'],
     ['?scenario=atlantis', 'atlantis'],
-    ['?scenario=ht&seed=1.5', 'seed = 1.5: expected a whole number'],
+    ['?scenario=ht&seed=1.5', '?seed = "1.5": expected a whole number'],
   ];
   for (const [link, words] of links) {
     await page.goto('about:blank');

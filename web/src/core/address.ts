@@ -1,5 +1,6 @@
 /** What the page's address asks for: `?scenario=cht-ad`, with `&seed=7` and `&preset=paper`. */
 
+import { fail, oneOf, whole } from './checks.ts';
 import { MAX_SEED, PRESETS } from './experiment.ts';
 import type { Preset } from './protocol.ts';
 
@@ -12,29 +13,15 @@ export interface Asked {
 
 /** Nothing when no scenario is asked for; throws where the address makes no sense. */
 export function askedFor(options: URLSearchParams): Asked | undefined {
-  const scenario = options.get('scenario');
-  const [preset, seed] = [options.get('preset'), options.get('seed')];
-  if (scenario === null) {
-    if (preset !== null || seed !== null)
-      refuse('scenario', 'nothing', 'the name of one, since a seed or a preset is given');
+  const [scenario, preset, seed] = ['scenario', 'preset', 'seed'].map((name) => options.get(name) ?? undefined);
+  if (scenario === undefined) {
+    if (preset !== undefined || seed !== undefined)
+      fail('?scenario', undefined, 'a name, since a seed or a preset is given');
     return undefined;
   }
   return {
     scenario,
-    preset:
-      preset === null
-        ? undefined
-        : (PRESETS.find((name) => name === preset) ?? refuse('preset', preset, PRESETS.join(' or '))),
-    seed: seed === null ? undefined : wholeSeed(seed),
+    preset: preset === undefined ? undefined : oneOf(preset, '?preset', PRESETS),
+    seed: seed === undefined ? undefined : whole(/^\d+$/.test(seed) ? Number(seed) : seed, '?seed', 0, MAX_SEED),
   };
-}
-
-function wholeSeed(text: string): number {
-  const seed = Number(text);
-  if (!/^\d+$/.test(text) || seed > MAX_SEED) refuse('seed', text, `a whole number from 0 to ${MAX_SEED}`);
-  return seed;
-}
-
-function refuse(name: string, found: string, expected: string): never {
-  throw new Error(`The page’s address says ${name} = ${found.slice(0, 60)}: expected ${expected}.`);
 }

@@ -1,5 +1,6 @@
 /** Checks a document from outside. Every fault names its place, the value and what was expected. */
 
+import { fail, number, oneOf, whole } from './checks.ts';
 import {
   DIFFICULTIES,
   type Experiment,
@@ -29,12 +30,6 @@ const KEY = /^[A-Za-z0-9_]{1,64}$/;
 
 type Fields = Record<string, unknown>;
 
-function fail(place: string, value: unknown, expected: string): never {
-  const shown = typeof value === 'number' ? String(value) : (JSON.stringify(value) ?? 'absent');
-  const short = shown.length > 60 ? `${shown.slice(0, 57)}…` : shown;
-  throw new Error(`${place} = ${short}: expected ${expected}`);
-}
-
 /** An object with these keys and no others; those after `optional` may be absent. */
 function fields(value: unknown, place: string, required: readonly string[], optional: readonly string[] = []): Fields {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) fail(place, value, 'a table');
@@ -48,22 +43,6 @@ function fields(value: unknown, place: string, required: readonly string[], opti
     if (found[key] === undefined) fail(`${place}.${key}`, undefined, 'a value');
   }
   return found;
-}
-
-function number(value: unknown, place: string, low: number, high: number): number {
-  if (typeof value !== 'number' || !(value >= low && value <= high))
-    fail(place, value, `a number from ${low} to ${high}`);
-  return value;
-}
-
-function whole(value: unknown, place: string, low: number, high: number): number {
-  if (!Number.isInteger(value)) fail(place, value, `a whole number from ${low} to ${high}`);
-  return number(value, place, low, high);
-}
-
-function oneOf<T extends string>(value: unknown, place: string, names: readonly T[]): T {
-  const found = names.find((name) => name === value);
-  return found ?? fail(place, value, names.join(' or '));
 }
 
 function text(value: unknown, place: string, most: number): string {

@@ -65,6 +65,7 @@ export class Returns {
   constructor() {
     this.#positions = new BufferAttribute(new Float32Array(3 * CAPACITY), 3).setUsage(DynamicDrawUsage);
     const geometry = new BufferGeometry().setAttribute('position', this.#positions);
+    // One point before there are any: its shader compiles with the others.
     geometry.setDrawRange(0, 1);
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
