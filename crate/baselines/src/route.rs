@@ -80,8 +80,8 @@ impl<R: RoutePlanner> Navigator for RouteNavigator<R> {
         Decision { status, command }
     }
 
-    fn looks(&self) -> bool {
-        false
+    fn sight_m(&self) -> f64 {
+        0.0
     }
 
     fn period_s(&self) -> f64 {

@@ -133,6 +133,10 @@ impl Navigator for TrueSight {
         Decision { status: step.status, command: step.command }
     }
 
+    fn sight_m(&self) -> f64 {
+        self.planner.sight_m()
+    }
+
     fn period_s(&self) -> f64 {
         self.planner.period_s()
     }

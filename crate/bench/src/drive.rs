@@ -47,7 +47,7 @@ impl Work for Drive {
         if !self.ticks.is_multiple_of(STEPS) {
             trial.act();
         }
-        trial.look();
+        trial.look_far();
         self.returns += trial.scan().points.len();
         Ok(())
     }

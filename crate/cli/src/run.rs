@@ -92,7 +92,7 @@ fn drive(trial: &mut AnyTrial, log: &mut Option<Log>) -> anyhow::Result<(Outcome
     let progress = Progress::new(trial);
     let mut planner_times = Vec::new();
     loop {
-        trial.look();
+        trial.look_far();
         let start = Instant::now();
         let decision = trial.plan();
         planner_times.push(start.elapsed());

@@ -17,6 +17,10 @@ pub struct PlannerConfig {
     pub goal_tolerance_m: f64,
     /// Robot width w_r, metres. The Husky's is 0.685.
     pub robot_width_m: f64,
+    /// Distance between front and rear axle, metres. The Husky's is 0.512.
+    pub wheelbase_m: f64,
+    /// Distance between the middles of left and right wheels, metres. The Husky's is 0.571.
+    pub track_m: f64,
     /// Where the LiDAR sits.
     pub mount: SensorMount,
     /// The tilt the robot must never reach.
@@ -212,6 +216,8 @@ impl Default for PlannerConfig {
             period_s: 0.1,
             goal_tolerance_m: 0.5,
             robot_width_m: 0.685,
+            wheelbase_m: 0.512,
+            track_m: 0.571,
             mount: SensorMount::default(),
             limits: TiltLimits::default(),
             perception: PerceptionConfig::default(),
@@ -352,6 +358,8 @@ impl PlannerConfig {
         positive(self.period_s, place, "period_s")?;
         positive(self.goal_tolerance_m, place, "goal_tolerance_m")?;
         positive(self.robot_width_m, place, "robot_width_m")?;
+        positive(self.wheelbase_m, place, "wheelbase_m")?;
+        positive(self.track_m, place, "track_m")?;
         let mount = "planner.mount";
         positive(self.mount.height_m, mount, "height_m")?;
         require(self.mount.forward_m.is_finite(), mount, "forward_m", self.mount.forward_m, "a number")?;

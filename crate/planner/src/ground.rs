@@ -3,11 +3,14 @@
 //! Not a map: a window of cells that moves with the robot, holds returns of the last seconds within r_oc and the ground
 //! under the wheels, and forgets the rest. It answers one question: what would the robot's roll and pitch be there?
 
+mod wheels;
+
 use glam::{DVec2, DVec3, IVec2};
 
-use crate::config::GroundConfig;
+use crate::config::{GroundConfig, PlannerConfig};
 use crate::elementary::floor;
 use crate::plane::{Moments, Plane};
+use crate::slopes::Slopes;
 
 /// Cells per side of the window.
 pub(crate) const SIDE: usize = 96;
@@ -16,6 +19,28 @@ const MOST_RETURNS: f64 = 30.0;
 /// Ground around a place that carries the robot: its four wheels are within the first distance. Where the rings of a
 /// scan lie further apart than that, a wider plane stands in.
 const FOOTPRINT_RADII_M: [f64; 3] = [0.5, 0.8, 1.2];
+
+/// What a search asks of the ground.
+pub(crate) trait SeenGround {
+    /// The least-squares plane through the ground around a place; `None` where too little was seen.
+    fn plane_at(&self, place_m: DVec2) -> Option<Plane>;
+
+    /// How steep the robot stands on its wheels around a place, where the ground has this plane, facing along a unit vector; `None` where
+    /// no more than the plane is known.
+    fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes>;
+}
+
+/// Ground of which the planes alone are known.
+impl<F: Fn(DVec2) -> Option<Plane>> SeenGround for F {
+    fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
+        self(place_m)
+    }
+
+    fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
+        None
+    }
+}
+
 #[derive(Clone, Copy, Debug)]
 struct GroundCell {
     index: IVec2,
@@ -28,13 +53,16 @@ struct GroundCell {
 #[derive(Clone, Debug)]
 pub(crate) struct Ground {
     config: GroundConfig,
+    wheelbase_m: f64,
+    track_m: f64,
     tick: u64,
     cells: Vec<Option<GroundCell>>,
 }
 
 impl Ground {
-    pub(crate) fn new(config: GroundConfig) -> Self {
-        Self { config, tick: 0, cells: vec![None; SIDE * SIDE] }
+    pub(crate) fn new(config: &PlannerConfig) -> Self {
+        let PlannerConfig { ground, wheelbase_m, track_m, .. } = *config;
+        Self { config: ground, wheelbase_m, track_m, tick: 0, cells: vec![None; SIDE * SIDE] }
     }
 
     pub(crate) fn clear(&mut self) {
@@ -61,11 +89,6 @@ impl Ground {
         }
     }
 
-    /// The least-squares plane through the ground around `place_m`; `None` where too little was seen.
-    pub(crate) fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
-        FOOTPRINT_RADII_M.iter().find_map(|&radius_m| self.plane_within(place_m, radius_m))
-    }
-
     fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
         let moments = self.moments_near(place_m, radius_m);
         let plane = moments.plane()?;
@@ -82,10 +105,9 @@ impl Ground {
             let row = &self.cells[slot_of(IVec2::new(0, y))..][..SIDE];
             for x in low.x..=high.x {
                 let Some(cell) = &row[slot_of(IVec2::new(x, 0))] else { continue };
-                let fresh = self.tick - cell.seen_tick <= self.config.memory_ticks;
                 let from_place = cell.mean_m.truncate() - place_m;
                 let near = from_place.length_squared() <= radius_m * radius_m;
-                if cell.index == IVec2::new(x, y) && fresh && near {
+                if cell.index == IVec2::new(x, y) && self.is_fresh(cell) && near {
                     moments.add(from_place, cell.mean_m.z);
                 }
             }
@@ -93,9 +115,23 @@ impl Ground {
         moments
     }
 
+    fn is_fresh(&self, cell: &GroundCell) -> bool {
+        self.tick - cell.seen_tick <= self.config.memory_ticks
+    }
+
     fn index_of(&self, place_m: DVec2) -> IVec2 {
         let cells = place_m / self.config.cell_m;
         IVec2::new(floor(cells.x), floor(cells.y))
+    }
+}
+
+impl SeenGround for Ground {
+    fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
+        FOOTPRINT_RADII_M.iter().find_map(|&radius_m| self.plane_within(place_m, radius_m))
+    }
+
+    fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes> {
+        self.on_wheels(place_m, direction, plane.gradient)
     }
 }
 
@@ -107,11 +143,10 @@ fn slot_of(index: IVec2) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::PlannerConfig;
     use proptest::prelude::*;
 
     fn strewn(slope: DVec2, centre: DVec2) -> Ground {
-        let mut ground = Ground::new(PlannerConfig::default().ground);
+        let mut ground = Ground::new(&PlannerConfig::default());
         ground.advance();
         for i in -20..=20 {
             for j in -20..=20 {

@@ -69,6 +69,7 @@ mod projection;
 mod reduction;
 mod sectors;
 pub mod segments;
+mod slopes;
 pub mod sparse_gp;
 pub mod subgoals;
 #[cfg(test)]

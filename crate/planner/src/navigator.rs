@@ -23,9 +23,9 @@ pub trait Navigator {
     /// goal seen from above, in the world.
     fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision;
 
-    /// Whether it looks at the scans; one that does not gets none.
-    fn looks(&self) -> bool {
-        true
+    /// How far it looks: returns farther from the sensor than this change nothing. With 0 it looks at no scan, and gets none.
+    fn sight_m(&self) -> f64 {
+        f64::INFINITY
     }
 
     /// Time between two calls, in seconds.
@@ -48,8 +48,8 @@ impl<N: Navigator + ?Sized> Navigator for Box<N> {
         (**self).navigate(points_m, pose, goal_m)
     }
 
-    fn looks(&self) -> bool {
-        (**self).looks()
+    fn sight_m(&self) -> f64 {
+        (**self).sight_m()
     }
 
     fn period_s(&self) -> f64 {
@@ -73,6 +73,10 @@ impl Navigator for Planner {
     fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision {
         let step = self.step(points_m, pose, goal_m);
         Decision { status: step.status, command: step.command }
+    }
+
+    fn sight_m(&self) -> f64 {
+        self.config().perception.surface_radius_m.max(self.config().ground.radius_m)
     }
 
     fn period_s(&self) -> f64 {

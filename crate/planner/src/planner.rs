@@ -132,7 +132,7 @@ impl Planner {
             profile: Vec::new(),
             segments: Vec::new(),
             subgoals: Vec::new(),
-            ground: Ground::new(config.ground),
+            ground: Ground::new(&config),
             controller: Controller::new(config.controller),
             ways: Ways::new(config.forecast, &config.limits, config.perception.surface_radius_m),
             way: Vec::with_capacity(MOST_WAY_POINTS),
@@ -246,8 +246,10 @@ impl Planner {
         let chosen = match self.config.decision.cost_model {
             CostModel::Paper => self.choose(pose, goal_m),
             CostModel::Forecast => {
-                let seen = |place_m| self.ground.plane_at(place_m);
-                self.ways.search(insight.ground.unwrap_or(&seen), pose);
+                match insight.ground {
+                    Some(told) => self.ways.search(&told, pose),
+                    None => self.ways.search(&self.ground, pose),
+                }
                 self.choose(pose, goal_m).or_else(|| {
                     self.ways.search_escape();
                     self.choose(pose, goal_m)

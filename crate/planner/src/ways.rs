@@ -21,9 +21,10 @@ use glam::DVec2;
 
 use crate::angle::wrap_rad;
 use crate::config::{ForecastConfig, TiltLimits};
-use crate::plane::Plane;
+use crate::ground::SeenGround;
 use crate::pose::Pose;
-use footing::{Caution, Footing, Slopes};
+use crate::slopes::Slopes;
+use footing::{Caution, Footing};
 use headings::{HEADINGS, STEPS};
 use queue::BucketQueue;
 
@@ -31,11 +32,11 @@ use queue::BucketQueue;
 const FIRST_DIRECTIONS: usize = 64;
 /// A way joins the lattice at the places within this distance.
 const JOIN_M: f64 = 1.6;
-/// A retreat ends at this share of the slope that a way may use; what lies this far ahead of where it begins is barred.
+/// A retreat ends at this share of the slope that a way may use; what lies this far ahead of where it begins is mistrusted.
 const CALM_SHARE: f64 = 0.8;
 /// Turning back on ground at least this steep says that what lies ahead is steeper than it had looked.
 const STEEP_SHARE: f64 = 0.6;
-const BARRED_AHEAD_M: f64 = 0.5;
+const MISTRUSTED_AHEAD_M: f64 = 0.5;
 /// Each change within this distance makes the next one dearer, up to so many: where a way is refused and allowed by turns, the robot
 /// would drive to and fro.
 const SAME_PLACE_M: f64 = 1.0;
@@ -138,8 +139,8 @@ impl Ways {
         }
     }
 
-    /// Finds the ways from `pose` over the ground that `plane_at` knows.
-    pub(crate) fn search(&mut self, plane_at: &dyn Fn(DVec2) -> Option<Plane>, pose: &Pose) {
+    /// Finds the ways from `pose` over the ground that was seen.
+    pub(crate) fn search(&mut self, ground: &dyn SeenGround, pose: &Pose) {
         self.here_m = pose.plan_m();
         self.standing_height_m = pose.position_m.z;
         self.facing = (wrap_rad(pose.yaw_rad) / TAU * FIRST_DIRECTIONS as f64).round() as i32;
@@ -148,18 +149,19 @@ impl Ways {
         if (self.changed_at_m - self.here_m).length() > SAME_PLACE_M {
             self.changes = 0;
         }
-        self.footing.look(plane_at, self.here_m);
+        self.footing.look(ground, self.here_m);
         self.mind_standing();
         self.search_with(Caution::Usual);
     }
 
-    /// Where the robot stands steeper than a way may be, what it was told of the ground ahead is not true: it goes back the way it
-    /// came, and what lay ahead is not tried again.
+    /// Where the robot stands steeper than even an escape may be, what it was told of the ground ahead is not true: it goes back the
+    /// way it came, and what lay ahead costs more from now on.
     fn mind_standing(&mut self) {
-        let share = self.standing_share();
-        if share < CALM_SHARE {
+        if self.standing_share() < CALM_SHARE {
             self.retreat = None;
-        } else if share > 1.0 && self.retreat.is_none() {
+        } else if self.retreat.is_none()
+            && !self.standing_slopes().within(self.footing.allowed_to_escape(), 0.0)
+        {
             self.turn_back();
         }
     }
@@ -179,7 +181,7 @@ impl Ways {
         self.retreat = Some(!last.reverse);
         let facing = self.first_direction(self.facing);
         let travel = if last.reverse { -facing } else { facing };
-        self.footing.bar(self.here_m + travel * BARRED_AHEAD_M);
+        self.footing.mistrust(self.here_m + travel * MISTRUSTED_AHEAD_M);
     }
 
     /// Searches the same ground anew, with less caution near the robot.
@@ -197,7 +199,7 @@ impl Ways {
     }
 
     /// Remembers how the way to a place begins, on which the robot heads for `point`. Where it turns back on steep ground, what lay
-    /// ahead is not tried again.
+    /// ahead costs more from now on.
     pub(crate) fn drive(&mut self, reached: Option<Reached>, point: &WayPoint) {
         self.begun = reached.map_or(self.facing, |reached| self.first_of(reached));
         let next = {
@@ -213,7 +215,7 @@ impl Ways {
         }
         let turns_back = self.last.is_some_and(|last| last.reverse != next.reverse);
         if self.caution == Caution::Escape {
-            self.footing.bar(self.here_m);
+            self.footing.mistrust(self.here_m);
         } else if turns_back && self.standing_share() > STEEP_SHARE {
             self.turn_back();
         }

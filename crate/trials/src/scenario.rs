@@ -202,6 +202,8 @@ impl Scenario {
         config.mount.forward_m = self.sensor.forward_m;
         config.mount.height_m = self.sensor.height_m;
         config.robot_width_m = self.robot.width_m;
+        config.wheelbase_m = self.robot.wheelbase_m;
+        config.track_m = self.robot.track_m;
         config.limits.roll_rad = self.robot.roll_limit_rad;
         config.limits.pitch_rad = self.robot.pitch_limit_rad;
 

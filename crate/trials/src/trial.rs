@@ -232,14 +232,25 @@ impl<N: Navigator> Trial<N> {
         self.outcome
     }
 
-    /// Takes a scan from where the robot stands, unless nobody looks at it.
+    /// Takes a scan from where the robot stands, as far as the navigator looks.
     pub fn look(&mut self) {
-        if !self.navigator.looks() {
+        self.look_as_far_as(self.navigator.sight_m());
+    }
+
+    /// As [`Trial::look`], as far as the sensor sees. It takes longer and decides the same; for those who look on.
+    pub fn look_far(&mut self) {
+        if self.navigator.sight_m() > 0.0 {
+            self.look_as_far_as(f64::INFINITY);
+        }
+    }
+
+    fn look_as_far_as(&mut self, sight_m: f64) {
+        if sight_m <= 0.0 {
             return;
         }
         let state = self.husky.state();
         let sensor_pose = self.sensor.config().pose_on(state.position, state.yaw_rad, &state.attitude);
-        self.sensor.scan(&self.caster, &sensor_pose, self.seed, self.tick, &mut self.scan);
+        self.sensor.scan_within(sight_m, &self.caster, &sensor_pose, self.seed, self.tick, &mut self.scan);
     }
 
     /// Lets the navigator decide on the last scan.

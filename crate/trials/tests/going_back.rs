@@ -1,4 +1,5 @@
-//! Going back in a trial and driving on gives the bits of an uninterrupted one; waypoints come before the goal.
+//! Going back in a trial and driving on gives the bits of an uninterrupted one, and so does looking farther than the planner minds; waypoints come before the
+//! goal.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use glam::DVec2;
@@ -8,13 +9,17 @@ use mapless_world::{Brush, BrushKind, HeightField};
 const SCENARIO: &str = "terrain = \"a.toml\"\nstart = [4.0, 4.0, 0.2]\ngoal = [9.0, 5.0]\nseed = 3\n";
 
 fn trial(scenario: &str) -> Trial {
+    trial_of(scenario, Preset::Default)
+}
+
+fn trial_of(scenario: &str, preset: Preset) -> Trial {
     let cells = 81;
     let height_m = |index: usize| {
         let (x, y) = ((index % cells) as f64 * 0.25, (index / cells) as f64 * 0.25);
         (0.3 * libm::sin(0.5 * x) * libm::cos(0.4 * y)) as f32
     };
     let field = HeightField::new(cells, cells, 0.25, (0..cells * cells).map(height_m).collect()).unwrap();
-    Trial::new(field, &Scenario::parse("it", scenario).unwrap(), Preset::Default, 3).unwrap()
+    Trial::new(field, &Scenario::parse("it", scenario).unwrap(), preset, 3).unwrap()
 }
 
 fn run_to(trial: &mut Trial, history: &mut History<Trial>, tick: u64) {
@@ -42,6 +47,21 @@ fn going_back_and_on_gives_the_same_digest() {
     run_to(&mut scrubbed, &mut history, u64::MAX);
     assert_eq!(scrubbed.digest(), plain.digest());
     assert_eq!(scrubbed.metrics(), plain.metrics());
+}
+
+#[test]
+fn looking_farther_than_the_planner_minds_changes_nothing() {
+    for preset in Preset::ALL {
+        let (mut near, mut far) = (trial_of(SCENARIO, preset), trial_of(SCENARIO, preset));
+        for _ in 0..60 {
+            near.tick();
+            far.look_far();
+            assert!(far.scan().points.len() > near.scan().points.len());
+            far.plan();
+            far.act();
+        }
+        assert_eq!(near.digest(), far.digest(), "{preset:?}");
+    }
 }
 
 #[test]

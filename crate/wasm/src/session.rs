@@ -51,7 +51,7 @@ impl Moment {
 
     fn look(&mut self) {
         self.scanned_from = sensor_pose(&self.trial);
-        self.trial.look();
+        self.trial.look_far();
     }
 }
 

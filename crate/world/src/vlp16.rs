@@ -104,6 +104,9 @@ pub struct Vlp16 {
     elevations: [(f64, f64); RING_COUNT],
 }
 
+/// No noise in a lifetime is this many standard deviations.
+const NOISE_DEVIATIONS: f64 = 12.0;
+
 impl Vlp16 {
     /// Prepares a sensor.
     ///
@@ -129,6 +132,21 @@ impl Vlp16 {
     /// Noise and drop-outs depend only on `seed`, `tick` and the beam. A return whose range, noise included, lies outside
     /// the sensor's limits is not reported.
     pub fn scan(&self, caster: &Caster, pose: &SensorPose, seed: u64, tick: u64, scan: &mut Scan) {
+        self.scan_within(f64::INFINITY, caster, pose, seed, tick, scan);
+    }
+
+    /// As [`Vlp16::scan`], and sooner: every return within `sight_m` is the same, those much farther are left out.
+    pub fn scan_within(
+        &self,
+        sight_m: f64,
+        caster: &Caster,
+        pose: &SensorPose,
+        seed: u64,
+        tick: u64,
+        scan: &mut Scan,
+    ) {
+        // Noise may bring a return nearer.
+        let reach_m = self.config.max_range_m.min(sight_m + NOISE_DEVIATIONS * self.config.range_noise_m);
         let beams = self.azimuths.len() * RING_COUNT;
         scan.ranges_m.clear();
         scan.points.clear();
@@ -138,7 +156,7 @@ impl Vlp16 {
         for &(sin_azimuth, cos_azimuth) in &self.azimuths {
             let mut fan = Fan::new(caster, pose, sin_azimuth, cos_azimuth);
             for &(sin_elevation, cos_elevation) in &self.elevations {
-                let true_range_m = fan.cast(sin_elevation, cos_elevation, self.config.max_range_m);
+                let true_range_m = fan.cast(sin_elevation, cos_elevation, reach_m);
                 let beam_key = random::key(scan_key, scan.ranges_m.len() as u64);
                 match true_range_m.and_then(|range_m| self.measure(range_m, beam_key)) {
                     Some(range_m) => {
@@ -181,10 +199,14 @@ mod tests {
     }
 
     fn take(caster: &Caster, config: SensorConfig, seed: u64, tick: u64) -> Scan {
+        take_within(f64::INFINITY, caster, config, seed, tick)
+    }
+
+    fn take_within(sight_m: f64, caster: &Caster, config: SensorConfig, seed: u64, tick: u64) -> Scan {
         let level = Attitude { height_m: 1.0, ..Attitude::default() };
         let pose = config.pose_on(DVec2::splat(50.0), 0.4, &level);
         let mut scan = Scan::default();
-        Vlp16::new(config).unwrap().scan(caster, &pose, seed, tick, &mut scan);
+        Vlp16::new(config).unwrap().scan_within(sight_m, caster, &pose, seed, tick, &mut scan);
         scan
     }
 
@@ -233,6 +255,18 @@ mod tests {
         for (short, long) in short.ranges_m.iter().zip(&scan.ranges_m) {
             assert!(short.is_nan() || short.to_bits() == long.to_bits());
         }
+    }
+
+    #[test]
+    fn within_sight_every_return_is_the_same() {
+        let noisy = SensorConfig { range_noise_m: 0.05, ..SensorConfig::default() };
+        let caster = flat();
+        let far = take(&caster, noisy.clone(), 3, 5);
+        let near = take_within(4.0, &caster, noisy, 3, 5);
+        for (near, far) in near.ranges_m.iter().zip(&far.ranges_m) {
+            assert!(near.to_bits() == far.to_bits() || near.is_nan() && *far > 4.0, "{near} {far}");
+        }
+        assert!(near.points.len() < far.points.len());
     }
 
     #[test]

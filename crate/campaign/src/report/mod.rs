@@ -6,6 +6,7 @@ mod faults;
 mod figures;
 mod oracle;
 mod published;
+mod spread;
 mod tables;
 mod trajectory;
 mod worst;
@@ -148,6 +149,7 @@ fn chapter(
     tables::success(text, results)?;
     comparison::sentences(text, results, published)?;
     tables::metrics(text, results, published)?;
+    spread::section(text, results, published)?;
     oracle::section(text, results)?;
     faults::section(text, results)?;
     ablation::section(text, results, figures)?;

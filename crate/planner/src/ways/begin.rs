@@ -89,7 +89,9 @@ impl Ways {
     /// one beyond; `index` is that of the facing.
     fn begin_along(&mut self, index: i32, first: &First, cost_m: f64) {
         let travel = if first.reverse { -first.facing } else { first.facing };
+        let heading = nearest(first.facing);
         let mut seen_m = 0.0;
+        let mut passed_risk = 0.0_f64;
         let steps = (self.config.blind_radius_m / self.config.step_m) as usize;
         for step in 1..=steps {
             let along_m = self.config.step_m * step as f64;
@@ -106,16 +108,20 @@ impl Ways {
             if !beyond_blind && along_m > JOIN_M {
                 return;
             }
-            let safe = self.begin_at(offset, index, first, cost_m);
+            let safe = self.begin_at(offset, index, first, cost_m, passed_risk);
             // The place nearest to the robot may miss by rounding what it already stands on.
             if beyond_blind && along_m > JOIN_M || !safe && step > 1 {
                 return;
             }
+            let risk = self.footing.risk(offset, heading);
+            if risk.is_finite() {
+                passed_risk = passed_risk.max(risk);
+            }
         }
     }
 
-    /// Straight to a place, unless that is not safe.
-    fn begin_at(&mut self, offset: IVec2, index: i32, first: &First, cost_m: f64) -> bool {
+    /// Straight to a place, over what has `passed_risk`, unless that is not safe.
+    fn begin_at(&mut self, offset: IVec2, index: i32, first: &First, cost_m: f64, passed_risk: f64) -> bool {
         let Some(plane) = self.footing.plane(offset) else { return false };
         let way = self.footing.position_m(offset) - self.here_m;
         let distance_m = way.length();
@@ -126,7 +132,8 @@ impl Ways {
         let start =
             Station { distance_m: 0.0, height_m: self.standing_height_m, gradient: self.standing_gradient };
         let end = Station { distance_m, height_m: plane.height_m, gradient: plane.gradient };
-        let risk = self.risk_between(&start, &end, way / distance_m).max(self.footing.risk(offset, heading));
+        let risk = self.risk_between(&start, &end, way / distance_m);
+        let risk = risk.max(self.footing.risk(offset, heading)).max(passed_risk);
         if !risk.is_finite() {
             return false;
         }

@@ -3,7 +3,7 @@
 use glam::{DVec2, IVec2};
 
 use super::Ways;
-use super::footing::Slopes;
+use crate::slopes::Slopes;
 
 /// Unseen ground that is driven over between two places, and what a metre of it costs.
 const GAP_M: f64 = 2.5;

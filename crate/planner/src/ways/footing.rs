@@ -5,39 +5,9 @@ use glam::{DVec2, IVec2};
 use super::headings::{DIRECTIONS, HEADINGS, STEPS, passed};
 use crate::config::{ForecastConfig, TiltLimits};
 use crate::elementary::floor;
+use crate::ground::SeenGround;
 use crate::plane::Plane;
-
-/// Slopes along and across the robot that stand for a pitch and a roll.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Slopes {
-    pub(crate) across: f64,
-    pub(crate) along: f64,
-}
-
-impl Slopes {
-    /// The slopes at which a robot is `margin_rad` inside its tilt limits.
-    pub(crate) fn of_limits(limits: &TiltLimits, margin_rad: f64) -> Self {
-        Self {
-            across: libm::tan(limits.roll_rad - margin_rad),
-            along: libm::tan(limits.pitch_rad - margin_rad),
-        }
-    }
-
-    /// The slopes of ground with a gradient under a robot that faces along the unit vector `direction`.
-    pub(crate) fn facing(gradient: DVec2, direction: DVec2) -> Self {
-        Self { across: gradient.dot(direction.perp()).abs(), along: gradient.dot(direction).abs() }
-    }
-
-    /// The larger share of the two limits, in slope.
-    pub(crate) fn share_of(&self, limits: &Self) -> f64 {
-        (self.across / limits.across).max(self.along / limits.along)
-    }
-
-    /// Whether both stay within limits, with a margin for what is uncertain.
-    pub(crate) fn within(&self, limits: &Self, margin: f64) -> bool {
-        self.across + margin <= limits.across && self.along + margin <= limits.along
-    }
-}
+use crate::slopes::Slopes;
 
 /// How careful a search is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,18 +43,27 @@ pub(crate) struct Footing {
     planes: Vec<Known>,
     looks: i32,
     /// Places that turned out steeper than they had looked, the newest last.
-    barred_m: Vec<DVec2>,
+    mistrusted_m: Vec<DVec2>,
 }
 
-/// Barred places that are remembered, and how much around each is barred.
-const MOST_BARRED: usize = 128;
-const BARRED_RADIUS_M: f64 = 0.6;
+/// Mistrusted places that are remembered, how much around each is meant, and the risk that each time adds; ground at the tilt limit has 1.
+const MOST_MISTRUSTED: usize = 128;
+const MISTRUSTED_RADIUS_M: f64 = 0.6;
+const MISTRUST_RISK: f32 = 2.0;
+/// Standard deviation of a slope between wheels under which returns were averaged.
+const WHEELS_DEVIATION: f64 = 0.05;
 
 /// What was last found at a place of the world's lattice.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     index: IVec2,
     plane: Option<Plane>,
+    /// On the wheels, for each axis of travel.
+    on_wheels: [Option<Slopes>; HEADINGS / 2],
+}
+
+impl Known {
+    const NOTHING: Self = Self { index: IVec2::MAX, plane: None, on_wheels: [None; HEADINGS / 2] };
 }
 
 /// A place is looked at anew after so many looks: the ground stands still, and a robot drives a step in this time.
@@ -103,34 +82,35 @@ impl Footing {
             half,
             centre: IVec2::ZERO,
             places: vec![UNKNOWN; side * side],
-            planes: vec![Known { index: IVec2::MAX, plane: None }; side * side],
+            planes: vec![Known::NOTHING; side * side],
             looks: 0,
-            barred_m: Vec::with_capacity(MOST_BARRED),
+            mistrusted_m: Vec::with_capacity(MOST_MISTRUSTED),
         }
     }
 
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
-        self.planes.fill(Known { index: IVec2::MAX, plane: None });
+        self.planes.fill(Known::NOTHING);
         self.looks = 0;
-        self.barred_m.clear();
+        self.mistrusted_m.clear();
     }
 
-    /// Bars a place, until the ground is forgotten.
-    pub(crate) fn bar(&mut self, place_m: DVec2) {
-        if self.barred_m.len() == MOST_BARRED {
-            self.barred_m.remove(0);
+    /// Mistrusts a place, until the ground is forgotten: each time it costs more to drive there.
+    pub(crate) fn mistrust(&mut self, place_m: DVec2) {
+        if self.mistrusted_m.len() == MOST_MISTRUSTED {
+            self.mistrusted_m.remove(0);
         }
-        self.barred_m.push(place_m);
+        self.mistrusted_m.push(place_m);
     }
 
-    fn is_barred(&self, place_m: DVec2) -> bool {
-        let squared = BARRED_RADIUS_M * BARRED_RADIUS_M;
-        self.barred_m.iter().any(|barred| (*barred - place_m).length_squared() < squared)
+    fn mistrust_risk(&self, place_m: DVec2) -> f32 {
+        let squared = MISTRUSTED_RADIUS_M * MISTRUSTED_RADIUS_M;
+        let near = self.mistrusted_m.iter().filter(|other| (**other - place_m).length_squared() < squared);
+        MISTRUST_RISK * near.count() as f32
     }
 
     /// Looks at the ground around the robot.
-    pub(crate) fn look(&mut self, plane_at: &dyn Fn(DVec2) -> Option<Plane>, here_m: DVec2) {
+    pub(crate) fn look(&mut self, ground: &dyn SeenGround, here_m: DVec2) {
         let cells = here_m / self.config.step_m;
         self.centre = IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5));
         self.looks = (self.looks + 1) % LOOKS;
@@ -145,8 +125,12 @@ impl Footing {
                 let slot = self.slot(world);
                 let due = (world.x + 2 * world.y).rem_euclid(LOOKS) == self.looks;
                 if due || self.planes[slot].index != world {
-                    let plane = plane_at(self.position_m(offset));
-                    self.planes[slot] = Known { index: world, plane };
+                    let place_m = self.position_m(offset);
+                    let plane = ground.plane_at(place_m);
+                    let on_wheels = plane.map_or(Known::NOTHING.on_wheels, |plane| {
+                        DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
+                    });
+                    self.planes[slot] = Known { index: world, plane, on_wheels };
                 }
             }
         }
@@ -162,35 +146,43 @@ impl Footing {
         let near_squared = self.config.escape_m * self.config.escape_m;
         for index in 0..self.places.len() {
             let offset = self.offset(index);
-            let Known { index: world, plane } = self.planes[self.slot(self.centre + offset)];
-            self.places[index] = match plane {
-                Some(plane) if world == self.centre + offset => {
+            let known = self.planes[self.slot(self.centre + offset)];
+            self.places[index] = match known.plane {
+                Some(plane) if known.index == self.centre + offset => {
                     let place_m = self.position_m(offset);
-                    if caution == Caution::Usual && self.is_barred(place_m) {
-                        self.places[index] = Place { plane: Some(plane), ..UNKNOWN };
-                        continue;
-                    }
                     let away = place_m - here_m;
                     let (allowed, deviations) =
                         if away.length_squared() < near_squared { near } else { usual };
-                    self.stand(plane, &allowed, deviations)
+                    let mistrust = match caution {
+                        Caution::Usual => self.mistrust_risk(place_m),
+                        Caution::Escape => 0.0,
+                    };
+                    let risk = self.risk_of(&plane, &known.on_wheels, &allowed, deviations);
+                    Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust) }
                 }
                 _ => UNKNOWN,
             };
         }
     }
 
-    fn stand(&self, plane: Plane, allowed: &Slopes, deviations: f64) -> Place {
-        let margin = deviations * plane.gradient_deviation;
-        let risk = DIRECTIONS.map(|direction| {
-            let slopes = Slopes::facing(plane.gradient, direction);
-            if !slopes.within(allowed, margin) {
+    fn risk_of(
+        &self,
+        plane: &Plane,
+        on_wheels: &[Option<Slopes>; HEADINGS / 2],
+        allowed: &Slopes,
+        deviations: f64,
+    ) -> [f32; HEADINGS / 2] {
+        core::array::from_fn(|axis| {
+            let (slopes, deviation) = match on_wheels[axis] {
+                Some(slopes) => (slopes, WHEELS_DEVIATION),
+                None => (Slopes::facing(plane.gradient, DIRECTIONS[axis]), plane.gradient_deviation),
+            };
+            if !slopes.within(allowed, deviations * deviation) {
                 return f32::INFINITY;
             }
             let share = slopes.share_of(&self.limits);
             (share * share) as f32
-        });
-        Place { plane: Some(plane), risk }
+        })
     }
 
     /// The tilt limits as slopes.
@@ -202,6 +194,11 @@ impl Footing {
     pub(crate) fn allowed(&self, caution: Caution, distance_m: f64) -> &Slopes {
         let near = caution == Caution::Escape && distance_m < self.config.escape_m;
         if near { &self.allowed_near } else { &self.allowed }
+    }
+
+    /// What of the limits may be used to get away, as slopes.
+    pub(crate) fn allowed_to_escape(&self) -> &Slopes {
+        &self.allowed_near
     }
 
     /// What of the limits may be used in a turn on the spot, as slopes.

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::footing::Slopes;
 use super::headings::{DIRECTIONS, HEADINGS, STEPS, nearest};
 use super::{BEGIN, JOIN_M, MILLIMETRES, Reached, UNREACHED, WayPoint, Ways};
 use crate::forecast::{Forecast, ReachEnd};
+use crate::slopes::Slopes;
 
 /// The longest step of the lattice, √5 places, and some.
 const LONGEST_STEP: f64 = 2.3;

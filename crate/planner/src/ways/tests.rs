@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::config::PlannerConfig;
 use crate::forecast::ReachEnd;
+use crate::plane::Plane;
 
 fn ways() -> Ways {
     let config = PlannerConfig::default();
@@ -184,16 +185,35 @@ fn a_robot_that_stands_steeper_than_told_goes_back_and_does_not_try_again() {
     let goal_m = DVec2::new(4.0, 0.0);
     ways.search(&level, &pose(0.0, 0.0));
     set_out(&mut ways, goal_m, &mut way);
-    // The map says level, the robot feels 42°.
-    ways.search(&level, &pose(0.0, 0.73));
+    // The map says level, the robot feels 43.5°.
+    ways.search(&level, &pose(0.0, 0.76));
     ways.search_escape();
     set_out(&mut ways, goal_m, &mut way);
     assert!(way[1].reverse, "{way:?}");
     // Back on gentle ground it leaves aside what it met.
     ways.search(&level, &Pose { position_m: DVec3::new(-1.0, 0.0, 0.0), ..pose(0.0, 0.0) });
     ways.follow(ways.to(goal_m).unwrap(), &mut way);
-    let barred_m = DVec2::new(0.5, 0.0);
-    assert!(way.iter().all(|point| (point.position_m - barred_m).length() > 0.55), "{way:?}");
+    let met_m = DVec2::new(0.5, 0.0);
+    assert!(way.iter().all(|point| (point.position_m - met_m).length() > 0.55), "{way:?}");
+}
+
+#[test]
+fn what_was_steeper_than_told_is_tried_again_where_nothing_else_leads_on() {
+    let corridor =
+        |place_m: DVec2| plane(place_m, DVec2::new(0.0, if place_m.y.abs() < 0.6 { 0.0 } else { 1.5 }));
+    let mut ways = ways();
+    let mut way = Vec::new();
+    let goal_m = DVec2::new(4.0, 0.0);
+    let mut costs_m = Vec::new();
+    for _ in 0..3 {
+        ways.search(&corridor, &Pose { position_m: DVec3::new(-1.0, 0.0, 0.0), ..pose(0.0, 0.0) });
+        set_out(&mut ways, goal_m, &mut way);
+        costs_m.push(way.last().unwrap().cost_m);
+        ways.search(&corridor, &pose(0.0, 0.76));
+        ways.search_escape();
+        set_out(&mut ways, DVec2::new(-1.0, 0.0), &mut way);
+    }
+    assert!(costs_m.windows(2).all(|pair| pair[1] > pair[0] + 2.0), "{costs_m:?}");
 }
 
 #[test]

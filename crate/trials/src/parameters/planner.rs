@@ -21,6 +21,18 @@ pub(super) const GROUPS: &[Group] = &[
                 Number(0.3, 1.5),
                 "Width that a segment must let through. Follows the robot's own width unless set.",
             ),
+            open(
+                "wheelbase_m",
+                "m",
+                Number(0.2, 1.5),
+                "From front to rear axle, to foresee how the robot stands. Follows the robot's own unless set.",
+            ),
+            open(
+                "track_m",
+                "m",
+                Number(0.2, 1.5),
+                "From left to right wheels, to foresee how the robot stands. Follows the robot's own unless set.",
+            ),
         ],
     },
     Group {
