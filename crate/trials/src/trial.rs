@@ -235,6 +235,10 @@ impl<N: Navigator> Trial<N> {
     /// Takes a scan from where the robot stands, as far as the navigator looks.
     pub fn look(&mut self) {
         self.look_as_far_as(self.navigator.sight_m());
+        // No return at all would say that the sensor is blind, not that the ground falls away.
+        if self.scan.points.is_empty() {
+            self.look_far();
+        }
     }
 
     /// As [`Trial::look`], as far as the sensor sees. It takes longer and decides the same; for those who look on.

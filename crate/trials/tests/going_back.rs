@@ -65,6 +65,25 @@ fn looking_farther_than_the_planner_minds_changes_nothing() {
 }
 
 #[test]
+fn on_a_pillar_the_far_returns_are_seen_for_want_of_near_ones() {
+    let cells = 201;
+    let on_pillar = |index: usize| {
+        let (x, y) = ((index % cells) as f64 * 0.25 - 25.0, (index / cells) as f64 * 0.25 - 25.0);
+        x.abs().max(y.abs()) < 1.1
+    };
+    let height_m = |index: usize| if on_pillar(index) { 0.0 } else { -4.0 };
+    let field = HeightField::new(cells, cells, 0.25, (0..cells * cells).map(height_m).collect()).unwrap();
+    let scenario = SCENARIO.replace("[4.0, 4.0, 0.2]", "[25.0, 25.0, 0.2]");
+    let scenario = Scenario::parse("it", &scenario).unwrap();
+    let mut near = Trial::new(field, &scenario, Preset::Default, 3).unwrap();
+    let mut far = near.clone();
+    near.look();
+    far.look_far();
+    assert!(far.scan().points.iter().all(|point| point.length() > 9.0));
+    assert!(near.scan().points == far.scan().points, "a scan without returns is that of a blind sensor");
+}
+
+#[test]
 fn a_copy_keeps_its_ground_when_the_other_is_sculpted() {
     let mut trial = trial(SCENARIO);
     let copy = trial.clone();
