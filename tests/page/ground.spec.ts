@@ -1,4 +1,4 @@
-import { driveTo, expect, state, still, test, until } from './page.ts';
+import { driveTo, expect, moved, state, still, test, until } from './page.ts';
 
 test('a stroke of the brush raises the ground, and the next scan shows it', async ({ mapless: page }) => {
   await still(page);
@@ -67,7 +67,7 @@ test('a click sets the goal, and a drag the start with its heading', async ({ ma
   const [x, y] = [box.x + 0.55 * box.width, box.y + 0.45 * box.height];
   await page.getByRole('radio', { name: 'Goal' }).check();
   await page.mouse.click(x, y);
-  await until(page, (now) => now.goal.x !== old.goal.x);
+  await until(page, (now) => moved(now.goal, old.goal));
   await still(page);
   const { goal, tick } = await state(page);
   expect(tick).toBe(old.tick);
@@ -76,7 +76,7 @@ test('a click sets the goal, and a drag the start with its heading', async ({ ma
   await page.mouse.down();
   await page.mouse.move(x + 160, y, { steps: 4 });
   await page.mouse.up();
-  await until(page, (now) => now.start.x !== old.start.x);
+  await until(page, (now) => moved(now.start, old.start));
   await still(page);
   const now = await state(page);
   expect(Math.hypot(now.start.x - goal.x, now.start.y - goal.y)).toBeLessThan(0.03);

@@ -1,4 +1,4 @@
-import { expect, state, still, test, until } from './page.ts';
+import { expect, moved, state, still, test, until } from './page.ts';
 
 test('everything runs by keyboard', async ({ mapless: page }) => {
   // Far enough from the start that a restart shows.
@@ -51,7 +51,7 @@ test('the ground is reached by keyboard too: a goal and a hill', async ({ maples
   await page.keyboard.press('2');
   for (let step = 0; step < 4; step += 1) await page.keyboard.press('ArrowUp');
   await page.keyboard.press('Enter');
-  await until(page, (now) => now.goal.x !== old.goal.x);
+  await until(page, (now) => moved(now.goal, old.goal));
   const { goal } = await state(page);
   expect(Math.hypot(goal.x - old.pose.x, goal.y - old.pose.y)).toBeCloseTo(2, 1);
   await page.keyboard.press('4');

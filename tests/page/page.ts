@@ -47,6 +47,11 @@ export async function until(page: Page, check: (now: MaplessState) => boolean, t
   await expect.poll(async () => check(await state(page)), { timeout, intervals: [100] }).toBe(true);
 }
 
+/** Whether a place is another one; one coordinate alone may be the same by chance. */
+export function moved(now: { x: number; y: number }, before: { x: number; y: number }): boolean {
+  return now.x !== before.x || now.y !== before.y;
+}
+
 /** Pauses and waits until nothing changes any more, neither state nor view. */
 export async function still(page: Page): Promise<void> {
   await page.evaluate(() => window.mapless?.still());

@@ -1,4 +1,4 @@
-import { drawnIn, expect, state, test, until } from './page.ts';
+import { drawnIn, expect, moved, state, test, until } from './page.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
 
@@ -33,5 +33,5 @@ test('a tap with a tool in hand sets the goal', async ({ mapless: page }) => {
   const box = await page.locator('#view').boundingBox();
   if (!box) throw new Error('The view has no place.');
   await page.touchscreen.tap(box.x + 0.5 * box.width, box.y + 0.35 * box.height);
-  await until(page, (now) => now.goal.x !== old.goal.x);
+  await until(page, (now) => moved(now.goal, old.goal));
 });
