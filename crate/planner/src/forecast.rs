@@ -9,7 +9,8 @@ pub struct Forecast {
     pub way_m: f64,
     /// What it goes up and down.
     pub climb_m: f64,
-    /// Mean over the way of (slope / slope at the limit)², the worse of roll and pitch at each place.
+    /// Mean over the way of (slope / slope at the limit)², the worse of roll and pitch at each place, and 2 for each time that the place
+    /// turned out steeper than it had looked.
     pub mean_risk: f64,
     /// Largest predicted |roll| on the way.
     pub max_roll_rad: f64,
