@@ -64,7 +64,7 @@ fn contests(pairs: impl Iterator<Item = ([Option<f64>; 6], [Option<f64>; 6])>) -
             .filter_map(|(ours, theirs)| Some(ours[index]? / theirs[index].filter(|value| *value > 0.0)?))
             .collect();
         Some(Contest {
-            metric: metric.heading.split(',').next().unwrap_or_default(),
+            metric: metric.name(),
             lower: ratios.iter().filter(|ratio| **ratio < 1.0 - EVEN).count(),
             higher: ratios.iter().filter(|ratio| **ratio > 1.0 + EVEN).count(),
             routes: ratios.len(),

@@ -32,6 +32,13 @@ struct Metric {
     of: fn(&TrialRow) -> Option<f64>,
 }
 
+impl Metric {
+    /// The heading without its unit.
+    fn name(&self) -> &'static str {
+        self.heading.split(',').next().unwrap_or_default()
+    }
+}
+
 /// The paper's six, in its order.
 const METRICS: [Metric; 6] = [
     Metric { heading: "distance, m", decimals: 1, of: |row| row.distance_m },

@@ -56,7 +56,7 @@ fn sentence(planner: &str, row: &PublishedRow, deviations: &[f64; 6], ours: &[&T
     let (mut within, mut outside) = (Vec::new(), Vec::new());
     for (index, metric) in METRICS.iter().enumerate() {
         let Some(mean) = stats::mean(&values(ours, metric)) else { continue };
-        let (name, decimals) = (metric.heading.split(',').next().unwrap_or_default(), metric.decimals);
+        let (name, decimals) = (metric.name(), metric.decimals);
         let off = (mean - row.mean[index]) / deviations[index];
         if off.abs() <= DEVIATIONS {
             within.push(name.to_owned());

@@ -179,7 +179,7 @@ fn a_turn_that_has_begun_may_be_finished() {
 }
 
 #[test]
-fn a_robot_that_stands_steeper_than_told_goes_back_and_does_not_try_again() {
+fn a_robot_that_stands_steeper_than_told_goes_back_and_leaves_the_place_aside() {
     let mut ways = ways();
     let mut way = Vec::new();
     let goal_m = DVec2::new(4.0, 0.0);
