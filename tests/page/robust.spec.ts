@@ -1,8 +1,18 @@
-import { test as plain } from '@playwright/test';
+import { type Page, test as plain, type Worker } from '@playwright/test';
 import { drawnIn, expect, loaded, state, test, until } from './page.ts';
 
 // What these tests replace must come from the server, not from what the page keeps.
 for (const one of [plain, test]) one.use({ serviceWorkers: 'block' });
+
+/** The name of the worker that draws the view. */
+const PAINTER = 'mapless painter';
+
+async function painterOf(page: Page): Promise<Worker> {
+  for (const worker of page.workers()) {
+    if ((await worker.evaluate(() => self.name)) === PAINTER) return worker;
+  }
+  throw new Error('No worker draws the view.');
+}
 
 test('an unknown scenario is named in the message, and the old one goes on', async ({ mapless: page }) => {
   const message = await page.evaluate(() => window.mapless?.loadScenario('atlantis').catch((error) => error.message));
@@ -12,10 +22,19 @@ test('an unknown scenario is named in the message, and the old one goes on', asy
 });
 
 test('a lost graphics context is explained, and the view comes back', async ({ mapless: page }) => {
-  const context = await page.evaluateHandle(() => {
-    const canvas = document.getElementById('view') as HTMLCanvasElement;
-    return canvas.getContext('webgl2')?.getExtension('WEBGL_lose_context');
-  });
+  const painter = await painterOf(page);
+  // Its context is got hold of at the next picture.
+  const context = await painter.evaluateHandle(
+    () =>
+      new Promise<WEBGL_lose_context | null>((resolve) => {
+        const { clear } = WebGL2RenderingContext.prototype;
+        WebGL2RenderingContext.prototype.clear = function (mask) {
+          WebGL2RenderingContext.prototype.clear = clear;
+          clear.call(this, mask);
+          resolve(this.getExtension('WEBGL_lose_context'));
+        };
+      }),
+  );
   await context.evaluate((lose) => lose?.loseContext());
   await expect(page.locator('#notice')).toContainText('3D view');
   await context.evaluate((lose) => lose?.restoreContext());
@@ -23,6 +42,22 @@ test('a lost graphics context is explained, and the view comes back', async ({ m
   const { tick } = await state(page);
   await until(page, (now) => now.tick > tick + 3);
   await drawnIn(page, '#view', 500);
+});
+
+plain('without WebGL the view stays empty, and all else works', async ({ page }) => {
+  await page.route('**/worker-*.js', async (route) => {
+    const response = await route.fetch();
+    const without = `if (self.name === ${JSON.stringify(PAINTER)}) OffscreenCanvas.prototype.getContext = () => null;`;
+    await route.fulfill({ response, body: `${without}${await response.text()}` });
+  });
+  await page.goto('/');
+  await loaded(page);
+  await expect(page.locator('#notice-text')).toContainText('WebGL');
+  await page.locator('#notice-close').click();
+  await until(page, (now) => now.tick > 3);
+  await page.evaluate(() => window.mapless?.still());
+  await page.locator('#save-picture').click();
+  await expect(page.locator('#notice-text')).toContainText('view.png could not be made');
 });
 
 test('the policy of the page allows its own origin only', async ({ mapless: page }) => {

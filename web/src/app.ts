@@ -27,14 +27,12 @@ import { Workbench } from './workbench.ts';
 const JUMP_S = 5;
 
 export interface Views {
-  /** The worker has begun to load something. */
-  loading(): void;
   /** A scenario, goal or start changed; with `field`, the ground is another one. */
   session(info: SessionInfo, field: HeightField | undefined): void;
   frame(frame: Frame): void;
   status(frame: Frame, playing: boolean): void;
-  /** The ground was sculpted. */
-  sculpted(): void;
+  /** The ground was sculpted: these heights are new. */
+  sculpted(patch: GroundPatch): void;
   playing(playing: boolean): void;
   speed(speed: number): void;
   /** Resolves once all is drawn and nothing moves any more. */
@@ -348,7 +346,6 @@ export class App {
   async #drive(loading: Promise<void>): Promise<void> {
     const before = this.#playing;
     this.#show(true);
-    this.#views.loading();
     try {
       await loading;
     } catch (error) {
@@ -374,7 +371,7 @@ export class App {
   #onPatch(patch: GroundPatch): void {
     this.#field?.patch(patch);
     this.bench.patched(patch);
-    this.#views.sculpted();
+    this.#views.sculpted(patch);
   }
 
   #onFrame(frame: Frame): void {

@@ -77,7 +77,6 @@ let stage: Stage | undefined;
 
 // Begun first: the worker loads the core while the rest of the page is made.
 const app = new App({
-  loading: () => stage?.prepare(),
   session(info, field) {
     stage?.session(info, field);
     timeline.session(info.period_s);
@@ -117,8 +116,8 @@ const app = new App({
     result.dataset.outcome = frame.outcome;
     setText(element('result-words'), OUTCOME_WORDS[frame.outcome]);
   },
-  sculpted() {
-    stage?.sculpted();
+  sculpted(patch) {
+    stage?.sculpted(patch);
     lab?.sculpted();
     if (app.field) groundKey.ground(app.field);
   },
@@ -141,11 +140,15 @@ const app = new App({
   clearNotice: () => notice.hide(),
 });
 
+const graphics = watchGraphics(
+  (message) => notice.show(message),
+  () => notice.hide(),
+);
 /** Without WebGL the numbers, the image and the controls still work. */
 try {
-  stage = new Stage(view, readTheme());
+  stage = new Stage(view, readTheme(), graphics);
 } catch {
-  notice.show('This browser offers no WebGL 2, so the 3D view stays empty. Everything else works.');
+  graphics.unavailable();
 }
 
 const measure = new Measure({
@@ -215,11 +218,6 @@ for (const event of ['pointerdown', 'keydown', 'wheel']) {
   document.addEventListener(event, () => app.touch(), { passive: true, capture: true });
 }
 document.addEventListener('visibilitychange', () => app.attempt(app.hidden(document.hidden)));
-watchGraphics(
-  view,
-  (message) => notice.show(message),
-  () => notice.hide(),
-);
 watchFaults((message) => notice.show(message));
 element('skip').addEventListener('click', (event) => {
   // An address with #view would stand in the history and in shared links.

@@ -24,7 +24,7 @@ export class Thinking implements TourHost {
   readonly #stage: Stage | undefined;
   readonly #page = element('app');
   readonly #attention = new Attention((frame, target) => {
-    this.#stage?.mark(frame, target);
+    this.#stage?.mark(target);
     this.#image.mark(target);
     this.#decision.mark(target);
     this.#detail.show(frame, target, this.#attention.pinned);

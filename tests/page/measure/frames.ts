@@ -65,11 +65,17 @@ async function heap_mb(page: Page): Promise<number> {
   return usedSize / 1e6;
 }
 
-/** The page's main thread: the one that fires animation frames. */
+/** The page's main thread: of those by that name the one that fires animation frames. */
 function mainThread(events: readonly TraceEvent[]): TraceEvent[] {
-  const frame = events.find(({ name }) => name === 'FireAnimationFrame');
-  if (!frame) throw new Error('No picture was drawn while measuring.');
-  const own = events.filter(({ pid, tid, ph }) => pid === frame.pid && tid === frame.tid && ph === 'X');
+  const fires = new Set(
+    events.filter(({ name }) => name === 'FireAnimationFrame').map(({ pid, tid }) => `${pid} ${tid}`),
+  );
+  const main = events.find(
+    ({ name, args, pid, tid }) =>
+      name === 'thread_name' && args?.name === 'CrRendererMain' && fires.has(`${pid} ${tid}`),
+  );
+  if (!main) throw new Error('No picture was drawn while measuring.');
+  const own = events.filter(({ pid, tid, ph }) => pid === main.pid && tid === main.tid && ph === 'X');
   return own.sort((a, b) => a.ts - b.ts);
 }
 

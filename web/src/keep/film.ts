@@ -1,10 +1,8 @@
 /** Pictures and films of the 3D view. The view's canvas is see-through: here it stands before the page's sky. */
 
-/** What gives the view right after each drawing, while its pixels can be read. */
-export interface Drawn {
-  drawn: ((view: HTMLCanvasElement) => void) | undefined;
-  /** Asks for another drawing. */
-  invalidate(): void;
+/** What gives its pictures away while somebody wants them, beginning with the present one. */
+export interface Filmed {
+  film(film: ((picture: ImageBitmap) => void) | undefined): void;
 }
 
 const FRAME_RATE_HZ = 30;
@@ -22,13 +20,13 @@ function kind(): string | undefined {
 }
 
 export class Camera {
-  readonly #source: Drawn;
+  readonly #source: Filmed;
   readonly #plate = document.createElement('canvas');
   #recorder: MediaRecorder | undefined;
   #filming = false;
-  #onDrawn: (() => void) | undefined;
+  #onFilmed: (() => void) | undefined;
 
-  constructor(source: Drawn) {
+  constructor(source: Filmed) {
     this.#source = source;
   }
 
@@ -52,7 +50,12 @@ export class Camera {
     const mimeType = kind();
     if (!mimeType) throw new Error('This browser records no WebM video.');
     this.#filming = true;
-    await this.#next();
+    try {
+      await this.#next();
+    } catch (error) {
+      this.#filming = false;
+      throw error;
+    }
     if (!this.#filming) throw new Error('It was stopped before its first picture.');
     const stream = this.#plate.captureStream(FRAME_RATE_HZ);
     const recorder = new MediaRecorder(stream, { mimeType, videoBitsPerSecond: BITS_PER_SECOND });
@@ -77,24 +80,23 @@ export class Camera {
   /** Waits for the next drawing. */
   #next(): Promise<void> {
     return new Promise((resolve) => {
-      this.#onDrawn = resolve;
+      this.#onFilmed = resolve;
       this.#watch();
     });
   }
 
   /** Reads the view while anybody needs it. */
   #watch(): void {
-    const needed = this.#recorder !== undefined || this.#onDrawn !== undefined;
-    this.#source.drawn = needed ? (view) => this.#take(view) : undefined;
-    if (needed) this.#source.invalidate();
+    const needed = this.#recorder !== undefined || this.#onFilmed !== undefined;
+    this.#source.film(needed ? (picture) => this.#take(picture) : undefined);
   }
 
-  #take(view: HTMLCanvasElement): void {
+  #take(picture: ImageBitmap): void {
     const plate = this.#plate;
     // A film keeps the size it began with.
-    if (!this.#recorder && (plate.width !== view.width || plate.height !== view.height)) {
-      plate.width = view.width;
-      plate.height = view.height;
+    if (!this.#recorder && (plate.width !== picture.width || plate.height !== picture.height)) {
+      plate.width = picture.width;
+      plate.height = picture.height;
     }
     const context = plate.getContext('2d');
     if (!context) return;
@@ -104,10 +106,11 @@ export class Camera {
     sky.addColorStop(0.72, style.getPropertyValue('--sky-bottom').trim());
     context.fillStyle = sky;
     context.fillRect(0, 0, plate.width, plate.height);
-    context.drawImage(view, 0, 0, plate.width, plate.height);
-    const done = this.#onDrawn;
+    context.drawImage(picture, 0, 0, plate.width, plate.height);
+    picture.close();
+    const done = this.#onFilmed;
     if (!done) return;
-    this.#onDrawn = undefined;
+    this.#onFilmed = undefined;
     this.#watch();
     done();
   }

@@ -2,7 +2,7 @@
 
 import { download } from '../files/download.ts';
 import { byId, setText } from '../ui/dom.ts';
-import { Camera, canFilm, type Drawn } from './film.ts';
+import { Camera, canFilm, type Filmed } from './film.ts';
 import { fileName, type Run, runJson, trajectoryCsv } from './run.ts';
 
 export interface Source {
@@ -11,7 +11,7 @@ export interface Source {
   /** The plots over time, as SVG. */
   plots(title: string): string;
   /** Without WebGL there is no view to picture. */
-  readonly view: Drawn | undefined;
+  readonly view: Filmed | undefined;
   notice(message: string): void;
 }
 

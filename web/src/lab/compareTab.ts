@@ -2,7 +2,6 @@
 
 import type { App } from '../app.ts';
 import type { Frame, SessionInfo } from '../core/protocol.ts';
-import { Ghosts } from '../scene/ghosts.ts';
 import type { Stage } from '../scene/stage.ts';
 import { type RunningJob, startJob } from '../trials/client.ts';
 import { courseOf } from '../trials/course.ts';
@@ -10,6 +9,7 @@ import { GhostRun } from '../trials/ghostRun.ts';
 import type { FromTrials } from '../trials/protocol.ts';
 import { html, setText } from '../ui/dom.ts';
 import { ComparisonTable } from './comparisonTable.ts';
+import { GhostTrails } from './ghostTrails.ts';
 import type { Tab } from './lab.ts';
 import { RIVALS, type Rival } from './planners.ts';
 
@@ -25,7 +25,7 @@ export class CompareTab implements Tab {
   readonly element = html('div');
   readonly #app: App;
   readonly #stage: Stage | undefined;
-  readonly #ghosts = new Ghosts();
+  readonly #trails = new GhostTrails();
   readonly #boxes: readonly { rival: Rival; box: HTMLInputElement; label: HTMLLabelElement }[];
   readonly #note = html('p', 'lab-note');
   readonly #fault = html('p', 'parameter-fault');
@@ -40,7 +40,6 @@ export class CompareTab implements Tab {
   constructor(app: App, stage: Stage | undefined) {
     this.#app = app;
     this.#stage = stage;
-    stage?.add(this.#ghosts.group);
     this.#boxes = RIVALS.map((rival) => this.#box(rival));
     const choice = html('fieldset', 'rivals', [
       html('legend', 'hidden-text', ['Planners to compare with']),
@@ -110,8 +109,7 @@ export class CompareTab implements Tab {
     this.#job = undefined;
     this.#runs = new Map();
     this.#fault.hidden = true;
-    this.#ghosts.set([], 0);
-    this.#stage?.invalidate();
+    this.#showGhosts();
     const [course, info] = [courseOf(this.#app), this.#app.info];
     if (course && info && this.#chosen.length > 0) {
       const planners = this.#chosen.map(({ planner }) => planner);
@@ -137,11 +135,14 @@ export class CompareTab implements Tab {
 
   #enter(planner: string, run: GhostRun): void {
     this.#runs.set(planner, run);
-    const tracks = this.#running().map(([rival, known]) => ({
-      colour: rival.colour,
-      pose: (tick: number) => known.pose(tick),
-    }));
-    this.#ghosts.set(tracks, this.#app.info?.sensor_height_m ?? 0);
+    this.#showGhosts();
+  }
+
+  /** Those that run, from their start. */
+  #showGhosts(): void {
+    const running = this.#running();
+    this.#trails.set(running.map(([, run]) => run));
+    this.#stage?.ghosts(running.map(([{ colour }]) => colour));
   }
 
   #running(): [Rival, GhostRun][] {
@@ -158,8 +159,7 @@ export class CompareTab implements Tab {
     // Once the page's robot has ended, those that are still on their way are shown as far as they are.
     const ended = frame.outcome !== 'running';
     const shown = ({ lastTick }: GhostRun) => (ended ? lastTick : Math.min(frame.tick, lastTick));
-    this.#ghosts.show(running.map(([, run]) => shown(run)));
-    this.#stage?.invalidate();
+    this.#stage?.ghostSteps(this.#trails.steps(running.map(([, run]) => shown(run))));
     if (!this.element.hidden)
       this.#table.show(frame, new Map(running.map(([rival, run]) => [rival.planner, run.at(shown(run))])));
   }

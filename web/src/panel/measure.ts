@@ -2,7 +2,7 @@
 
 import type { Frame, SessionInfo } from '../core/protocol.ts';
 import type { RunRecord } from '../core/record.ts';
-import type { Drawn } from '../keep/film.ts';
+import type { Filmed } from '../keep/film.ts';
 import type { Run } from '../keep/run.ts';
 import { TakeAway } from '../keep/takeAway.ts';
 import { byId, setText } from '../ui/dom.ts';
@@ -16,7 +16,7 @@ const THANKS_MS = 1600;
 
 export interface MeasureOptions {
   readonly record: RunRecord;
-  readonly view: Drawn | undefined;
+  readonly view: Filmed | undefined;
   /** Takes the run to another time. */
   go(time_s: number): Promise<void>;
   notice(message: string): void;

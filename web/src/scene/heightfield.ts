@@ -47,6 +47,12 @@ export class HeightField {
     else [this.min_m, this.max_m] = [min, max];
   }
 
+  /** As it is now, to be handed to a worker. */
+  get ground(): Ground {
+    const { columns, rows, cell_m, heights_m } = this;
+    return { columns, rows, cell_m, heights_m };
+  }
+
   contains(x: number, y: number): boolean {
     return x >= 0 && y >= 0 && x <= this.width_m && y <= this.depth_m;
   }

@@ -1,4 +1,12 @@
-/** What the 3D view shows of the planner's thinking. */
+/** What the 3D view shows of the ground and of the planner's thinking. */
+
+export const COLOURINGS = ['elevation', 'slope', 'stand'] as const;
+/** By what the ground is coloured. */
+export type Colouring = (typeof COLOURINGS)[number];
+/** Slopes from here on have the last colour: nearly twice what a Husky stands on. */
+export const STEEPEST_SHOWN_RAD = (40 * Math.PI) / 180;
+/** Returns coloured by range have the last colour from here on. */
+export const FARTHEST_RANGE_M = 20;
 
 export const POINT_COLOURS = ['use', 'range', 'height', 'ring', 'none'] as const;
 /** `use` sets the returns that the planner takes off from the others; `none` hides them all. */

@@ -4,7 +4,7 @@ import { type Camera, Vector3 } from 'three';
 import type { Frame } from '../core/protocol.ts';
 import { subgoalTarget, type Target } from '../ui/attention.ts';
 import type { Vector } from './heightfield.ts';
-import { segmentArc } from './ways.ts';
+import { segmentArc } from './segmentArc.ts';
 
 interface Shown {
   readonly subgoals: boolean;

@@ -3,6 +3,7 @@
 import { MathUtils, MOUSE, PerspectiveCamera, TOUCH } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Pose } from '../core/protocol.ts';
+import { DEPTH_M } from '../painter/protocol.ts';
 import { wrap } from '../ui/format.ts';
 import { Gaze } from './gaze.ts';
 import type { HeightField, Vector } from './heightfield.ts';
@@ -29,7 +30,7 @@ const LEAST_SWING_RAD = 0.002;
 const RISE_RAD = 0.03;
 
 export class Viewpoint {
-  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.1, 1500);
+  readonly #camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, DEPTH_M.near, DEPTH_M.far);
   readonly #controls: OrbitControls;
   readonly #gaze: Gaze;
   readonly #reduced = window.matchMedia('(prefers-reduced-motion: reduce)');
@@ -41,9 +42,9 @@ export class Viewpoint {
   #swung_ms = 0;
 
   constructor(canvas: HTMLCanvasElement, changed: () => void) {
-    this.camera.up.set(0, 0, 1);
-    this.#gaze = new Gaze(canvas, this.camera, changed);
-    this.#controls = new OrbitControls(this.camera, canvas);
+    this.#camera.up.set(0, 0, 1);
+    this.#gaze = new Gaze(canvas, this.#camera, changed);
+    this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.maxPolarAngle = MathUtils.degToRad(86);
     this.#controls.minDistance = NEAREST_M;
     this.#controls.maxDistance = FARTHEST_M;
@@ -58,6 +59,12 @@ export class Viewpoint {
     });
   }
 
+  /** Where it stands now, ready to cast rays through. */
+  get camera(): PerspectiveCamera {
+    this.#camera.updateMatrixWorld();
+    return this.#camera;
+  }
+
   get mode(): CameraMode {
     return this.#mode;
   }
@@ -66,17 +73,12 @@ export class Viewpoint {
   get heading_rad(): number {
     if (this.#mode === 'eye') return (this.#heading_rad ?? 0) + this.#gaze.turn_rad;
     const { target } = this.#controls;
-    return Math.atan2(target.y - this.camera.position.y, target.x - this.camera.position.x);
-  }
-
-  /** The window's height in metres, one metre away. */
-  get heightAtOneMetre(): number {
-    return 2 * Math.tan(MathUtils.degToRad(this.camera.fov / 2));
+    return Math.atan2(target.y - this.#camera.position.y, target.x - this.#camera.position.x);
   }
 
   resize(aspect: number): void {
-    this.camera.aspect = aspect;
-    this.camera.updateProjectionMatrix();
+    this.#camera.aspect = aspect;
+    this.#camera.updateProjectionMatrix();
   }
 
   /** Lets a drag run out gently, and goes on to swing behind the robot, which may stand by now. */
@@ -125,7 +127,7 @@ export class Viewpoint {
     if (this.#mode === 'chase' || this.#mode === 'top') {
       const before = this.#controls.target.clone();
       this.#aim(robot);
-      this.camera.position.add(this.#controls.target).sub(before);
+      this.#camera.position.add(this.#controls.target).sub(before);
     }
     this.#swing_rad += wrap(robot.yaw - (this.#heading_rad ?? robot.yaw));
     this.#heading_rad = robot.yaw;
@@ -140,9 +142,9 @@ export class Viewpoint {
   /** The whole ground from the south, from above. */
   overview(field: HeightField): void {
     this.#enter('free');
-    const width_m = Math.max(field.width_m / Math.min(this.camera.aspect, 1.5), field.depth_m);
+    const width_m = Math.max(field.width_m / Math.min(this.#camera.aspect, 1.5), field.depth_m);
     this.#controls.target.set(field.width_m / 2, field.depth_m / 2, field.min_m);
-    this.#stand(-Math.PI / 2, 0.85, (1.1 * width_m) / this.heightAtOneMetre);
+    this.#stand(-Math.PI / 2, 0.85, (0.55 * width_m) / Math.tan(MathUtils.degToRad(this.#camera.fov / 2)));
   }
 
   /** Makes a share of the robot's turns that the chasing camera has still to make; any other makes none. */
@@ -164,9 +166,9 @@ export class Viewpoint {
     this.#controls.enabled = mode !== 'eye';
     // From above, a drag turns the map and never tilts it.
     this.#controls.maxPolarAngle = mode === 'top' ? 0 : MathUtils.degToRad(86);
-    if (mode === 'eye' || this.camera.fov === FIELD_OF_VIEW_DEG) return;
-    this.camera.fov = FIELD_OF_VIEW_DEG;
-    this.camera.updateProjectionMatrix();
+    if (mode === 'eye' || this.#camera.fov === FIELD_OF_VIEW_DEG) return;
+    this.#camera.fov = FIELD_OF_VIEW_DEG;
+    this.#camera.updateProjectionMatrix();
   }
 
   /** With a tool in hand the main button and one finger are the tool's; the other button and two fingers move the view. */
@@ -186,7 +188,7 @@ export class Viewpoint {
       this.#gaze.nudge(-turn_rad, -tilt_rad, zoom);
       return;
     }
-    const offset = this.camera.position.clone().sub(this.#controls.target);
+    const offset = this.#camera.position.clone().sub(this.#controls.target);
     const distance_m = offset.length();
     this.#stand(
       Math.atan2(offset.y, offset.x) + turn_rad,
@@ -198,7 +200,7 @@ export class Viewpoint {
   /** Before each picture: out of the ground, and up while a hill hides the robot that it follows. */
   clear(field: HeightField): void {
     if (this.#mode === 'eye') return;
-    const { position } = this.camera;
+    const { position } = this.#camera;
     if (field.contains(position.x, position.y)) {
       position.z = Math.max(position.z, field.height(position.x, position.y) + CLEARANCE_M);
     }
@@ -214,7 +216,7 @@ export class Viewpoint {
   #stand(azimuth_rad: number, elevation_rad: number, distance_m: number): void {
     const flat_m = distance_m * Math.cos(elevation_rad);
     const { target } = this.#controls;
-    this.camera.position.set(
+    this.#camera.position.set(
       target.x + flat_m * Math.cos(azimuth_rad),
       target.y + flat_m * Math.sin(azimuth_rad),
       target.z + distance_m * Math.sin(elevation_rad),

@@ -1,5 +1,7 @@
 /** Faults that nobody expected, in words: nothing fails in silence. */
 
+import type { Graphics } from '../painter/client.ts';
+
 const ADVICE = 'If something no longer answers, reload the page.';
 
 export function watchFaults(show: (message: string) => void): void {
@@ -12,20 +14,24 @@ export function watchFaults(show: (message: string) => void): void {
 /** How long a view that was taken away may need to come back. */
 const PATIENCE_MS = 12_000;
 
-/** The graphics driver may take the view away: it is said, and three.js brings it back with the context. */
-export function watchGraphics(view: HTMLCanvasElement, show: (message: string) => void, hide: () => void): void {
+/** Says what becomes of the view: the graphics driver may take it away, and three.js brings it back with the context. */
+export function watchGraphics(show: (message: string) => void, hide: () => void): Graphics {
   let waiting: ReturnType<typeof setTimeout> | undefined;
-  view.addEventListener('webglcontextlost', (event) => {
-    event.preventDefault();
-    show('The graphics driver took the 3D view away. It comes back by itself; the simulation goes on.');
-    waiting = setTimeout(() => {
-      show(
-        'The 3D view has not come back: the graphics driver is busy or gone. Everything else goes on; reloading the page may bring it back.',
-      );
-    }, PATIENCE_MS);
-  });
-  view.addEventListener('webglcontextrestored', () => {
-    clearTimeout(waiting);
-    hide();
-  });
+  return {
+    unavailable() {
+      show('This browser offers no WebGL 2 to a worker, so the 3D view stays empty. Everything else works.');
+    },
+    lost() {
+      show('The graphics driver took the 3D view away. It comes back by itself; the simulation goes on.');
+      waiting = setTimeout(() => {
+        show(
+          'The 3D view has not come back: the graphics driver is busy or gone. Everything else goes on; reloading the page may bring it back.',
+        );
+      }, PATIENCE_MS);
+    },
+    restored() {
+      clearTimeout(waiting);
+      hide();
+    },
+  };
 }

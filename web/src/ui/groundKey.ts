@@ -2,12 +2,9 @@
 
 import type { SessionInfo } from '../core/protocol.ts';
 import type { HeightField } from '../scene/heightfield.ts';
-import { STEEPEST_SHOWN_RAD } from '../scene/relief.ts';
+import { COLOURINGS, type Colouring, STEEPEST_SHOWN_RAD } from '../scene/layers.ts';
 import { byId, html, setText } from './dom.ts';
 import { degrees, fixed } from './format.ts';
-
-export const COLOURINGS = ['elevation', 'slope', 'stand'] as const;
-export type Colouring = (typeof COLOURINGS)[number];
 
 export class GroundKey {
   readonly #select = byId('ground-colours', HTMLSelectElement);

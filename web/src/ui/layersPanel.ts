@@ -1,7 +1,6 @@
 /** The popover that chooses what the 3D view shows. */
 
-import { FIRST_LAYERS, type Layers, POINT_COLOURS, type PointColours } from '../scene/layers.ts';
-import { FARTHEST_RANGE_M } from '../scene/returns.ts';
+import { FARTHEST_RANGE_M, FIRST_LAYERS, type Layers, POINT_COLOURS, type PointColours } from '../scene/layers.ts';
 import { byId, html, setText } from './dom.ts';
 import { fixed } from './format.ts';
 

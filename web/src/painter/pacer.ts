@@ -10,16 +10,14 @@ const DUTY = 0.4;
 const PAUSE_MS = 1500;
 
 export class Pacer {
-  /** Whether a processor draws in place of a graphics card. */
-  readonly software: boolean;
   pixelRatio: number;
   #cost_ms = 16;
   #drawn_ms: number | undefined;
   #last_ms = 0;
 
-  constructor() {
-    this.software = drawsInSoftware();
-    this.pixelRatio = this.software ? LEAST_PIXEL_RATIO : Math.min(window.devicePixelRatio, MOST_PIXEL_RATIO);
+  /** `software`: whether a processor draws in place of a graphics card. */
+  constructor(software: boolean, devicePixelRatio: number) {
+    this.pixelRatio = software ? LEAST_PIXEL_RATIO : Math.min(devicePixelRatio, MOST_PIXEL_RATIO);
   }
 
   /** Whether it is time to draw; `now_ms` is that of the animation frame. */
@@ -44,8 +42,9 @@ export class Pacer {
   }
 }
 
-function drawsInSoftware(): boolean {
-  const probe = document.createElement('canvas').getContext('webgl2');
+/** Whether a processor draws in place of a graphics card. */
+export function drawsInSoftware(): boolean {
+  const probe = new OffscreenCanvas(1, 1).getContext('webgl2');
   const info = probe?.getExtension('WEBGL_debug_renderer_info');
   const name = info ? String(probe?.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
   probe?.getExtension('WEBGL_lose_context')?.loseContext();

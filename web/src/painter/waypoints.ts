@@ -2,9 +2,9 @@
 
 import { CanvasTexture, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Sprite, SpriteMaterial } from 'three';
 import type { Place } from '../core/protocol.ts';
+import type { Vector } from '../scene/heightfield.ts';
 import { css } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
-import type { Vector } from './heightfield.ts';
 import { colour } from './relief.ts';
 
 const SIGN_PX = 128;
@@ -78,9 +78,7 @@ export class Waypoints {
   }
 
   #paint(face: SpriteMaterial, number: number): void {
-    const canvas = document.createElement('canvas');
-    canvas.width = SIGN_PX;
-    canvas.height = SIGN_PX;
+    const canvas = new OffscreenCanvas(SIGN_PX, SIGN_PX);
     const context = canvas.getContext('2d');
     if (!context || !this.#theme) return;
     const middle = SIGN_PX / 2;

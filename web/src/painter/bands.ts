@@ -23,10 +23,11 @@ import {
   ShaderMaterial,
   type Texture,
 } from 'three';
-import type { Frame, Pose, SessionInfo } from '../core/protocol.ts';
+import type { Pose } from '../core/protocol.ts';
+import { type Layers, SURFACES, type Surface } from '../scene/layers.ts';
 import { PLASMA } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
-import { type Layers, SURFACES, type Surface } from './layers.ts';
+import type { Scenery, Seen } from './protocol.ts';
 import { colour } from './relief.ts';
 import { scaleTexture } from './scaleTexture.ts';
 
@@ -103,7 +104,7 @@ export class Bands {
     if (uniforms?.lineColour) uniforms.lineColour.value = this.#lineColour;
   }
 
-  session({ image, occupancy_radius_m, sensor_height_m }: SessionInfo): void {
+  session({ image, occupancy_radius_m, sensor_height_m }: Scenery): void {
     this.#radius_m = occupancy_radius_m;
     this.#sensor.position.set(0, 0, sensor_height_m);
     this.#sensor.scale.setScalar(occupancy_radius_m);
@@ -135,7 +136,7 @@ export class Bands {
     this.group.rotation.set(roll, -pitch, yaw);
   }
 
-  show({ surfaces, buffers, threshold }: Frame): void {
+  show({ surfaces, buffers, threshold }: Seen): void {
     if (!surfaces || !this.#bands) return;
     const { observed, occupancy, variance } = this.#bands;
     quantise(buffers.observed, this.#radius_m, observed);

@@ -10,16 +10,14 @@ import {
   Vector2,
   Vector3,
 } from 'three';
-import type { Frame } from '../core/protocol.ts';
+import { FARTHEST_RANGE_M, POINT_COLOURS, type PointColours } from '../scene/layers.ts';
 import { VIRIDIS } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
-import { POINT_COLOURS, type PointColours } from './layers.ts';
+import type { Seen } from './protocol.ts';
 import { colour } from './relief.ts';
 import { scaleTexture } from './scaleTexture.ts';
 
 const CAPACITY = 28_800;
-/** Colours by range end here; what is farther has the last one. */
-export const FARTHEST_RANGE_M = 20;
 
 const VERTEX = /* glsl */ `
 uniform vec3 sensor;
@@ -115,7 +113,7 @@ export class Returns {
     this.points.material.uniforms.heights?.value.set(min_m, Math.max(max_m, min_m + 0.1));
   }
 
-  show({ buffers, returns, world_from_sensor }: Frame, radius_m: number): void {
+  show({ buffers, returns, world_from_sensor }: Seen, radius_m: number): void {
     const shown = Math.min(returns, CAPACITY);
     this.#positions.array.set(buffers.points.subarray(0, 3 * shown));
     this.#positions.clearUpdateRanges();

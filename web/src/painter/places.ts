@@ -11,8 +11,8 @@ import {
   RingGeometry,
 } from 'three';
 import type { Heading, Place } from '../core/protocol.ts';
+import type { Vector } from '../scene/heightfield.ts';
 import type { Theme } from '../ui/theme.ts';
-import type { Vector } from './heightfield.ts';
 import { colour } from './relief.ts';
 
 /** From farther away the flag grows with the distance. */

@@ -16,17 +16,15 @@ import {
   Vector4,
 } from 'three';
 import type { Place } from '../core/protocol.ts';
-import { COLOURINGS, type Colouring } from '../ui/groundKey.ts';
+import { HeightField } from '../scene/heightfield.ts';
+import { COLOURINGS, type Colouring, STEEPEST_SHOWN_RAD } from '../scene/layers.ts';
 import type { Rgb } from '../ui/scale.ts';
 import type { Theme } from '../ui/theme.ts';
-import { HeightField } from './heightfield.ts';
 import { FRAGMENT, VERTEX } from './reliefShader.ts';
 import { SUN, sunlight } from './sunlight.ts';
 
 /** Shadows follow a stroke of the brush after this pause. */
 const RELIGHT_DELAY_MS = 120;
-/** Slopes from here on have the last colour: nearly twice what a Husky stands on. */
-export const STEEPEST_SHOWN_RAD = (40 * Math.PI) / 180;
 /** Half a Husky's length: slopes are taken over what it stands on. */
 const FOOTPRINT_M = 0.4;
 

@@ -1,13 +1,13 @@
 /** What somebody points at: a bright rim and a pin on a subgoal, its way, and its segment as a thick arc. */
 
 import { BackSide, CylinderGeometry, Group, Mesh, MeshBasicMaterial, SphereGeometry } from 'three';
-import type { Frame } from '../core/protocol.ts';
+import { segmentArc } from '../scene/segmentArc.ts';
 import type { Target } from '../ui/attention.ts';
 import type { Theme } from '../ui/theme.ts';
+import type { Seen } from './protocol.ts';
 import { colour } from './relief.ts';
 import { Strokes } from './strokes.ts';
 import { MARKS_ORDER } from './subgoals.ts';
-import { segmentArc } from './ways.ts';
 
 const RIM_M = 0.4;
 const PIN_M = 1.6;
@@ -35,10 +35,10 @@ export class Marks {
     this.#pin.material.color.copy(colour(theme.accent));
   }
 
-  show(frame: Frame, target: Target | undefined, radius_m: number, height: (x: number, y: number) => number): void {
+  show(seen: Seen, target: Target | undefined, radius_m: number, height: (x: number, y: number) => number): void {
     this.group.visible = target !== undefined;
-    const subgoal = target?.subgoal === undefined ? undefined : frame.subgoals[target.subgoal];
-    const segment = target?.segment === undefined ? undefined : frame.segments[target.segment];
+    const subgoal = target?.subgoal === undefined ? undefined : seen.subgoals[target.subgoal];
+    const segment = target?.segment === undefined ? undefined : seen.segments[target.segment];
     for (const mark of [this.#rim, this.#pin]) mark.visible = subgoal !== undefined;
     if (subgoal) {
       const z = Math.max(subgoal.z, height(subgoal.x, subgoal.y) + 0.2);
@@ -46,7 +46,7 @@ export class Marks {
       this.#pin.position.set(subgoal.x, subgoal.y, z);
     }
     this.#arc.clear();
-    if (segment) this.#arc.add(segmentArc(segment, frame.world_from_sensor, radius_m), this.#look.color);
+    if (segment) this.#arc.add(segmentArc(segment, seen.world_from_sensor, radius_m), this.#look.color);
     this.#arc.done();
   }
 }

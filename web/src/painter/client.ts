@@ -1,0 +1,88 @@
+/** The page's end of the worker that draws the 3D view. */
+
+import type { Theme } from '../ui/theme.ts';
+import type { FromPainter, ToPainter } from './protocol.ts';
+
+/** What becomes of the view by itself. */
+export interface Graphics {
+  /** There is no view, as the browser offers no WebGL 2. */
+  unavailable(): void;
+  /** The graphics driver took the view away. */
+  lost(): void;
+  restored(): void;
+}
+
+export class PainterClient {
+  readonly #worker: Worker;
+  readonly #resting = new Map<number, () => void>();
+  readonly #graphics: Graphics;
+  #available = true;
+  #nextId = 0;
+  /** Hears of each picture while somebody films; the picture is its to close. */
+  #film: ((picture: ImageBitmap) => void) | undefined;
+
+  /** Draws on `canvas` from now on. Throws where the browser cannot hand it over. */
+  constructor(canvas: HTMLCanvasElement, theme: Theme, graphics: Graphics) {
+    this.#graphics = graphics;
+    const offscreen = canvas.transferControlToOffscreen();
+    this.#worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'mapless painter' });
+    this.#worker.onmessage = ({ data }: MessageEvent<FromPainter>) => this.#receive(data);
+    this.#worker.onerror = (event) => {
+      event.preventDefault();
+      this.#give();
+    };
+    this.send({ type: 'begin', canvas: offscreen, theme, devicePixelRatio: window.devicePixelRatio }, [offscreen]);
+  }
+
+  send(message: ToPainter, transfer: Transferable[] = []): void {
+    this.#worker.postMessage(message, transfer);
+  }
+
+  /** Resolves once everything sent before is drawn and nothing changes by itself any more. */
+  rest(): Promise<void> {
+    if (!this.#available) return Promise.resolve();
+    const id = this.#nextId++;
+    return new Promise((resolve) => {
+      this.#resting.set(id, resolve);
+      this.send({ type: 'rest', id });
+    });
+  }
+
+  /** Gives each picture to `film` from now on, or to nobody. */
+  film(film: ((picture: ImageBitmap) => void) | undefined): void {
+    if (film && !this.#available) throw new Error('This browser offers no WebGL 2, so there is no view.');
+    this.#film = film;
+    this.send({ type: 'film', wanted: film !== undefined });
+  }
+
+  #receive(message: FromPainter): void {
+    switch (message.type) {
+      case 'unavailable':
+        this.#give();
+        break;
+      case 'lost':
+        this.#graphics.lost();
+        break;
+      case 'restored':
+        this.#graphics.restored();
+        break;
+      case 'picture':
+        if (this.#film) this.#film(message.picture);
+        else message.picture.close();
+        break;
+      case 'rested':
+        this.#resting.get(message.id)?.();
+        this.#resting.delete(message.id);
+        break;
+    }
+  }
+
+  /** There is no view; nobody waits for it any more. */
+  #give(): void {
+    this.#available = false;
+    this.#worker.terminate();
+    for (const rested of this.#resting.values()) rested();
+    this.#resting.clear();
+    this.#graphics.unavailable();
+  }
+}

@@ -1,0 +1,261 @@
+/** Draws the 3D view as it is told to. Draws only when something changed. */
+
+import { AmbientLight, DirectionalLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import type { Ground, GroundPatch, Pose } from '../core/protocol.ts';
+import { HeightField } from '../scene/heightfield.ts';
+import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
+import { sensorAt } from '../scene/sensor.ts';
+import { wrap } from '../ui/format.ts';
+import type { Theme } from '../ui/theme.ts';
+import { Ghosts } from './ghosts.ts';
+import { Husky } from './husky.ts';
+import { Overlays } from './overlays.ts';
+import { drawsInSoftware, Pacer } from './pacer.ts';
+import { Places } from './places.ts';
+import { DEPTH_M, type FromPainter, type Look, type Scenery, type Seen, type ToPainter } from './protocol.ts';
+import { Relief } from './relief.ts';
+import { Returns } from './returns.ts';
+import { Route } from './route.ts';
+import { Subgoals } from './subgoals.ts';
+import { SUN } from './sunlight.ts';
+import { Waypoints } from './waypoints.ts';
+
+/** Triangles of finer grids cost more than they show; a processor draws far fewer of them than a graphics card. */
+const GRID_VERTICES = { hardware: 512, software: 160 };
+/** The way not taken again, or not yet. */
+const PALE = 0.35;
+
+export class Painter {
+  readonly #canvas: OffscreenCanvas;
+  readonly #post: (message: FromPainter, transfer?: Transferable[]) => void;
+  readonly #pacer: Pacer;
+  readonly #renderer: WebGLRenderer;
+  readonly #camera = new PerspectiveCamera(50, 1, DEPTH_M.near, DEPTH_M.far);
+  readonly #scene = new Scene();
+  readonly #returns = new Returns();
+  readonly #route = new Route();
+  readonly #ahead = new Route(PALE);
+  readonly #subgoals = new Subgoals();
+  readonly #places = new Places();
+  readonly #waypoints = new Waypoints();
+  readonly #ghosts = new Ghosts();
+  readonly #husky = new Husky();
+  readonly #overlays: Overlays;
+  readonly #relief: Relief;
+  #size_px = { width: 1, height: 1 };
+  #scenery: Scenery | undefined;
+  #colouring: Colouring = 'elevation';
+  /** The robot as it is drawn; nothing until it stands on the present ground. */
+  #robot: Pose | undefined;
+  readonly #sensor = new Vector3();
+  #dirty = true;
+  #filming = false;
+  /** Who waits until nothing changes. */
+  #resting: number[] = [];
+
+  /** Throws where there is no WebGL 2. */
+  constructor(
+    canvas: OffscreenCanvas,
+    theme: Theme,
+    devicePixelRatio: number,
+    post: (message: FromPainter, transfer?: Transferable[]) => void,
+  ) {
+    this.#canvas = canvas;
+    this.#post = post;
+    const software = drawsInSoftware();
+    this.#pacer = new Pacer(software, devicePixelRatio);
+    this.#renderer = new WebGLRenderer({ canvas, antialias: !software, alpha: true });
+    canvas.addEventListener('webglcontextlost', () => post({ type: 'lost' }));
+    canvas.addEventListener('webglcontextrestored', () => {
+      post({ type: 'restored' });
+      this.#dirty = true;
+    });
+    this.#relief = new Relief(GRID_VERTICES[software ? 'software' : 'hardware'], theme, () => {
+      this.#dirty = true;
+    });
+    const sun = new DirectionalLight(0xfff3df, 3.2);
+    sun.position.set(...SUN);
+    this.#overlays = new Overlays(theme, FIRST_LAYERS, this.#height);
+    this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
+    this.#scene.add(this.#relief.mesh, this.#husky.group, this.#ahead.line, this.#waypoints.group, this.#route.line);
+    this.#scene.add(this.#returns.points, this.#subgoals.group, this.#places.group, this.#overlays.group);
+    this.#scene.add(this.#ghosts.group);
+    this.#theme(theme);
+    this.#warmUp();
+    requestAnimationFrame((now_ms) => this.#loop(now_ms));
+  }
+
+  obey(message: Exclude<ToPainter, { type: 'begin' }>): void {
+    if (message.type === 'rest') {
+      this.#resting.push(message.id);
+      return;
+    }
+    this.#dirty = true;
+    switch (message.type) {
+      case 'size':
+        this.#size_px = { width: message.width_px, height: message.height_px };
+        this.#resize();
+        break;
+      case 'theme':
+        this.#theme(message.theme);
+        break;
+      case 'scenery':
+        this.#arrange(message.scenery, message.ground);
+        break;
+      case 'patch':
+        this.#sculpt(message.patch);
+        break;
+      case 'seen':
+        this.#show(message.seen);
+        break;
+      case 'look':
+        this.#look(message.look);
+        break;
+      case 'layers':
+        this.#layers(message.layers);
+        break;
+      case 'colouring':
+        this.#colouring = message.colouring;
+        if (this.#scenery) this.#relief.colouring(message.colouring, this.#scenery.limits);
+        break;
+      case 'mark':
+        this.#overlays.mark(message.target);
+        break;
+      case 'brush':
+        this.#relief.brush(message.at, message.from, message.radius_m);
+        break;
+      case 'ghosts':
+        this.#ghosts.set(message.colours, this.#scenery?.sensor_height_m ?? 0);
+        break;
+      case 'ghostSteps':
+        this.#ghosts.show(message.steps);
+        break;
+      case 'film':
+        this.#filming = message.wanted;
+        break;
+    }
+  }
+
+  #height = (x: number, y: number): number => this.#relief.field.height(x, y);
+
+  #theme(theme: Theme): void {
+    const marks = [this.#returns, this.#route, this.#ahead, this.#subgoals, this.#places, this.#waypoints];
+    for (const part of [this.#relief, ...marks, this.#overlays]) part.theme(theme);
+  }
+
+  #arrange(scenery: Scenery, ground: Ground | undefined): void {
+    if (!this.#scenery) this.#husky.mast(scenery.sensor_height_m);
+    this.#scenery = scenery;
+    if (ground) {
+      this.#relief.ground(new HeightField(ground));
+      this.#robot = undefined;
+      this.#colourByHeight();
+    }
+    this.#overlays.session(scenery);
+    this.#relief.colouring(this.#colouring, scenery.limits);
+    this.#places.show(scenery.goal, scenery.start, this.#height);
+    this.#waypoints.show(scenery.waypoints, this.#height);
+  }
+
+  #sculpt(patch: GroundPatch): void {
+    this.#relief.field.patch(patch);
+    this.#relief.sculpted();
+    this.#colourByHeight();
+    this.#places.settle(this.#height);
+    this.#waypoints.settle(this.#height);
+  }
+
+  #colourByHeight(): void {
+    const { min_m, max_m } = this.#relief.field;
+    this.#returns.heights(min_m, max_m);
+  }
+
+  #show(seen: Seen): void {
+    if (seen.anew) {
+      this.#route.clear();
+      this.#ahead.clear();
+    }
+    if (seen.ahead) this.#ahead.extend(seen.ahead);
+    this.#waypoints.passed(seen.waypointsPassed);
+    this.#route.extend(seen.path);
+    this.#returns.show(seen, this.#scenery?.occupancy_radius_m ?? 0);
+    this.#subgoals.show(seen.subgoals, this.#height);
+    this.#overlays.show(seen);
+  }
+
+  #layers(layers: Layers): void {
+    this.#returns.colours(layers.points);
+    this.#subgoals.group.visible = layers.subgoals;
+    this.#overlays.layers(layers);
+  }
+
+  #look({ position, quaternion, fieldOfView_deg, robot, eye }: Look): void {
+    this.#camera.position.set(...position);
+    this.#camera.quaternion.set(...quaternion);
+    if (this.#camera.fov !== fieldOfView_deg) {
+      this.#camera.fov = fieldOfView_deg;
+      this.#resize();
+    }
+    this.#husky.group.visible = !eye;
+    this.#move(robot);
+  }
+
+  #move(pose: Pose): void {
+    const before = this.#robot;
+    this.#robot = pose;
+    this.#husky.pose(pose);
+    this.#overlays.pose(pose);
+    if (before) {
+      const [east, north] = [pose.x - before.x, pose.y - before.y];
+      this.#husky.roll(east * Math.cos(pose.yaw) + north * Math.sin(pose.yaw), wrap(pose.yaw - before.yaw));
+    }
+    this.#sensor.copy(sensorAt(pose, this.#scenery?.sensor_height_m ?? 0));
+    this.#relief.robot(pose.x, pose.y, pose.yaw, this.#scenery?.occupancy_radius_m ?? 0);
+  }
+
+  #resize(): void {
+    const { width, height } = this.#size_px;
+    this.#renderer.setPixelRatio(this.#pacer.pixelRatio);
+    this.#renderer.setSize(width, height, false);
+    this.#camera.aspect = width / height;
+    this.#camera.updateProjectionMatrix();
+    // Returns keep a size in metres.
+    const heightAtOneMetre = 2 * Math.tan((this.#camera.fov * Math.PI) / 360);
+    this.#returns.scale((height * this.#pacer.pixelRatio) / heightAtOneMetre);
+    this.#dirty = true;
+  }
+
+  #loop(now_ms: number): void {
+    requestAnimationFrame((next_ms) => this.#loop(next_ms));
+    if (!this.#dirty && !this.#relief.relighting) {
+      for (const id of this.#resting.splice(0)) this.#post({ type: 'rested', id });
+    }
+    // No picture of the ground without the robot, which comes right after it.
+    if (!this.#robot || !this.#pacer.due(now_ms) || !this.#dirty) return;
+    this.#dirty = false;
+    const { position } = this.#camera;
+    this.#subgoals.attach(this.#sensor, position);
+    this.#places.face(position);
+    this.#waypoints.face(position);
+    this.#renderer.render(this.#scene, this.#camera);
+    if (this.#filming) this.#sendPicture();
+    if (this.#pacer.drew(now_ms)) this.#resize();
+  }
+
+  /** Right after the drawing: later its pixels are gone. */
+  async #sendPicture(): Promise<void> {
+    const picture = await createImageBitmap(this.#canvas);
+    this.#post({ type: 'picture', picture }, [picture]);
+  }
+
+  /** Uses the time until there is ground: has the shaders compiled, by a picture without pixels. */
+  #warmUp(): void {
+    this.#camera.up.set(0, 0, 1);
+    this.#camera.position.set(-8, 0, 5);
+    this.#camera.lookAt(0, 0, 0);
+    this.#renderer.setScissor(0, 0, 0, 0);
+    this.#renderer.setScissorTest(true);
+    this.#renderer.render(this.#scene, this.#camera);
+    this.#renderer.setScissorTest(false);
+  }
+}
