@@ -2,10 +2,11 @@
 
 import type { MaplessState } from './api.ts';
 import { entry, following } from './core/catalogue.ts';
-import { CoreClient } from './core/client.ts';
+import type { CoreClient } from './core/client.ts';
 import { type Experiment, FIRST_SETUP, type Stroke } from './core/experiment.ts';
 import type { Overrides } from './core/overrides.ts';
 import type {
+  Beginning,
   Frame,
   Ground,
   GroundPatch,
@@ -64,15 +65,10 @@ export class App {
   #recovering = false;
   readonly bench: Workbench;
 
-  constructor(views: Views) {
+  constructor(core: CoreClient, views: Views) {
+    this.#core = core;
     this.#views = views;
     this.#lingering = new Lingering((seconds) => views.countdown(seconds));
-    this.#core = new CoreClient({
-      session: (info, ground, experiment) => this.#onSession(info, ground, experiment),
-      frame: (frame) => this.#onFrame(frame),
-      ground: (patch) => this.#onPatch(patch),
-      failure: (message, panicked) => this.#onFailure(message, panicked),
-    });
     this.bench = new Workbench({
       request: (command) => this.#core.request(command),
       ground: () => this.#field,
@@ -190,25 +186,41 @@ export class App {
     return this.#core.request({ type: 'preview', terrain });
   }
 
-  /** Loads a scenario and runs it at once. */
-  async run(scenario: string, setup?: Partial<Setup>, seed?: number): Promise<void> {
-    await this.#drive(this.open({ scenario, setup: { ...this.setup, ...setup }, seed }, true));
+  /** Loads something and runs it at once. */
+  async run(source: Source): Promise<void> {
+    await this.#drive(this.open(source, true));
   }
 
-  /** Runs what the page begins with; undoing leads back to one's own work. */
-  async runAfter(own: Experiment | undefined, source: Source): Promise<void> {
-    this.touch();
-    await this.#drive(this.bench.openAfter(own, source));
+  /** Loads a scenario and runs it at once. */
+  async runScenario(scenario: string, setup?: Partial<Setup>, seed?: number): Promise<void> {
+    await this.run({ scenario, setup: { ...this.setup, ...setup }, seed });
+  }
+
+  /** Shows what the core begins with; undoing leads back to one's own work. */
+  async begin(begun: Promise<Beginning>): Promise<Beginning> {
+    this.#core.listen({
+      session: (info, ground, experiment) => this.#onSession(info, ground, experiment),
+      frame: (frame) => this.#onFrame(frame),
+      ground: (patch) => this.#onPatch(patch),
+      failure: (message, panicked) => this.#onFailure(message, panicked),
+    });
+    const beginning = begun.then((known) => {
+      if (known.from !== 'catalogue') this.touch();
+      return known;
+    });
+    await this.#drive(this.bench.begin(beginning));
+    this.#views.clearNotice();
+    return beginning;
   }
 
   /** A terrain by itself, with a start and a goal where it is level. */
   async runTerrain(terrain: Experiment['terrain'], name: string): Promise<void> {
-    await this.#drive(this.open({ terrain, name, setup: this.setup }, true));
+    await this.run({ terrain, name, setup: this.setup });
   }
 
   /** Files that somebody opened. */
   async runFiles(files: readonly NamedFile[]): Promise<void> {
-    await this.#drive(this.open({ files, setup: this.setup }, true));
+    await this.run({ files, setup: this.setup });
   }
 
   async play(): Promise<void> {
@@ -244,7 +256,7 @@ export class App {
   }
 
   async next(): Promise<void> {
-    await this.run(following(this.scenario).id);
+    await this.runScenario(following(this.scenario).id);
   }
 
   async setSpeed(speed: number): Promise<void> {

@@ -3,7 +3,7 @@
 import { type Experiment, MAX_TOUCHES, type Stroke, tidyHeading, tidyPlace } from './core/experiment.ts';
 import { History } from './core/history.ts';
 import type { Overrides } from './core/overrides.ts';
-import type { Command, Ground, GroundPatch, Heading, Place, SessionInfo, Source } from './core/protocol.ts';
+import type { Beginning, Command, Ground, GroundPatch, Heading, Place, SessionInfo, Source } from './core/protocol.ts';
 import { type Brush, type MadeStroke, StrokeInHand } from './core/strokeInHand.ts';
 
 /** Ground kept for undoing strokes at once; older strokes are undone by loading the ground anew. */
@@ -58,11 +58,12 @@ export class Workbench {
     this.#inHand?.patched(patch);
   }
 
-  /** Drives an experiment from elsewhere; undoing leads back to one's own. */
-  openAfter(own: Experiment | undefined, source: Source): Promise<void> {
+  /** Shows what the core begins with; undoing leads back to one's own. */
+  begin(begun: Promise<Beginning>): Promise<void> {
     return this.#next(async () => {
-      await this.#core.request({ type: 'load', source, play: true });
-      if (own) this.#history.push(own);
+      const { from, own } = await begun;
+      this.#history = new History();
+      if (own && from !== 'last visit') this.#history.push(own);
       if (this.#loaded) this.#push(this.#loaded);
     });
   }

@@ -137,7 +137,8 @@ test('a new change gives up what was undone; everything waits for the stroke in 
 test('undoing leads from an experiment of somebody else back to one’s own', async () => {
   const core = new Core();
   const own = { ...EXPERIMENT, name: 'own' };
-  await core.bench.openAfter(own, SOURCE);
+  core.bench.loaded(EXPERIMENT);
+  await core.bench.begin(Promise.resolve({ from: 'link', own, unread: undefined }));
   assert.equal(core.bench.experiment?.name, EXPERIMENT.name);
   await core.bench.undo();
   assert.equal(core.bench.experiment, own);

@@ -27,14 +27,21 @@ interface Waiting {
 }
 
 export class CoreClient {
-  readonly #events: CoreEvents;
+  #events: CoreEvents | undefined;
+  /** What happened before anybody listened. */
+  #unheard: ((events: CoreEvents) => void)[] = [];
   readonly #waiting = new Map<number, Waiting>();
   #worker: Worker;
   #nextId = 0;
 
-  constructor(events: CoreEvents) {
-    this.#events = events;
+  constructor() {
     this.#worker = this.#start();
+  }
+
+  /** Tells `events` what happens from now on, and first what happened until now. */
+  listen(events: CoreEvents): void {
+    this.#events = events;
+    for (const tell of this.#unheard.splice(0)) tell(events);
   }
 
   /** Resolves once the worker has carried the command out, with what it answers, if it does. */
@@ -57,24 +64,29 @@ export class CoreClient {
 
   #start(): Worker {
     const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'mapless core' });
-    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.#receive(data);
+    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.#tell((events) => this.#receive(data, events));
     worker.onerror = (event) => {
       event.preventDefault();
-      this.#fail(event.message || 'The simulation could not be loaded.', true);
+      this.#tell((events) => this.#fail(event.message || 'The simulation could not be loaded.', true, events));
     };
     return worker;
   }
 
-  #receive(message: FromWorker): void {
+  #tell(what: (events: CoreEvents) => void): void {
+    if (this.#events) what(this.#events);
+    else this.#unheard.push(what);
+  }
+
+  #receive(message: FromWorker, events: CoreEvents): void {
     switch (message.type) {
       case 'session':
-        this.#events.session(message.info, message.ground, message.experiment);
+        events.session(message.info, message.ground, message.experiment);
         break;
       case 'frame':
-        this.#events.frame(message.frame);
+        events.frame(message.frame);
         break;
       case 'ground':
-        this.#events.ground(message.patch);
+        events.ground(message.patch);
         break;
       case 'done':
         this.#settle(message.id)?.resolve(message.value);
@@ -82,7 +94,7 @@ export class CoreClient {
       case 'failed': {
         const waiting = message.id === undefined ? undefined : this.#settle(message.id);
         waiting?.reject(new Error(message.message));
-        if (message.panicked || !waiting) this.#fail(message.message, message.panicked);
+        if (message.panicked || !waiting) this.#fail(message.message, message.panicked, events);
         break;
       }
     }
@@ -94,7 +106,7 @@ export class CoreClient {
     return waiting;
   }
 
-  #fail(message: string, panicked: boolean): void {
+  #fail(message: string, panicked: boolean, events: CoreEvents): void {
     if (panicked) {
       // A panic leaves the core's memory in an unknown state: only a new worker is trustworthy.
       this.#worker.terminate();
@@ -102,6 +114,6 @@ export class CoreClient {
       for (const waiting of this.#waiting.values()) waiting.reject(new Error(message));
       this.#waiting.clear();
     }
-    this.#events.failure(message, panicked);
+    events.failure(message, panicked);
   }
 }

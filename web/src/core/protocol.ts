@@ -261,7 +261,24 @@ export type Source =
   | { readonly terrain: Terrain; readonly name: string; readonly setup: Setup }
   | { readonly files: readonly NamedFile[]; readonly setup: Setup };
 
+/** The parts of the page's address that say what to begin with. */
+export interface Address {
+  readonly hash: string;
+  readonly search: string;
+}
+
+/** What the page began with. */
+export interface Beginning {
+  readonly from: 'link' | 'address' | 'last visit' | 'catalogue';
+  /** Where somebody left off. */
+  readonly own: Experiment | undefined;
+  /** Why that cannot be read, where it cannot. */
+  readonly unread: string | undefined;
+}
+
 export type Command =
+  /** Loads and drives what the page begins with; answered with a `Beginning`. */
+  | { type: 'begin'; address: Address }
   /** With `play`, it drives at once; otherwise it does so if what was there before did. */
   | { type: 'load'; source: Source; play: boolean }
   | { type: 'restart' }

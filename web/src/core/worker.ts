@@ -1,11 +1,13 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
+import { beginningAt } from './beginning.ts';
 import { experimentFrom, filesOf, preview } from './opening.ts';
 import {
   type Command,
   type Frame,
   type FromWorker,
   type GroundPatch,
+  type Source,
   type ToWorker,
   transferables,
 } from './protocol.ts';
@@ -193,18 +195,27 @@ function showPatch(patch: GroundPatch): void {
   showIfDue();
 }
 
+async function load(source: Source, play: boolean): Promise<void> {
+  const core = await loading;
+  const experiment = await experimentFrom(core, source);
+  const opened = await Session.open(core, experiment);
+  session?.free();
+  session = opened;
+  playing ||= play;
+  const ground = session.ground();
+  post({ type: 'session', info: session.info, ground, experiment }, [ground.heights_m.buffer]);
+  openFromStart();
+}
+
 /** Returns what the request is answered with. */
 async function carryOut(command: Command, id: number): Promise<unknown> {
+  if (command.type === 'begin') {
+    const { source, ...beginning } = await beginningAt(command.address);
+    await load(source, true);
+    return beginning;
+  }
   if (command.type === 'load') {
-    const core = await loading;
-    const experiment = await experimentFrom(core, command.source);
-    const opened = await Session.open(core, experiment);
-    session?.free();
-    session = opened;
-    playing ||= command.play;
-    const ground = session.ground();
-    post({ type: 'session', info: session.info, ground, experiment }, [ground.heights_m.buffer]);
-    openFromStart();
+    await load(command.source, command.play);
     return;
   }
   if (command.type === 'watch') {

@@ -1,6 +1,7 @@
 /** Faults that nobody expected, in words: nothing fails in silence. */
 
 import type { Graphics } from '../painter/client.ts';
+import { byId } from './dom.ts';
 
 const ADVICE = 'If something no longer answers, reload the page.';
 
@@ -19,7 +20,7 @@ export function watchGraphics(show: (message: string) => void, hide: () => void)
   let waiting: ReturnType<typeof setTimeout> | undefined;
   return {
     unavailable() {
-      show('This browser offers no WebGL 2 to a worker, so the 3D view stays empty. Everything else works.');
+      byId('no-view', HTMLElement).hidden = false;
     },
     lost() {
       show('The graphics driver took the 3D view away. It comes back by itself; the simulation goes on.');

@@ -52,7 +52,7 @@ export class TerrainsSheet {
   }
 
   #catalogued(name: string, title: string, scenario: string): HTMLElement {
-    return this.#card({ catalogue: name }, title, () => this.#app.run(scenario));
+    return this.#card({ catalogue: name }, title, () => this.#app.runScenario(scenario));
   }
 
   #generate(): void {

@@ -2,6 +2,7 @@
 
 use crate::height_field::HeightField;
 use glam::DVec2;
+use std::ops::Range;
 
 pub(super) struct Canvas {
     pub(super) columns: usize,
@@ -28,15 +29,25 @@ impl Canvas {
 
     /// Visits every sample in the box from `low` to `high` with its position and height.
     pub(super) fn each_within(&mut self, low: DVec2, high: DVec2, mut change: impl FnMut(DVec2, &mut f64)) {
-        let cell_m = self.cell_m;
-        let columns = self.columns;
-        let heights_m = &mut self.heights_m;
-        visit(columns, self.rows, cell_m, low, high, |index, at| change(at, &mut heights_m[index]));
+        let (columns, rows) = self.samples_within(low, high);
+        for row in rows {
+            for column in columns.clone() {
+                change(self.place(column, row), &mut self.heights_m[row * self.columns + column]);
+            }
+        }
     }
 
-    /// Visits the index and position of every sample in the box from `low` to `high`.
-    pub(super) fn indices_within(&self, low: DVec2, high: DVec2, see: impl FnMut(usize, DVec2)) {
-        visit(self.columns, self.rows, self.cell_m, low, high, see);
+    /// The columns and rows of the box from `low` to `high`.
+    pub(super) fn samples_within(&self, low: DVec2, high: DVec2) -> (Range<usize>, Range<usize>) {
+        // Casts to integers saturate, so boxes that reach beyond the terrain are cut.
+        let first = |value_m: f64| (value_m / self.cell_m).max(0.0) as usize;
+        let last = |value_m: f64, count: usize| ((value_m / self.cell_m + 1.0).max(0.0) as usize).min(count);
+        (first(low.x)..last(high.x, self.columns), first(low.y)..last(high.y, self.rows))
+    }
+
+    /// Position of a sample.
+    pub(super) fn place(&self, column: usize, row: usize) -> DVec2 {
+        DVec2::new(column as f64, row as f64) * self.cell_m
     }
 
     /// Height at a position, which is moved to the nearest point of the terrain when it lies off it.
@@ -47,23 +58,5 @@ impl Canvas {
         let (u, v) = (grid.x - column as f64, grid.y - row as f64);
         let at = |c: usize, r: usize| self.heights_m[(row + r) * self.columns + column + c];
         (at(0, 0) * (1.0 - u) + at(1, 0) * u) * (1.0 - v) + (at(0, 1) * (1.0 - u) + at(1, 1) * u) * v
-    }
-}
-
-fn visit(
-    columns: usize,
-    rows: usize,
-    cell_m: f64,
-    low: DVec2,
-    high: DVec2,
-    mut see: impl FnMut(usize, DVec2),
-) {
-    // Casts to integers saturate, so boxes that reach beyond the terrain are cut.
-    let first = |value_m: f64| (value_m / cell_m).max(0.0) as usize;
-    let last = |value_m: f64, count: usize| ((value_m / cell_m + 1.0).max(0.0) as usize).min(count);
-    for row in first(low.y)..last(high.y, rows) {
-        for column in first(low.x)..last(high.x, columns) {
-            see(row * columns + column, DVec2::new(column as f64, row as f64) * cell_m);
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::canvas::Canvas;
 use super::check::{PerPoint, Table};
-use super::gradient_noise::gradient_noise;
+use super::gradient_noise::GradientNoise;
 use super::line::Line;
 use crate::terrain::TerrainFault;
 use glam::DVec2;
@@ -133,14 +133,10 @@ impl Feature for Valley {
 /// Adds `sign` times the heights at the points, with a Gaussian across the line.
 fn add_along(canvas: &mut Canvas, points: &[[f64; 2]], width_m: f64, heights_m: &[f64], sign: f64) {
     let line = Line::through(points);
-    let nearest = line.nearest(canvas, GAUSSIAN_REACH * width_m);
-    for (index, height_m) in canvas.heights_m.iter_mut().enumerate() {
-        let distance2 = nearest.distance2_m2[index];
-        if distance2.is_finite() {
-            let crest_m = line.value(heights_m, nearest.way_m[index]);
-            *height_m += sign * crest_m * libm::exp(-0.5 * distance2 / (width_m * width_m));
-        }
-    }
+    line.each_near(canvas, GAUSSIAN_REACH * width_m, |nearest, height_m| {
+        let crest_m = line.value(heights_m, nearest.way_m);
+        *height_m += sign * crest_m * libm::exp(-0.5 * nearest.distance2_m2 / (width_m * width_m));
+    });
 }
 
 #[derive(Deserialize)]
@@ -213,8 +209,8 @@ impl Feature for Noise {
             let share = f64::from(1u32 << octave);
             let (amplitude_m, frequency) = (self.amplitude_m / share, share / self.wavelength_m);
             let octave_seed = crate::random::key(seed, u64::from(octave));
-            canvas
-                .each(|at, height_m| *height_m += amplitude_m * gradient_noise(octave_seed, at * frequency));
+            let mut noise = GradientNoise::new(octave_seed);
+            canvas.each(|at, height_m| *height_m += amplitude_m * noise.at(at * frequency));
         }
     }
 }

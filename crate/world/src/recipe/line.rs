@@ -11,14 +11,38 @@ pub(super) struct Line {
     vertices: Vec<DVec2>,
     /// Way from the begin to each vertex, in metres.
     ways_m: Vec<f64>,
+    /// From each vertex to the next.
+    pieces: Vec<Piece>,
 }
 
-/// The nearest point of a line for each sample of a canvas.
+#[derive(Clone, Copy)]
+struct Piece {
+    begin: DVec2,
+    along: DVec2,
+    length2_m2: f64,
+    /// Way along the line before the piece and within it.
+    before_m: f64,
+    way_m: f64,
+}
+
+impl Piece {
+    /// Squared distance of a place, and the share of the piece before its nearest point.
+    fn nearest(&self, at: DVec2) -> (f64, f64) {
+        let share = ((at - self.begin).dot(self.along) / self.length2_m2).clamp(0.0, 1.0);
+        ((self.begin + self.along * share).distance_squared(at), share)
+    }
+}
+
+/// Samples along each side of a tile of the canvas, for which the pieces that may be nearest are found together.
+const TILE: usize = 4;
+/// What rounding may make of a distance.
+const SLACK_M: f64 = 1e-6;
+
+/// The nearest point of a line.
 pub(super) struct Nearest {
-    /// Squared distance in m², infinite beyond reach.
-    pub(super) distance2_m2: Vec<f64>,
+    pub(super) distance2_m2: f64,
     /// Way along the line to that point, in metres.
-    pub(super) way_m: Vec<f64>,
+    pub(super) way_m: f64,
 }
 
 impl Line {
@@ -49,7 +73,12 @@ impl Line {
         for pair in vertices.windows(2) {
             ways_m.push(ways_m[ways_m.len() - 1] + pair[0].distance(pair[1]));
         }
-        Self { vertices, ways_m }
+        let pieces = vertices.windows(2).zip(ways_m.windows(2)).map(|(ends, ways_m)| {
+            let along = ends[1] - ends[0];
+            let length2_m2 = along.length_squared().max(f64::MIN_POSITIVE);
+            Piece { begin: ends[0], along, length2_m2, before_m: ways_m[0], way_m: ways_m[1] - ways_m[0] }
+        });
+        Self { pieces: pieces.collect(), vertices, ways_m }
     }
 
     pub(super) fn length_m(&self) -> f64 {
@@ -70,27 +99,60 @@ impl Line {
         at_points[point] + (at_points[point + 1] - at_points[point]) * share
     }
 
-    /// Finds the nearest point of the line for every sample within `reach_m`.
-    pub(super) fn nearest(&self, canvas: &Canvas, reach_m: f64) -> Nearest {
-        let count = canvas.heights_m.len();
-        let mut nearest = Nearest { distance2_m2: vec![f64::INFINITY; count], way_m: vec![0.0; count] };
-        for (index, pair) in self.vertices.windows(2).enumerate() {
-            let (begin, along) = (pair[0], pair[1] - pair[0]);
-            let length2 = along.length_squared().max(f64::MIN_POSITIVE);
-            let low = pair[0].min(pair[1]) - DVec2::splat(reach_m);
-            let high = pair[0].max(pair[1]) + DVec2::splat(reach_m);
-            canvas.indices_within(low, high, |sample, at| {
-                let share = ((at - begin).dot(along) / length2).clamp(0.0, 1.0);
-                let distance2 = (begin + along * share).distance_squared(at);
-                if distance2 < nearest.distance2_m2[sample] && distance2 <= reach_m * reach_m {
-                    nearest.distance2_m2[sample] = distance2;
-                    let way = self.ways_m[index + 1] - self.ways_m[index];
-                    nearest.way_m[sample] = self.ways_m[index] + way * share;
+    /// Visits every sample within `reach_m` of the line, with the nearest point of the line and the height.
+    pub(super) fn each_near(
+        &self,
+        canvas: &mut Canvas,
+        reach_m: f64,
+        mut change: impl FnMut(Nearest, &mut f64),
+    ) {
+        let bound =
+            |pick: fn(DVec2, DVec2) -> DVec2| self.vertices.iter().copied().reduce(pick).unwrap_or_default();
+        let (low, high) = (bound(DVec2::min) - reach_m, bound(DVec2::max) + reach_m);
+        let (all_columns, all_rows) = canvas.samples_within(low, high);
+        let (mut distances_m, mut pieces) = (Vec::new(), Vec::new());
+        for row in all_rows.clone().step_by(TILE) {
+            let rows = row..(row + TILE).min(all_rows.end);
+            for column in all_columns.clone().step_by(TILE) {
+                let columns = column..(column + TILE).min(all_columns.end);
+                let (first, last) = (canvas.place(column, row), canvas.place(columns.end - 1, rows.end - 1));
+                let (centre, radius_m) = ((first + last) / 2.0, first.distance(last) / 2.0);
+                distances_m.clear();
+                distances_m.extend(self.pieces.iter().map(|piece| piece.nearest(centre).0.sqrt()));
+                let nearest_m = distances_m.iter().copied().fold(f64::INFINITY, f64::min);
+                // What is farther than this from the centre is nearest to no sample of the tile, or out of reach of all.
+                let farthest_m = (nearest_m + radius_m).min(reach_m) + radius_m + SLACK_M;
+                pieces.clear();
+                pieces.extend(
+                    self.pieces
+                        .iter()
+                        .zip(&distances_m)
+                        .filter(|(_, m)| **m <= farthest_m)
+                        .map(|(one, _)| *one),
+                );
+                for (row, column) in
+                    rows.clone().flat_map(|row| columns.clone().map(move |column| (row, column)))
+                {
+                    if let Some(nearest) = nearest(&pieces, canvas.place(column, row), reach_m) {
+                        change(nearest, &mut canvas.heights_m[row * canvas.columns + column]);
+                    }
                 }
-            });
+            }
         }
-        nearest
     }
+}
+
+/// The nearest point of some pieces, if it is within reach.
+fn nearest(pieces: &[Piece], at: DVec2, reach_m: f64) -> Option<Nearest> {
+    let mut nearest: Option<Nearest> = None;
+    for piece in pieces {
+        let (distance2_m2, share) = piece.nearest(at);
+        let before_m2 = nearest.as_ref().map_or(f64::INFINITY, |nearest| nearest.distance2_m2);
+        if distance2_m2 < before_m2 && distance2_m2 <= reach_m * reach_m {
+            nearest = Some(Nearest { distance2_m2, way_m: piece.before_m + piece.way_m * share });
+        }
+    }
+    nearest
 }
 
 /// The interval of an ascending list that holds `way_m`, and the share of it that lies before.
@@ -103,6 +165,7 @@ fn locate(ways_m: &[f64], way_m: f64) -> (usize, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn passes_through_its_points_and_keeps_straight_lines_straight() {
@@ -121,15 +184,29 @@ mod tests {
 
     #[test]
     fn nearest_point_is_that_of_the_straight_line() {
-        let canvas = Canvas { columns: 21, rows: 11, cell_m: 1.0, heights_m: vec![0.0; 231] };
-        let nearest = Line::through(&[[5.0, 5.0], [15.0, 5.0]]).nearest(&canvas, 3.0);
-        let sample = |column: usize, row: usize| {
-            let index = row * 21 + column;
-            (nearest.distance2_m2[index], nearest.way_m[index])
-        };
-        let (distance2, way_m) = sample(9, 7);
-        assert!((distance2 - 4.0).abs() < 1e-9 && (way_m - 4.0).abs() < 1e-9);
-        assert!((sample(3, 5).0 - 4.0).abs() < 1e-9, "beyond the end");
-        assert_eq!(sample(9, 9).0, f64::INFINITY, "beyond reach");
+        let line = Line::through(&[[5.0, 5.0], [15.0, 5.0]]);
+        let sample = |x: f64, y: f64| nearest(&line.pieces, DVec2::new(x, y), 3.0);
+        let beside = sample(9.0, 7.0).unwrap();
+        assert!((beside.distance2_m2 - 4.0).abs() < 1e-9 && (beside.way_m - 4.0).abs() < 1e-9);
+        assert!((sample(3.0, 5.0).unwrap().distance2_m2 - 4.0).abs() < 1e-9, "beyond the end");
+        assert!(sample(9.0, 9.0).is_none(), "beyond reach");
+    }
+
+    proptest! {
+        /// Pieces that a tile leaves out change nothing, not even the last bit.
+        #[test]
+        fn tiles_find_what_every_piece_gives(
+            points in proptest::collection::vec([-5.0..35.0f64, -5.0..35.0f64], 2..6),
+            reach_m in 0.1..12.0f64,
+        ) {
+            let line = Line::through(&points);
+            let (columns, rows, cell_m) = (61, 53, 0.5);
+            let mut canvas = Canvas { columns, rows, cell_m, heights_m: vec![f64::NAN; columns * rows] };
+            line.each_near(&mut canvas, reach_m, |nearest, height_m| *height_m = nearest.way_m);
+            for (index, way_m) in canvas.heights_m.iter().enumerate() {
+                let expected = nearest(&line.pieces, canvas.place(index % columns, index / columns), reach_m);
+                prop_assert_eq!(way_m.to_bits(), expected.map_or(f64::NAN, |nearest| nearest.way_m).to_bits());
+            }
+        }
     }
 }

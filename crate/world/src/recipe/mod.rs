@@ -91,7 +91,7 @@ use trail::Trail;
 const MAX_SCULPTED_SAMPLES: usize = 500_000_000;
 
 pub(crate) use features::smooth_step;
-pub(crate) use gradient_noise::gradient_noise;
+pub(crate) use gradient_noise::GradientNoise;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -38,18 +38,15 @@ impl Feature for Trail {
     fn apply(&self, canvas: &mut Canvas, _: u64) {
         let line = Line::through(&self.points);
         let profile_m = self.profile_m(canvas, &line);
-        let nearest = line.nearest(canvas, self.width_m / 2.0 + self.shoulder_m);
-        for (index, height_m) in canvas.heights_m.iter_mut().enumerate() {
-            let distance_m = nearest.distance2_m2[index].sqrt();
-            if distance_m.is_finite() {
-                let own_share = 1.0 - smooth_step((distance_m - self.width_m / 2.0) / self.shoulder_m);
-                let place = nearest.way_m[index] / line.length_m() * (profile_m.len() - 1) as f64;
-                let before = (place as usize).min(profile_m.len() - 2);
-                let trail_m =
-                    profile_m[before] + (profile_m[before + 1] - profile_m[before]) * (place - before as f64);
-                *height_m += (trail_m - *height_m) * own_share;
-            }
-        }
+        line.each_near(canvas, self.width_m / 2.0 + self.shoulder_m, |nearest, height_m| {
+            let distance_m = nearest.distance2_m2.sqrt();
+            let own_share = 1.0 - smooth_step((distance_m - self.width_m / 2.0) / self.shoulder_m);
+            let place = nearest.way_m / line.length_m() * (profile_m.len() - 1) as f64;
+            let before = (place as usize).min(profile_m.len() - 2);
+            let trail_m =
+                profile_m[before] + (profile_m[before + 1] - profile_m[before]) * (place - before as f64);
+            *height_m += (trail_m - *height_m) * own_share;
+        });
     }
 }
 

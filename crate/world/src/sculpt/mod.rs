@@ -5,7 +5,7 @@ mod stroke;
 
 use crate::config::{ConfigError, positive, within};
 use crate::height_field::{FieldError, HEIGHT_LIMIT_M, HeightField};
-use crate::recipe::gradient_noise;
+use crate::recipe::GradientNoise;
 use glam::DVec2;
 use profile::{boulder, bump, crater, flat_bottom, flat_top};
 
@@ -211,7 +211,7 @@ impl HeightField {
             BrushKind::Roughen { seed } => {
                 // Shorter waves would fall between the samples.
                 let wave_m = (0.5 * brush.radius_m).max(4.0 * self.cell_m());
-                height_m + strength_m * bump(radii) * gradient_noise(seed, position / wave_m)
+                height_m + strength_m * bump(radii) * GradientNoise::new(seed).at(position / wave_m)
             }
             BrushKind::Crater => height_m + strength_m * crater(radii),
             BrushKind::Boulder => height_m + strength_m * boulder(radii),
