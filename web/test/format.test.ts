@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { clock, degrees, fixed, wrap } from '../src/ui/format.ts';
+import { clock, degrees, fixed, grouped, wrap } from '../src/ui/format.ts';
 
 test('numbers have a real minus, no negative zero, and a dash for what is unknown', () => {
   assert.equal(fixed(-1.26, 1), '\u22121.3');
@@ -22,4 +22,8 @@ test('angles wrap to the half-open turn', () => {
     }
   }
   assert.equal(wrap(Math.PI), -Math.PI);
+});
+
+test('large counts have commas', () => {
+  assert.deepEqual([0, 999, 1000, 28_800, 1_234_567].map(grouped), ['0', '999', '1,000', '28,800', '1,234,567']);
 });

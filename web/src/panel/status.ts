@@ -2,7 +2,7 @@
 
 import type { Frame, Outcome, SessionInfo } from '../core/protocol.ts';
 import { setText } from '../ui/dom.ts';
-import { clock, fixed } from '../ui/format.ts';
+import { clock, fixed, grouped } from '../ui/format.ts';
 import { reason } from './reason.ts';
 
 export const OUTCOME_WORDS: Record<Outcome, string> = {
@@ -48,7 +48,7 @@ export class StatusPanel {
     setText(speed, `${fixed(frame.v_m_s, 2)} m/s`);
     const why = this.#info ? reason(frame, this.#info) : '';
     setText(this.#elements.reason, why);
-    setText(returns, frame.returns.toLocaleString('en'));
+    setText(returns, grouped(frame.returns));
     setText(digest, frame.digest);
     if (this.#outcome !== frame.outcome) {
       this.#outcome = frame.outcome;

@@ -127,7 +127,9 @@ export class HeightField {
 
   #measure(): void {
     let [min, max] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
-    for (const height of this.heights_m) {
+    // An index is faster than an iterator where this runs for the first time.
+    for (let index = 0; index < this.heights_m.length; index += 1) {
+      const height = this.heights_m[index] ?? 0;
       if (height < min) min = height;
       if (height > max) max = height;
     }

@@ -4,7 +4,7 @@ import type { Frame, SessionInfo } from '../core/protocol.ts';
 import type { Layers } from '../scene/layers.ts';
 import type { CameraMode } from '../scene/viewpoint.ts';
 import { type Finder, subgoalTarget } from '../ui/attention.ts';
-import { degrees, fixed } from '../ui/format.ts';
+import { degrees, fixed, grouped } from '../ui/format.ts';
 
 export interface Step {
   readonly title: string;
@@ -41,7 +41,7 @@ export const STEPS: readonly Step[] = [
   {
     title: 'It scans the ground',
     text: ({ returns }, { occupancy_radius_m }) =>
-      `A LiDAR on its mast sends out 16 rings of beams; each ring has its own colour here. ${returns.toLocaleString('en')} beams of this scan came back. The method uses those from within ${metres(occupancy_radius_m)}, inside the dashed circle.`,
+      `A LiDAR on its mast sends out 16 rings of beams; each ring has its own colour here. ${grouped(returns)} beams of this scan came back. The method uses those from within ${metres(occupancy_radius_m)}, inside the dashed circle.`,
     camera: 'chase',
     layers: { points: 'ring' },
   },
