@@ -52,12 +52,25 @@ plain('without WebGL the view stays empty, and all else works', async ({ page })
   });
   await page.goto('/');
   await loaded(page);
-  await expect(page.locator('#notice-text')).toContainText('WebGL');
-  await page.locator('#notice-close').click();
+  await expect(page.locator('#no-view')).toContainText('WebGL');
   await until(page, (now) => now.tick > 3);
   await page.evaluate(() => window.mapless?.still());
   await page.locator('#save-picture').click();
-  await expect(page.locator('#notice-text')).toContainText('view.png could not be made');
+  await expect(page.locator('#notice-text')).toContainText('view.png could not be made: there is no 3D view');
+});
+
+plain('an error in drawing is explained, and all else works', async ({ page }) => {
+  await page.goto('/');
+  await loaded(page);
+  const painter = await painterOf(page);
+  await painter.evaluate(() => {
+    WebGL2RenderingContext.prototype.clear = () => {
+      throw new Error('no more paint');
+    };
+  });
+  await expect(page.locator('#notice-text')).toContainText('no more paint');
+  const { tick } = await state(page);
+  await until(page, (now) => now.tick > tick);
 });
 
 test('the policy of the page allows its own origin only', async ({ mapless: page }) => {

@@ -7,6 +7,8 @@ import type { FromPainter, ToPainter } from './protocol.ts';
 export interface Graphics {
   /** There is no view, as the browser offers no WebGL 2. */
   unavailable(): void;
+  /** There is no view any more, as drawing it met an error. */
+  broken(message: string): void;
   /** The graphics driver took the view away. */
   lost(): void;
   restored(): void;
@@ -29,7 +31,8 @@ export class PainterClient {
     this.#worker.onmessage = ({ data }: MessageEvent<FromPainter>) => this.#receive(data);
     this.#worker.onerror = (event) => {
       event.preventDefault();
-      this.#give();
+      this.#giveUp();
+      this.#graphics.broken(event.message || 'its script could not be loaded');
     };
     this.send({ type: 'begin', canvas: offscreen, theme, devicePixelRatio: window.devicePixelRatio }, [offscreen]);
   }
@@ -50,7 +53,7 @@ export class PainterClient {
 
   /** Gives each picture to `film` from now on, or to nobody. */
   film(film: ((picture: ImageBitmap) => void) | undefined): void {
-    if (film && !this.#available) throw new Error('This browser offers no WebGL 2, so there is no view.');
+    if (film && !this.#available) throw new Error('there is no 3D view');
     this.#film = film;
     this.send({ type: 'film', wanted: film !== undefined });
   }
@@ -58,7 +61,8 @@ export class PainterClient {
   #receive(message: FromPainter): void {
     switch (message.type) {
       case 'unavailable':
-        this.#give();
+        this.#giveUp();
+        this.#graphics.unavailable();
         break;
       case 'lost':
         this.#graphics.lost();
@@ -78,11 +82,10 @@ export class PainterClient {
   }
 
   /** There is no view; nobody waits for it any more. */
-  #give(): void {
+  #giveUp(): void {
     this.#available = false;
     this.#worker.terminate();
     for (const rested of this.#resting.values()) rested();
     this.#resting.clear();
-    this.#graphics.unavailable();
   }
 }

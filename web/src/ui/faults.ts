@@ -22,6 +22,9 @@ export function watchGraphics(show: (message: string) => void, hide: () => void)
     unavailable() {
       byId('no-view', HTMLElement).hidden = false;
     },
+    broken(message) {
+      show(`The 3D view stopped on an error: ${message}. Everything else works; reload the page to get it back.`);
+    },
     lost() {
       show('The graphics driver took the 3D view away. It comes back by itself; the simulation goes on.');
       waiting = setTimeout(() => {

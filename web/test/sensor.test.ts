@@ -1,0 +1,20 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import type { Vector } from '../src/scene/heightfield.ts';
+import { sensorAt } from '../src/scene/sensor.ts';
+
+const LEVEL = { x: 3, y: 4, z: 1, roll: 0, pitch: 0, yaw: 0 };
+
+function near(actual: Vector, expected: Vector): void {
+  const away = Math.hypot(actual.x - expected.x, actual.y - expected.y, actual.z - expected.z);
+  assert.ok(away < 1e-12, `${JSON.stringify(actual)} is not ${JSON.stringify(expected)}`);
+}
+
+test('the sensor stands over the robot, and tips with it', () => {
+  const half = Math.sqrt(0.5);
+  near(sensorAt(LEVEL, 0.8), { x: 3, y: 4, z: 1.8 });
+  // Nose up: backwards. Left side up: to the right.
+  near(sensorAt({ ...LEVEL, pitch: Math.PI / 4 }, 1), { x: 3 - half, y: 4, z: 1 + half });
+  near(sensorAt({ ...LEVEL, roll: Math.PI / 4 }, 1), { x: 3, y: 4 - half, z: 1 + half });
+  near(sensorAt({ ...LEVEL, pitch: Math.PI / 4, yaw: Math.PI / 2 }, 1), { x: 3, y: 4 - half, z: 1 + half });
+});
