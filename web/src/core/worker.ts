@@ -192,7 +192,8 @@ function showPatch(patch: GroundPatch): void {
   notePlace();
   post({ type: 'ground', patch }, [patch.heights_m.buffer]);
   unsent = true;
-  showIfDue();
+  // The stroke goes on first: a scan of the new ground takes longer than a touch. What drives is shown by the loop.
+  if (!running()) setTimeout(loop);
 }
 
 async function load(source: Source, play: boolean): Promise<void> {
