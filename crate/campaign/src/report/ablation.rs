@@ -112,7 +112,7 @@ fn parameter(text: &mut String, results: &Results, figures: &mut Figures, path: 
                 values.iter().find(|(value, _)| value.own).and_then(|(value, _)| value.text.parse().ok());
             let plot = Plot {
                 x_label: path.to_owned(),
-                y_label: "% of the value at the planner's own".to_owned(),
+                y_label: "% of what it is with the own value".to_owned(),
                 lines,
                 mark_x,
                 scale: Scale::Linear,
