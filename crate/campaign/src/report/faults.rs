@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
-use super::{Results, failures, rate};
+use super::{Results, failures, rate, stats};
 use crate::results::TrialRow;
 
 /// What the planner was told: its name in the rows, and in words.
@@ -44,8 +44,8 @@ impl Cause {
         match self {
             Self::Profile => "perception of the profile",
             Self::Ground => "memory of the ground",
-            Self::Either => "profile or ground: either truth mends it",
-            Self::Both => "profile and ground: only both truths mend it",
+            Self::Either => "perception or memory: either truth mends it",
+            Self::Both => "perception and memory: only both truths mend it",
             Self::Decision => "decision",
             Self::Control => "control or the route",
             Self::DecisionOrControl => "decision or control",
@@ -70,17 +70,26 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     if trials.is_empty() {
         return Ok(());
     }
-    writeln!(
+    write!(
         text,
         "\n### Where failures come from\n\nThe same trials again, with the planner told the truth: the elevation profile in place of what it makes of a scan, \
-         the ground in place of the returns that it remembers, or both. A failure that goes away is put down to what the truth stood in for. One \
-         that stays whatever is told comes from decision or control: from decision where the campaign has the oracle, driven by the same controller, and it \
-         reaches; from control or the route where it does not.\n"
+         the ground in place of the returns that it remembers, or both. A failure that goes away is put down to what the truth stood in for, one \
+         that stays whatever is told to decision or control"
+    )?;
+    if results.manifest.planners.iter().any(|planner| planner == "oracle") {
+        write!(
+            text,
+            ": to decision where the oracle, driven by the same controller, reaches, to control or the route where it does not"
+        )?;
+    }
+    writeln!(
+        text,
+        ". Chance is a sign test's: how likely as uneven a pair of mended and spoilt trials is where the truth makes no difference.\n"
     )?;
     writeln!(
         text,
-        "| planner | told | reached | failures | failures without it that reach with it | that reach without it and fail with it |\n\
-         |---|---|---|---|---:|---:|"
+        "| planner | told | reached | failures | mended: fail untold, reach told | spoilt: reach untold, fail told | chance |\n\
+         |---|---|---|---|---:|---:|---:|"
     )?;
     let planners: Vec<(&String, Vec<&Told<'_>>)> = (results.manifest.planners.iter())
         .map(|planner| {
@@ -106,7 +115,7 @@ fn by_truth(text: &mut String, planner: &str, trials: &[&Told<'_>]) -> fmt::Resu
         if rows.is_empty() {
             continue;
         }
-        let mut changes = String::from(" | |");
+        let mut changes = String::from(" | | |");
         if truth != "none" {
             let both = |failed: bool, reached: bool| {
                 let of = trials.iter().filter(|told| has_failed(told) == failed);
@@ -114,7 +123,8 @@ fn by_truth(text: &mut String, planner: &str, trials: &[&Told<'_>]) -> fmt::Resu
                 (rows.iter().filter(|row| row.has_reached() == reached).count(), rows.len())
             };
             let ((mended, failed), (spoilt, reached)) = (both(true, true), both(false, false));
-            changes = format!(" {mended} of {failed} | {spoilt} of {reached} |");
+            let chance = stats::sign_test(mended, spoilt);
+            changes = format!(" {mended} of {failed} | {spoilt} of {reached} | {chance:.2} |");
         }
         writeln!(text, "| `{planner}` | {words} | {} | {} |{changes}", rate(&rows), failures(&rows))?;
     }
@@ -136,8 +146,8 @@ fn causes(text: &mut String, results: &Results, planner: &str, trials: &[&Told<'
         .collect();
     writeln!(
         text,
-        "\nOf the failures of `{planner}`, {} in all, are put down {}. A truth makes another drive from the first step on, and the last column above says how often that \
-         spoils one that reached; a failure that one truth alone mends may be luck as well.\n",
+        "\nOf the failures of `{planner}`, {} in all, are put down {}. A truth makes another drive from the first step on, which spoils \
+         some that reached, too; so what one failure is put down to may be luck.\n",
         failed.len(),
         words.join(", ")
     )?;
@@ -226,10 +236,10 @@ mod tests {
     fn every_truth_is_counted() {
         let text = written(rows());
         for line in [
-            "| `default` | nothing | 2 of 7 (8–64 %) | 5 stuck | | |\n",
-            "| `default` | the elevation profile | 4 of 7 (25–84 %) | 3 stuck | 2 of 5 | 0 of 2 |\n",
-            "| `default` | the ground | 3 of 7 (16–75 %) | 4 stuck | 2 of 5 | 1 of 2 |\n",
-            "| `default` | profile and ground | 5 of 7 (36–92 %) | 2 stuck | 3 of 5 | 0 of 2 |\n",
+            "| `default` | nothing | 2 of 7 (8–64 %) | 5 stuck | | | |\n",
+            "| `default` | the elevation profile | 4 of 7 (25–84 %) | 3 stuck | 2 of 5 | 0 of 2 | 0.50 |\n",
+            "| `default` | the ground | 3 of 7 (16–75 %) | 4 stuck | 2 of 5 | 1 of 2 | 1.00 |\n",
+            "| `default` | profile and ground | 5 of 7 (36–92 %) | 2 stuck | 3 of 5 | 0 of 2 | 0.25 |\n",
         ] {
             assert!(text.contains(line), "not in the section: {line}\n{text}");
         }
@@ -242,8 +252,8 @@ mod tests {
         let text = written(rows.clone());
         assert!(
             text.contains(
-                "Of the failures of `default`, 5 in all, are put down 1 to perception of the profile, 1 to memory of the ground, 1 to profile or ground: either \
-                 truth mends it, 1 to profile and ground: only both truths mend it, 1 to decision or control."
+                "Of the failures of `default`, 5 in all, are put down 1 to perception of the profile, 1 to memory of the ground, 1 to perception or memory: either \
+                 truth mends it, 1 to perception and memory: only both truths mend it, 1 to decision or control."
             ),
             "{text}"
         );
