@@ -6,7 +6,7 @@ use std::fmt::{self, Write as _};
 use mapless_figures::plot::{Line, Plot, Scale};
 use mapless_trials::parameters::GROUPS;
 
-use super::comparison::{Contest, contests};
+use super::comparison::{Contest, EVEN, contests};
 use super::figures::Figures;
 use super::{METRICS, Metric, Results, failures, rate, stats, tables};
 use crate::results::TrialRow;
@@ -44,8 +44,9 @@ pub(super) fn section(text: &mut String, results: &Results, figures: &mut Figure
             text,
             "\n### What the parameters buy\n\nThe same trials again, with one parameter set to another value than the planner's own. Each value is compared \
              with the planner's own over the trials that reach with both, so that none gains by failing where it is hard. A change of a metric is named \
-             where a sign test over these trials lets less than {:.0} % to chance; of many comparisons one in twenty is named all the same.\n",
-            100.0 * CHANCE
+             where a sign test over these trials lets less than {:.0} % to chance, and differences below {:.1} % count for neither side; of many comparisons a few are named by chance all the same.\n",
+            100.0 * CHANCE,
+            100.0 * EVEN
         )?;
         for path in &alone {
             for planner in &results.manifest.planners {

@@ -7,7 +7,7 @@ use super::{METRICS, Results, failures, rate, stats, values};
 use crate::results::TrialRow;
 
 /// Means that differ by less than this share are even.
-const EVEN: f64 = 0.005;
+pub(super) const EVEN: f64 = 0.005;
 
 /// One metric of two methods over several routes.
 pub(super) struct Contest {
