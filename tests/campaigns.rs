@@ -319,7 +319,7 @@ fn a_report_is_the_same_twice_and_names_every_route() {
     // Every figure that the report shows is there, and is a picture.
     let figures: Vec<&str> =
         text.split("](results/").skip(1).map(|rest| rest.split(')').next().unwrap()).collect();
-    assert_eq!(figures.len(), 1 + 2 + 3 + 1, "{figures:?}");
+    assert_eq!(figures.len(), 1 + 2 + 3 + 2, "{figures:?}");
     assert_eq!(figures.len() + 1, first.len());
     for figure in figures {
         let svg = &first.iter().find(|(path, _)| path.ends_with(figure)).unwrap().1;

@@ -326,8 +326,14 @@ mod tests {
             assert_eq!(counts, (routes, seeds, variations), "{name}");
         }
         // Generated tasks are not part of the repository.
-        let error = Campaign::read(&folder.join("generated.toml")).map_err(|error| error.to_string());
-        assert!(error.is_ok() || error.unwrap_err().contains("expected at least one scenario file"));
+        for name in ["generated", "quick-generated", "faults"] {
+            let error =
+                Campaign::read(&folder.join(name).with_extension("toml")).map_err(|error| error.to_string());
+            assert!(
+                error.is_ok() || error.unwrap_err().contains("expected at least one scenario file"),
+                "{name}"
+            );
+        }
     }
 
     #[test]

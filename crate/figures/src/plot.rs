@@ -108,17 +108,23 @@ impl Plot {
                 points.join(" ")
             ));
         }
-        let mut labels: Vec<(f64, f64, &str)> = (self.lines.iter())
-            .filter_map(|line| {
-                line.points.last().map(|&(x, y)| (y_at(y) + 4.0, x_at(x) + 8.0, line.name.as_str()))
+        let mut labels: Vec<(f64, f64, &str, &str)> = (self.lines.iter().zip(COLOURS.iter().cycle()))
+            .filter_map(|(line, colour)| {
+                let &(x, y) = line.points.last()?;
+                Some((y_at(y) + 4.0, x_at(x) + 8.0, line.name.as_str(), *colour))
             })
             .collect();
         labels.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut free_from = f64::NEG_INFINITY;
-        for (y, x, name) in labels {
+        for (y, x, name, colour) in labels {
             let y = y.max(free_from);
             free_from = y + LABEL_HEIGHT;
-            draw(format!("<text x=\"{x:.1}\" y=\"{y:.1}\">{name}</text>"));
+            // The stroke says whose label it is where lines end at one place.
+            draw(format!(
+                "<path stroke=\"{colour}\" stroke-width=\"2.5\" d=\"M{x:.1} {:.1}h12\"/><text x=\"{:.1}\" y=\"{y:.1}\">{name}</text>",
+                y - 4.0,
+                x + 16.0
+            ));
         }
         draw(format!(
             "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>",

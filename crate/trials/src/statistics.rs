@@ -41,6 +41,20 @@ pub fn wilson(successes: usize, trials: usize) -> (f64, f64) {
     (((centre - half) / scale).max(0.0), ((centre + half) / scale).min(1.0))
 }
 
+/// Two-sided sign test: how likely chance alone divides pairs as unevenly as this, or more so. Even pairs count for neither side.
+#[must_use]
+pub fn sign_test(lower: usize, higher: usize) -> f64 {
+    let pairs = lower + higher;
+    let (mut ways, mut tail) = (1.0, 0.0);
+    for fewer in 0..=lower.min(higher) {
+        tail += ways;
+        ways *= (pairs - fewer) as f64 / (fewer + 1) as f64;
+    }
+    // A shift by so many pairs would overflow.
+    let all = (0..pairs).fold(1.0, |all, _| 2.0 * all);
+    (2.0 * tail / all).min(1.0)
+}
+
 /// Success weighted by path length (Anderson et al. 2018): the mean over all trials of what the shortest path is to the
 /// driven one, with nothing for a failure. Each trial gives the driven length where it succeeded, and the shortest.
 #[must_use]
@@ -77,6 +91,20 @@ mod tests {
         close(low, 1.0 - 0.1611);
         close(high, 1.0);
         assert_eq!(wilson(0, 0), (0.0, 1.0));
+    }
+
+    #[test]
+    fn sign_test_by_hand() {
+        for (lower, higher, likely) in [
+            (0, 0, 1.0),
+            (5, 5, 1.0),
+            (9, 1, 22.0 / 1024.0),
+            (1, 9, 22.0 / 1024.0),
+            (0, 5, 0.0625),
+            (6, 0, 0.03125),
+        ] {
+            close(sign_test(lower, higher), likely);
+        }
     }
 
     #[test]

@@ -1,41 +1,59 @@
-//! The campaigns under `terrains/campaigns/` and the report of them, `docs/RESULTS.md`.
+//! The campaigns under `terrains/campaigns/` and the report of them, `docs/RESULTS.md` or another name.
 
 use std::env::consts::EXE_EXTENSION;
 
+use anyhow::ensure;
 use xshell::{Shell, cmd};
 
 use crate::setup;
 
-const QUICK: Form = Form { campaigns: &["quick", "quick-generated"], tasks: 10, folder: "generated/quick" };
-const ALL: Form =
-    Form { campaigns: &["paper", "generated", "faults", "ablation"], tasks: 40, folder: "generated/all" };
+const FOLDER: &str = "terrains/campaigns";
+/// The short form.
+pub(crate) const QUICK: [&str; 2] = ["quick", "quick-generated"];
+/// The full form.
+const ALL: [&str; 4] = ["paper", "generated", "faults", "ablation"];
+/// Generated tasks: their folder under `target/`, by which campaign files name them, and how many there are of each difficulty.
+const TASKS: [(&str, u32); 2] = [("generated/quick", 10), ("generated/all", 40)];
 const DIFFICULTIES: [&str; 3] = ["easy", "moderate", "hard"];
 
-/// What is run.
-struct Form {
-    campaigns: &'static [&'static str],
-    /// Generated tasks of each difficulty, and where they are written, under `target/`.
-    tasks: u32,
-    folder: &'static str,
-}
+/// Runs the named campaigns, or all of the full form where none is named, or what is left of them after an interruption; then writes the report.
+pub(crate) fn run(sh: &Shell, names: &[String], report: &str) -> anyhow::Result<()> {
+    let names: Vec<&str> =
+        if names.is_empty() { ALL.to_vec() } else { names.iter().map(String::as_str).collect() };
+    let known = known(sh)?;
+    for name in &names {
+        ensure!(
+            known.iter().any(|known| known == name),
+            "{name:?}: expected names of campaigns in {FOLDER}: {}",
+            known.join(", ")
+        );
+    }
+    let files: Vec<String> = names.iter().map(|name| format!("{FOLDER}/{name}.toml")).collect();
+    let texts = files.iter().map(|file| sh.read_file(file)).collect::<Result<Vec<String>, _>>()?;
 
-/// Runs the campaigns, or what is left of them after an interruption, and writes the report.
-pub(crate) fn run(sh: &Shell, quick: bool) -> anyhow::Result<()> {
     cmd!(sh, "cargo build --release --package mapless-cli").run()?;
     let target = setup::target_dir(sh);
     let program = target.join("release/mapless").with_extension(EXE_EXTENSION);
-    let form = if quick { QUICK } else { ALL };
-    for difficulty in DIFFICULTIES {
-        let (folder, count) = (target.join(form.folder).join(difficulty), form.tasks.to_string());
-        cmd!(sh, "{program} generate --seed 1 --difficulty {difficulty} --count {count} --out {folder}")
-            .run()?;
+    for (folder, count) in TASKS.iter().filter(|(folder, _)| texts.iter().any(|text| text.contains(folder))) {
+        for difficulty in DIFFICULTIES {
+            let (folder, count) = (target.join(folder).join(difficulty), count.to_string());
+            cmd!(sh, "{program} generate --seed 1 --difficulty {difficulty} --count {count} --out {folder}")
+                .run()?;
+        }
     }
     let mut folders = Vec::new();
-    for campaign in form.campaigns {
-        let folder = target.join("results").join(campaign);
-        cmd!(sh, "{program} trials terrains/campaigns/{campaign}.toml --out {folder}").run()?;
+    for (name, file) in names.iter().zip(&files) {
+        let folder = target.join("results").join(name);
+        cmd!(sh, "{program} trials {file} --out {folder}").run()?;
         folders.push(folder);
     }
-    cmd!(sh, "{program} report {folders...} --out docs").run()?;
+    cmd!(sh, "{program} report {folders...} --out docs --name {report}").run()?;
     Ok(())
+}
+
+/// The campaigns there are, by name.
+fn known(sh: &Shell) -> anyhow::Result<Vec<String>> {
+    let files = sh.read_dir(FOLDER)?;
+    let names = files.iter().filter_map(|file| file.file_stem()?.to_str());
+    Ok(names.map(str::to_owned).collect())
 }

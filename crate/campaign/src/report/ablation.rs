@@ -4,27 +4,54 @@ use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
 use mapless_figures::plot::{Line, Plot, Scale};
+use mapless_trials::parameters::GROUPS;
 
+use super::comparison::{Contest, EVEN, contests};
 use super::figures::Figures;
-use super::{METRICS, Results, rate, stats, tables};
+use super::{METRICS, Metric, Results, failures, rate, stats, tables};
 use crate::results::TrialRow;
 
-/// A table for each parameter that was set alone, with a figure where its values are numbers, and one of the combinations.
+/// What the paper calls a parameter.
+const SYMBOLS: [(&str, &str); 6] = [
+    ("planner.decision.direction_weight", "k_dir"),
+    ("planner.decision.distance_weight", "k_dst"),
+    ("planner.decision.steepness_weight", "k_stp"),
+    ("planner.perception.variance_threshold", "V_th"),
+    ("planner.perception.surface_radius_m", "r_oc"),
+    ("planner.segments.safety_margin_m", "δ"),
+];
+/// A change of a metric is named where chance alone would bring trials to one side as often as this.
+const CHANCE: f64 = 0.05;
+/// Of the metrics, distance, roll, pitch and vibration are drawn.
+const DRAWN: usize = 4;
+
+/// What each parameter that was set alone buys, in a sentence for each value, then its tables and figures, and a table of the combinations.
 pub(super) fn section(text: &mut String, results: &Results, figures: &mut Figures) -> fmt::Result {
     let varied: Vec<&TrialRow> =
         results.rows.iter().filter(|row| row.truth == "none" && !row.parameters.is_empty()).collect();
     if varied.is_empty() {
         return Ok(());
     }
-    writeln!(
-        text,
-        "\n### What the parameters buy\n\nOver all routes and seeds of the campaign; **bold** is the planner's own value."
-    )?;
     let mut alone: Vec<&str> = Vec::new();
     for row in varied.iter().filter(|row| !row.parameters.contains(' ')) {
         let path = row.parameters.split('=').next().unwrap_or_default();
         if !alone.contains(&path) {
             alone.push(path);
+        }
+    }
+    if !alone.is_empty() {
+        writeln!(
+            text,
+            "\n### What the parameters buy\n\nThe same trials again, with one parameter set to another value than the planner's own. Each value is compared \
+             with the planner's own over the trials that reach with both, so that none gains by failing where it is hard. A change of a metric is named \
+             where a sign test over these trials lets less than {:.0} % to chance, and differences below {:.1} % count for neither side; of many comparisons a few are named by chance all the same.\n",
+            100.0 * CHANCE,
+            100.0 * EVEN
+        )?;
+        for path in &alone {
+            for planner in &results.manifest.planners {
+                sentence(text, planner, path, &values(results, planner, path))?;
+            }
         }
     }
     for path in alone {
@@ -34,45 +61,166 @@ pub(super) fn section(text: &mut String, results: &Results, figures: &mut Figure
     if combined.is_empty() { Ok(()) } else { combinations(text, &combined) }
 }
 
-fn heading(text: &mut String, first: &str) -> fmt::Result {
-    let headings: Vec<String> = METRICS.iter().map(|metric| format!(" {} |", metric.heading)).collect();
-    writeln!(text, "\n| planner | {first} | reached |{}", headings.concat())?;
-    writeln!(text, "|---|---:|---|{}", "---:|".repeat(METRICS.len()))
+/// The name that the paper gives a parameter, or its path.
+fn name(path: &str) -> String {
+    let symbol = SYMBOLS.iter().find(|(known, _)| *known == path);
+    symbol.map_or_else(|| format!("`{path}`"), |(_, symbol)| format!("{symbol} (`{path}`)"))
 }
 
+/// What a parameter does, from the table that describes all of them.
+fn purpose(path: &str) -> Option<&'static str> {
+    let (table, name) = path.rsplit_once('.')?;
+    let group = GROUPS.iter().flat_map(|groups| groups.iter()).find(|group| group.table == table)?;
+    group.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| parameter.text)
+}
+
+fn heading(text: &mut String, first: &str) -> fmt::Result {
+    let headings: Vec<String> = METRICS.iter().map(|metric| format!(" {} |", metric.heading)).collect();
+    writeln!(text, "\n| planner | {first} | reached | failures |{}", headings.concat())?;
+    writeln!(text, "|---|---:|---|---|{}", "---:|".repeat(METRICS.len()))
+}
+
+/// A table and a figure of one parameter.
 fn parameter(text: &mut String, results: &Results, figures: &mut Figures, path: &str) -> fmt::Result {
-    let name = path.rsplit('.').next().unwrap_or_default();
-    writeln!(text, "\n#### `{path}`")?;
-    heading(text, name)?;
-    let (mut lines, mut remarks) = (Vec::new(), Vec::new());
+    writeln!(text, "\n#### `{path}`\n")?;
+    if let Some(purpose) = purpose(path) {
+        write!(text, "{purpose} ")?;
+    }
+    writeln!(
+        text,
+        "**Bold** is the planner's own value. Means are over the trials that reached; the change in brackets is over those that reached with the \
+         planner's own value, too."
+    )?;
+    heading(text, path.rsplit('.').next().unwrap_or_default())?;
+    let mut drawn = Vec::new();
     for planner in &results.manifest.planners {
         let values = values(results, planner, path);
+        let own = values.iter().find(|(value, _)| value.own).map(|(_, rows)| rows.as_slice());
         for (value, rows) in &values {
             let shown = if value.own { format!("**{}**", value.text) } else { value.text.clone() };
-            writeln!(text, "| `{planner}` | {shown} | {} |{}", rate(rows), tables::cells(rows))?;
+            let changes = own.filter(|_| !value.own).map(|own| contests(pairs(rows, own)));
+            writeln!(
+                text,
+                "| `{planner}` | {shown} | {} | {} |{}",
+                rate(rows),
+                failures(rows),
+                cells(rows, changes.as_deref())
+            )?;
         }
-        remarks.extend(remark(planner, &values));
-        let points =
-            values.iter().filter_map(|(value, rows)| Some((value.text.parse().ok()?, success_percent(rows))));
-        let mut points: Vec<(f64, f64)> = points.collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        if points.len() > 1 {
-            lines.push(Line { name: planner.clone(), points });
+        let lines = lines(&values);
+        if lines.iter().any(|line| line.points.len() > 1) {
+            let mark_x =
+                values.iter().find(|(value, _)| value.own).and_then(|(value, _)| value.text.parse().ok());
+            let plot = Plot {
+                x_label: path.to_owned(),
+                y_label: "% of what it is with the own value".to_owned(),
+                lines,
+                mark_x,
+                scale: Scale::Linear,
+            };
+            let file = format!("{}-{planner}-{}.svg", results.manifest.name, path.replace('.', "-"));
+            drawn.push(figures.add(file, &format!("`{planner}` over {path}"), plot.svg()));
         }
     }
-    writeln!(text, "\n{}", remarks.join(" "))?;
-    if !lines.is_empty() {
-        let plot = Plot {
-            x_label: path.to_owned(),
-            y_label: "reached, %".to_owned(),
-            lines,
-            mark_x: None,
-            scale: Scale::Linear,
-        };
-        let file = format!("{}-ablation-{}.svg", results.manifest.name, path.replace('.', "-"));
-        writeln!(text, "\n{}", figures.add(file, &format!("Success over {path}"), plot.svg()))?;
+    for figure in drawn {
+        writeln!(text, "\n{figure}")?;
     }
     Ok(())
+}
+
+/// The mean of each metric, and its change.
+fn cells(rows: &[&TrialRow], changes: Option<&[Contest]>) -> String {
+    let cell = |metric: &Metric| {
+        let Some(mean) = stats::mean(&super::values(rows, metric)) else { return " |".to_owned() };
+        let change = changes.and_then(|all| all.iter().find(|contest| contest.metric == metric.name()));
+        let change = change.map_or_else(String::new, |contest| format!(" ({})", contest.percent()));
+        format!(" {mean:.*}{change} |", metric.decimals)
+    };
+    METRICS.iter().map(cell).collect()
+}
+
+/// The metrics of a value's trials and of the own value's, for each trial that reached with both.
+fn pairs<'a>(
+    rows: &'a [&TrialRow],
+    own: &'a [&TrialRow],
+) -> impl Iterator<Item = ([Option<f64>; 6], [Option<f64>; 6])> + 'a {
+    let metrics = |row: &TrialRow| METRICS.each_ref().map(|metric| (metric.of)(row));
+    rows.iter().filter(|row| row.has_reached()).filter_map(move |row| {
+        let same = |other: &&&TrialRow| other.route == row.route && other.seed == row.seed;
+        let own = own.iter().filter(|own| own.has_reached()).find(same)?;
+        Some((metrics(row), metrics(own)))
+    })
+}
+
+/// How often each value reaches, and the metrics over the trials that reach with both, in per cent of the planner's own value.
+fn lines(values: &[(Value, Vec<&TrialRow>)]) -> Vec<Line> {
+    let Some((_, own)) = values.iter().find(|(value, _)| value.own) else { return Vec::new() };
+    let reached = |rows: &[&TrialRow]| rows.iter().filter(|row| row.has_reached()).count() as f64;
+    let mut lines = vec![Line { name: "reached".to_owned(), points: Vec::new() }];
+    lines.extend(
+        METRICS[..DRAWN]
+            .iter()
+            .map(|metric| Line { name: metric.name().replace('\\', ""), points: Vec::new() }),
+    );
+    for (value, rows) in values {
+        let Ok(x) = value.text.parse::<f64>() else { continue };
+        if reached(own) > 0.0 {
+            lines[0].points.push((x, 100.0 * reached(rows) / reached(own)));
+        }
+        for (line, metric) in lines[1..].iter_mut().zip(&METRICS) {
+            let contests = contests(pairs(rows, own));
+            if let Some(contest) = contests.iter().find(|contest| contest.metric == metric.name()) {
+                line.points.push((x, 100.0 * (1.0 + contest.change)));
+            }
+        }
+    }
+    lines.retain(|line| !line.points.is_empty());
+    lines
+}
+
+/// What a parameter buys: what becomes worse or better with each other value.
+fn sentence(text: &mut String, planner: &str, path: &str, values: &[(Value, Vec<&TrialRow>)]) -> fmt::Result {
+    let Some((own_value, own)) = values.iter().find(|(value, _)| value.own) else { return Ok(()) };
+    write!(text, "- **{}** of `{planner}`, {}.", name(path), own_value.text)?;
+    for (value, rows) in values.iter().filter(|(value, _)| !value.own) {
+        let is_without = value.text.parse::<f64>().is_ok_and(|number| number == 0.0);
+        let begin = if is_without { "Without it".to_owned() } else { format!("With {}", value.text) };
+        write!(text, " {begin}, {}", success(rows, own))?;
+        let contests = contests(pairs(rows, own));
+        let clear: Vec<String> = contests
+            .iter()
+            .filter(|contest| stats::sign_test(contest.lower, contest.higher) < CHANCE)
+            .map(|contest| {
+                let (count, side) = contest.side();
+                format!("{} {} ({side} on {count} of {})", contest.metric, contest.percent(), contest.routes)
+            })
+            .collect();
+        match (contests.is_empty(), clear.is_empty()) {
+            (true, _) => write!(text, ".")?,
+            (false, true) => write!(text, ", and no metric changes clearly.")?,
+            (false, false) => write!(text, "; {}.", clear.join(", "))?,
+        }
+    }
+    writeln!(text)
+}
+
+/// How often a value reaches beside the planner's own.
+fn success(rows: &[&TrialRow], own: &[&TrialRow]) -> String {
+    let reached = |rows: &[&TrialRow]| rows.iter().filter(|row| row.has_reached()).count();
+    let (count, own_count) = (reached(rows), reached(own));
+    if (count, rows.len()) == (own_count, own.len()) {
+        return format!("{count} of {} reach as well", rows.len());
+    }
+    let ended = failures(rows);
+    let ended = if ended.is_empty() { ended } else { format!(" ({ended})") };
+    let intervals = [(count, rows.len()), (own_count, own.len())].map(|(count, of)| stats::wilson(count, of));
+    let is_beyond = intervals[0].0 > intervals[1].1 || intervals[1].0 > intervals[0].1;
+    let sure = if is_beyond { "beyond" } else { "within" };
+    format!(
+        "{count} of {} reach{ended} instead of {own_count} of {}, {sure} the 95 % intervals",
+        rows.len(),
+        own.len()
+    )
 }
 
 /// A value of a parameter.
@@ -111,40 +259,6 @@ fn own_value(row: &TrialRow, path: &str) -> Option<String> {
     configuration.pointer(&pointer).map(ToString::to_string)
 }
 
-/// Which value reached most, and what leaving the planner's own costs.
-fn remark(planner: &str, values: &[(Value, Vec<&TrialRow>)]) -> Option<String> {
-    let (own, own_rows) = values.iter().find(|(value, _)| value.own)?;
-    let best = values.iter().map(|(_, rows)| success_percent(rows)).fold(f64::NEG_INFINITY, f64::max);
-    let own_percent = success_percent(own_rows);
-    if own_percent >= best {
-        let worst =
-            values.iter().min_by(|(_, a), (_, b)| success_percent(a).total_cmp(&success_percent(b)))?;
-        let lost = own_percent - success_percent(&worst.1);
-        if lost <= 0.0 {
-            return Some(format!("With `{planner}` every value reaches equally often."));
-        }
-        return Some(format!(
-            "No value reaches more often with `{planner}` than its own, {}; {} loses {lost:.0} percentage points.",
-            own.text, worst.0.text
-        ));
-    }
-    let (value, rows) = values.iter().find(|(_, rows)| success_percent(rows) >= best)?;
-    let reached = |rows: &[&TrialRow]| rows.iter().filter(|row| row.has_reached()).count();
-    let sure =
-        stats::wilson(reached(rows), rows.len()).0 > stats::wilson(reached(own_rows), own_rows.len()).1;
-    let sure = if sure { "beyond" } else { "within" };
-    Some(format!(
-        "With `{planner}`, {} reaches {:.0} percentage points more often than its own, {}, {sure} the 95 % intervals.",
-        value.text,
-        best - own_percent,
-        own.text
-    ))
-}
-
-fn success_percent(rows: &[&TrialRow]) -> f64 {
-    100.0 * rows.iter().filter(|row| row.has_reached()).count() as f64 / rows.len().max(1) as f64
-}
-
 fn combinations(text: &mut String, rows: &[&TrialRow]) -> fmt::Result {
     writeln!(text, "\n#### Combinations")?;
     heading(text, "parameters")?;
@@ -153,7 +267,64 @@ fn combinations(text: &mut String, rows: &[&TrialRow]) -> fmt::Result {
         groups.entry((&row.planner, &row.parameters)).or_default().push(row);
     }
     for ((planner, parameters), rows) in groups {
-        writeln!(text, "| `{planner}` | {parameters} | {} |{}", rate(&rows), tables::cells(&rows))?;
+        writeln!(
+            text,
+            "| `{planner}` | {parameters} | {} | {} |{}",
+            rate(&rows),
+            failures(&rows),
+            tables::cells(&rows)
+        )?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{results, row};
+
+    /// Ten seeds with a weight of one, its own, and as many without it, of which one fails and the others roll by half more.
+    fn rows() -> Vec<TrialRow> {
+        let configuration = "{\"decision\":{\"steepness_weight\":1.0}}".to_owned();
+        let metrics = |row: TrialRow, roll_rad: f64| TrialRow {
+            distance_m: Some(50.0),
+            max_abs_roll_rad: Some(roll_rad),
+            configuration: configuration.clone(),
+            ..row
+        };
+        let mut rows = Vec::new();
+        for seed in 1..=10 {
+            rows.push(metrics(row("default", "a", "none", seed, "reached"), 0.2));
+            let outcome = if seed == 10 { "tilt_limit" } else { "reached" };
+            let without = TrialRow {
+                parameters: "planner.decision.steepness_weight=0.0".to_owned(),
+                ..row("default", "a", "none", seed, outcome)
+            };
+            rows.push(metrics(without, 0.3));
+        }
+        rows
+    }
+
+    #[test]
+    fn a_sentence_says_what_a_weight_buys() {
+        let (mut text, mut figures) = (String::new(), Figures::default());
+        section(&mut text, &results(&["default"], &["a"], rows()), &mut figures).unwrap();
+        for needle in [
+            "- **k_stp (`planner.decision.steepness_weight`)** of `default`, 1.0. Without it, 9 of 10 reach (1 tilt_limit) instead of 10 of 10, \
+             within the 95 % intervals; max \\|roll\\| +50 % (higher on 9 of 9).\n",
+            "Charge for steep ways. **Bold**",
+            "| `default` | 0.0 | 9 of 10 (60–98 %) | 1 tilt_limit | 50.0 (+0 %) | 0.300 (+50 %) | | | | |\n",
+            "| `default` | **1.0** | 10 of 10 (72–100 %) |  | 50.0 | 0.200 | | | | |\n",
+        ] {
+            assert!(text.contains(needle), "not in the section: {needle}\n{text}");
+        }
+        assert_eq!(figures.drawn.len(), 1);
+    }
+
+    #[test]
+    fn every_symbol_is_a_parameter() {
+        for (path, _) in SYMBOLS {
+            assert!(purpose(path).is_some(), "{path}");
+        }
+    }
 }

@@ -7,17 +7,29 @@ use super::{METRICS, Results, failures, rate, stats, values};
 use crate::results::TrialRow;
 
 /// Means that differ by less than this share are even.
-const EVEN: f64 = 0.005;
+pub(super) const EVEN: f64 = 0.005;
 
 /// One metric of two methods over several routes.
-struct Contest {
-    metric: &'static str,
+pub(super) struct Contest {
+    pub(super) metric: &'static str,
     /// Routes on which the first is lower, and on which it is higher; on the others they are even.
-    lower: usize,
-    higher: usize,
-    routes: usize,
+    pub(super) lower: usize,
+    pub(super) higher: usize,
+    pub(super) routes: usize,
     /// Mean over the routes of first / second - 1.
-    change: f64,
+    pub(super) change: f64,
+}
+
+impl Contest {
+    /// On how many routes it is on the side where more are, and which that is.
+    pub(super) fn side(&self) -> (usize, &'static str) {
+        if self.higher > self.lower { (self.higher, "higher") } else { (self.lower, "lower") }
+    }
+
+    /// The change as people write it.
+    pub(super) fn percent(&self) -> String {
+        format!("{:+.0} %", 100.0 * self.change)
+    }
 }
 
 /// What the first planner does better and worse than the paper says of its own and than the other planners here.
@@ -56,7 +68,8 @@ fn means(rows: &[&TrialRow]) -> [Option<f64>; 6] {
     METRICS.each_ref().map(|metric| stats::mean(&values(rows, metric)))
 }
 
-fn contests(pairs: impl Iterator<Item = ([Option<f64>; 6], [Option<f64>; 6])>) -> Vec<Contest> {
+/// Every metric that the pairs have, the first of each against its second.
+pub(super) fn contests(pairs: impl Iterator<Item = ([Option<f64>; 6], [Option<f64>; 6])>) -> Vec<Contest> {
     let pairs: Vec<_> = pairs.collect();
     let contest = |(index, metric): (usize, &super::Metric)| {
         let ratios: Vec<f64> = pairs
@@ -80,12 +93,11 @@ fn against(planner: &str, other: &str, contests: &[Contest]) -> String {
         return format!("- `{planner}` against {other}: no route to compare on.");
     };
     let list = |verb: &str, of: &dyn Fn(&Contest) -> bool| {
-        let words = contests.iter().filter(|contest| of(contest)).map(
-            |Contest { metric, lower, higher, routes, change }| {
-                let (count, side) = if higher > lower { (higher, "higher") } else { (lower, "lower") };
-                format!("{metric} ({side} on {count} of {routes}, {:+.0} % on average)", 100.0 * change)
-            },
-        );
+        let words = contests.iter().filter(|contest| of(contest)).map(|contest| {
+            let (count, side) = contest.side();
+            let Contest { metric, routes, .. } = contest;
+            format!("{metric} ({side} on {count} of {routes}, {} on average)", contest.percent())
+        });
         let words: Vec<String> = words.collect();
         (!words.is_empty()).then(|| format!("{verb} {}", words.join(", ")))
     };

@@ -1,4 +1,4 @@
-//! The report of one or several campaigns: `RESULTS.md` and its figures. The same campaigns give the same bytes.
+//! The report of one or several campaigns: a file, `RESULTS.md` if no other name is given, and its figures. The same campaigns give the same bytes.
 
 mod ablation;
 mod comparison;
@@ -83,6 +83,35 @@ impl Results {
         groups.dedup();
         groups
     }
+
+    /// The command that runs a trial again.
+    fn replay(&self, row: &TrialRow) -> String {
+        format!("mapless trials {} --only {}", self.manifest.file, row.id)
+    }
+
+    /// `8 planners, 10 routes, up to 10 seeds`.
+    fn size(&self) -> String {
+        let Manifest { planners, routes, seeds, .. } = &self.manifest;
+        let number =
+            |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+        let up_to = if seeds.len() > 1 { "up to " } else { "" };
+        format!(
+            "{}, {}, {up_to}{}",
+            number(planners.len(), "planner"),
+            number(routes.len(), "route"),
+            number(seeds.len(), "seed")
+        )
+    }
+
+    /// What its trials are run again for: each parameter's worth, or the source of failures; nothing where every planner is as it is.
+    fn question(&self) -> Option<&'static str> {
+        let any = |of: fn(&TrialRow) -> bool| self.rows.iter().any(of);
+        if any(|row| !row.parameters.is_empty()) {
+            Some("what the parameters buy")
+        } else {
+            any(|row| row.truth != "none").then_some("where failures come from")
+        }
+    }
 }
 
 impl TrialRow {
@@ -91,12 +120,12 @@ impl TrialRow {
     }
 }
 
-/// Writes the report of the finished campaigns in `folders` to `out`; gives the files written.
+/// Writes the report of the finished campaigns in `folders` to the file `name`.md in `out`; gives the files written.
 ///
 /// # Errors
 /// [`CampaignError`] when a campaign has not finished, a scenario that a figure shows is no longer there, or `out` cannot be
 /// written.
-pub fn write(folders: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, CampaignError> {
+pub fn write(folders: &[PathBuf], out: &Path, name: &str) -> Result<Vec<PathBuf>, CampaignError> {
     let mut campaigns = Vec::new();
     for folder in folders {
         let (manifest, rows) = Manifest::read(folder)?;
@@ -105,10 +134,11 @@ pub fn write(folders: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, CampaignEr
     let figures_folder = out.join(FIGURES);
     std::fs::create_dir_all(&figures_folder).map_err(|error| CampaignError::write(&figures_folder, error))?;
     let mut figures = figures::Figures::default();
-    let path = out.join("RESULTS.md");
+    let path = out.join(format!("{name}.md"));
     let published = published::published()?;
     let mut text = String::from("# Results\n\nWritten by `mapless report`. ");
     introduction(&mut text).map_err(|error| CampaignError::write(&path, error))?;
+    contents(&mut text, &campaigns).map_err(|error| CampaignError::write(&path, error))?;
     figures.steepness_cost(&mut text).map_err(|error| CampaignError::write(&path, error))?;
     for results in &campaigns {
         let maps = figures.maps(results)?;
@@ -136,6 +166,16 @@ fn introduction(text: &mut String) -> fmt::Result {
     )
 }
 
+/// A line for each campaign.
+fn contents(text: &mut String, campaigns: &[Results]) -> fmt::Result {
+    for results in campaigns {
+        let name = &results.manifest.name;
+        let question = results.question().map_or_else(String::new, |question| format!("{question}; "));
+        writeln!(text, "- [Campaign `{name}`](#campaign-{name}): {question}{}", results.size())?;
+    }
+    writeln!(text)
+}
+
 fn chapter(
     text: &mut String,
     results: &Results,
@@ -143,21 +183,17 @@ fn chapter(
     figures: &mut figures::Figures,
     maps: &str,
 ) -> Result<(), mapless_figures::FigureError> {
-    let Manifest { name, hash, planners, routes, seeds, .. } = &results.manifest;
+    let Manifest { name, hash, planners, .. } = &results.manifest;
     writeln!(text, "\n## Campaign `{name}`\n")?;
-    writeln!(
-        text,
-        "{} trials: {} planners, {} routes, up to {} seeds; identity `{hash}`.",
-        results.rows.len(),
-        planners.len(),
-        routes.len(),
-        seeds.len()
-    )?;
+    writeln!(text, "{} trials: {}; identity `{hash}`.", results.rows.len(), results.size())?;
     tables::success(text, results)?;
-    comparison::sentences(text, results, published)?;
-    tables::metrics(text, results, published)?;
-    spread::section(text, results, published)?;
-    oracle::section(text, results)?;
+    // One planner that is run again with something changed is compared with itself.
+    if planners.len() > 1 || results.question().is_none() {
+        comparison::sentences(text, results, published)?;
+        tables::metrics(text, results, published)?;
+        spread::section(text, results, published)?;
+        oracle::section(text, results)?;
+    }
     faults::section(text, results)?;
     ablation::section(text, results, figures)?;
     text.push_str(maps);
@@ -205,6 +241,21 @@ mod tests {
         assert_eq!(many.of("default", "easy").len(), 15);
         let few = results(&["default"], &names[..3], Vec::new());
         assert_eq!(few.groups(), ["easy-1-0000", "easy-1-0002", "hard-1-0001"]);
+    }
+
+    #[test]
+    fn a_campaign_says_its_size_and_its_question() {
+        let mut rows = vec![row("default", "a", "none", 1, "reached")];
+        let campaign = |rows: &[TrialRow]| results(&["default"], &["a", "b"], rows.to_vec());
+        assert_eq!(campaign(&rows).size(), "1 planner, 2 routes, 1 seed");
+        assert_eq!(campaign(&rows).question(), None);
+        rows.push(row("default", "a", "both", 1, "reached"));
+        let mut text = String::new();
+        contents(&mut text, &[campaign(&rows)]).unwrap();
+        assert_eq!(
+            text,
+            "- [Campaign `test`](#campaign-test): where failures come from; 1 planner, 2 routes, 1 seed\n\n"
+        );
     }
 
     #[test]

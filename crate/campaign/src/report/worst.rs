@@ -28,7 +28,7 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         "| planner | route | seed | outcome | of the tilt limit | command | page |\n|---|---|---:|---|---:|---|---|"
     )?;
     for (row, share) in rows.into_iter().take(SHOWN) {
-        let TrialRow { id, planner, route, parameters, truth, seed, outcome, .. } = row;
+        let TrialRow { planner, route, parameters, truth, seed, outcome, .. } = row;
         let mut planner = format!("`{planner}`");
         if truth != "none" {
             write!(planner, ", told {truth}")?;
@@ -36,7 +36,7 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         if !parameters.is_empty() {
             write!(planner, ", {parameters}")?;
         }
-        let command = format!("mapless trials {} --only {id}", results.manifest.file);
+        let command = results.replay(row);
         let reason = row.stop_reason.as_ref().or(row.error.as_ref());
         let reason = reason.map_or_else(String::new, |reason| {
             format!(": {}", reason.replace('|', "\\|").replace('\n', " "))
