@@ -10,17 +10,14 @@ pub(crate) struct Args {
     /// Folders of finished campaigns, as `mapless trials --out` has them.
     #[arg(required = true, value_name = "DIR")]
     campaigns: Vec<PathBuf>,
-    /// Write the report and the folder results/ with its figures here.
+    /// Write RESULTS.md and the folder results/ with its figures here.
     #[arg(long, value_name = "DIR", default_value = "docs")]
     out: PathBuf,
-    /// Name of the report's file, without .md.
-    #[arg(long, default_value = "RESULTS")]
-    name: String,
 }
 
 /// Writes the report and names what it wrote.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    for path in mapless_campaign::report::write(&args.campaigns, &args.out, &args.name)? {
+    for path in mapless_campaign::report::write(&args.campaigns, &args.out)? {
         writeln!(std::io::stdout(), "{}", path.display()).context("standard output")?;
     }
     Ok(())

@@ -52,16 +52,13 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 200)]
         poses: usize,
     },
-    /// Run campaigns of terrains/campaigns, or what is left of them, and write a report with its figures.
+    /// Run campaigns of terrains/campaigns, or what is left of them, and write docs/RESULTS.md with its figures.
     Results {
         /// Campaigns by name, in the order of the report; paper, generated, faults and ablation when absent.
         campaigns: Vec<String>,
         /// The short form: as if quick and quick-generated were named.
         #[arg(long, conflicts_with = "campaigns")]
         quick: bool,
-        /// Name of the report's file under docs/, without .md.
-        #[arg(long, default_value = "RESULTS")]
-        name: String,
     },
     /// Time mapless beside gpflow and Embree, natively and as wasm, and write docs/BENCHMARKS.md.
     Bench {
@@ -96,10 +93,8 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Build => page::build(&sh),
         Command::Test { part } => test::run(&sh, part),
         Command::Profile { poses } => profile::run(&sh, poses),
-        Command::Results { quick: true, name, .. } => {
-            results::run(&sh, &results::QUICK.map(str::to_owned), &name)
-        }
-        Command::Results { campaigns, name, .. } => results::run(&sh, &campaigns, &name),
+        Command::Results { quick: true, .. } => results::run(&sh, &results::QUICK.map(str::to_owned)),
+        Command::Results { campaigns, .. } => results::run(&sh, &campaigns),
         Command::Bench { rounds } => bench::run(&sh, rounds),
         Command::Fuzz { seconds } => fuzz::run(&sh, seconds),
     }

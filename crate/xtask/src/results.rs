@@ -1,4 +1,4 @@
-//! The campaigns under `terrains/campaigns/` and the report of them, `docs/RESULTS.md` or another name.
+//! The campaigns under `terrains/campaigns/` and the report of them, `docs/RESULTS.md`.
 
 use std::env::consts::EXE_EXTENSION;
 
@@ -17,7 +17,7 @@ const TASKS: [(&str, u32); 2] = [("generated/quick", 10), ("generated/all", 40)]
 const DIFFICULTIES: [&str; 3] = ["easy", "moderate", "hard"];
 
 /// Runs the named campaigns, or all of the full form where none is named, or what is left of them after an interruption; then writes the report.
-pub(crate) fn run(sh: &Shell, names: &[String], report: &str) -> anyhow::Result<()> {
+pub(crate) fn run(sh: &Shell, names: &[String]) -> anyhow::Result<()> {
     let names: Vec<&str> =
         if names.is_empty() { ALL.to_vec() } else { names.iter().map(String::as_str).collect() };
     let known = known(sh)?;
@@ -47,7 +47,7 @@ pub(crate) fn run(sh: &Shell, names: &[String], report: &str) -> anyhow::Result<
         cmd!(sh, "{program} trials {file} --out {folder}").run()?;
         folders.push(folder);
     }
-    cmd!(sh, "{program} report {folders...} --out docs --name {report}").run()?;
+    cmd!(sh, "{program} report {folders...} --out docs").run()?;
     Ok(())
 }
 

@@ -1,4 +1,4 @@
-//! The report of one or several campaigns: a file, `RESULTS.md` if no other name is given, and its figures. The same campaigns give the same bytes.
+//! The report of one or several campaigns: `RESULTS.md` and its figures. The same campaigns give the same bytes.
 
 mod ablation;
 mod comparison;
@@ -120,12 +120,12 @@ impl TrialRow {
     }
 }
 
-/// Writes the report of the finished campaigns in `folders` to the file `name`.md in `out`; gives the files written.
+/// Writes the report of the finished campaigns in `folders` to `RESULTS.md` in `out`; gives the files written.
 ///
 /// # Errors
 /// [`CampaignError`] when a campaign has not finished, a scenario that a figure shows is no longer there, or `out` cannot be
 /// written.
-pub fn write(folders: &[PathBuf], out: &Path, name: &str) -> Result<Vec<PathBuf>, CampaignError> {
+pub fn write(folders: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, CampaignError> {
     let mut campaigns = Vec::new();
     for folder in folders {
         let (manifest, rows) = Manifest::read(folder)?;
@@ -134,7 +134,7 @@ pub fn write(folders: &[PathBuf], out: &Path, name: &str) -> Result<Vec<PathBuf>
     let figures_folder = out.join(FIGURES);
     std::fs::create_dir_all(&figures_folder).map_err(|error| CampaignError::write(&figures_folder, error))?;
     let mut figures = figures::Figures::default();
-    let path = out.join(format!("{name}.md"));
+    let path = out.join("RESULTS.md");
     let published = published::published()?;
     let mut text = String::from("# Results\n\nWritten by `mapless report`. ");
     introduction(&mut text).map_err(|error| CampaignError::write(&path, error))?;
