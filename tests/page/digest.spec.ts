@@ -1,4 +1,4 @@
-import { spawnSync } from 'node:child_process';
+import { driven } from './commandLine.ts';
 import { expect, state, test, until } from './page.ts';
 
 test('the page and the command line drive the same way, bit by bit', async ({ mapless: page }) => {
@@ -8,12 +8,7 @@ test('the page and the command line drive the same way, bit by bit', async ({ ma
   await page.evaluate(() => window.mapless?.play());
   await until(page, (now) => now.outcome !== 'running', 500_000);
   const { outcome, metrics, tick, digest } = await state(page);
-  const command = ['run', 'terrains/scenarios/ht.toml', '--seed', '3', '--json'];
-  const { stdout, stderr, error } = spawnSync('target/release/mapless', command, { encoding: 'utf8' });
-  if (error)
-    throw new Error('Build the command line first: cargo build --release --package mapless-cli', { cause: error });
-  expect(stdout, stderr).not.toBe('');
-  const run = JSON.parse(stdout);
+  const run = driven('terrains/scenarios/ht.toml', '--seed', '3');
   expect({ outcome, metrics, ticks: tick, digest }).toEqual({
     outcome: run.outcome,
     metrics: run.metrics,

@@ -1,6 +1,6 @@
-import { spawnSync } from 'node:child_process';
 import { expect, test } from '@playwright/test';
 import type { MaplessState } from '../../web/src/api.ts';
+import { driven } from './commandLine.ts';
 import { FIREFOX, Firefox } from './firefox.ts';
 
 /** Opens the page and waits for its first scenario. */
@@ -24,12 +24,7 @@ test.describe('in Firefox', () => {
       await firefox.evaluate('mapless.play()');
       await expect.poll(async () => (await state(firefox)).outcome, { timeout: 500_000 }).not.toBe('running');
       const { outcome, digest } = await state(firefox);
-      const command = ['run', 'terrains/scenarios/ht.toml', '--seed', '3', '--json'];
-      const { stdout, stderr, error } = spawnSync('target/release/mapless', command, { encoding: 'utf8' });
-      if (error)
-        throw new Error('Build the command line first: cargo build --release --package mapless-cli', { cause: error });
-      expect(stdout, stderr).not.toBe('');
-      const run = JSON.parse(stdout);
+      const run = driven('terrains/scenarios/ht.toml', '--seed', '3');
       expect({ outcome, digest }).toEqual({ outcome: run.outcome, digest: run.digest });
     } finally {
       await firefox.close();

@@ -1,8 +1,8 @@
-import { spawnSync } from 'node:child_process';
 import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import type { Page } from '@playwright/test';
+import { driven } from './commandLine.ts';
 import { expect, state, test, until } from './page.ts';
 
 async function openLab(page: Page, tab: string): Promise<void> {
@@ -85,9 +85,7 @@ length_scales_rad = [0.12, 0.05]
 `;
   const file = join(mkdtempSync(join(tmpdir(), 'mapless-')), 'scenario.toml');
   writeFileSync(file, scenario);
-  const run = spawnSync('target/release/mapless', ['run', file, '--json'], { encoding: 'utf8' });
-  expect(run.stdout, run.stderr).not.toBe('');
-  expect(JSON.parse(run.stdout)).toMatchObject({ digest, ticks: tick });
+  expect(driven(file)).toMatchObject({ digest, ticks: tick });
 });
 
 test('the table of parameters and the drawer work by keyboard', async ({ mapless: page }) => {

@@ -1,9 +1,9 @@
-import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { McapIndexedReader } from '@mcap/core';
 import type { Page } from '@playwright/test';
+import { driven } from './commandLine.ts';
 import { driveTo, expect, state, test, until } from './page.ts';
 
 // A small view leaves a processor without graphics card its time.
@@ -85,11 +85,7 @@ test('trajectory and result are those of the command line', async ({ mapless: pa
   await page.evaluate(() => window.mapless?.play());
   await until(page, (now) => now.outcome !== 'running', 500_000);
   const out = mkdtempSync(join(tmpdir(), 'mapless-'));
-  const run = ['run', 'terrains/scenarios/ht.toml', '--seed', '5', '--out', out];
-  const { error, stderr, status } = spawnSync('target/release/mapless', run, { encoding: 'utf8' });
-  if (error)
-    throw new Error('Build the command line first: cargo build --release --package mapless-cli', { cause: error });
-  expect(status, stderr).toBe(0);
+  driven('terrains/scenarios/ht.toml', '--seed', '5', '--out', out);
   const csv = await download(page, 'save-csv');
   expect(csv.name).toBe('mapless-ht-seed5-trajectory.csv');
   expect(csv.bytes.toString()).toBe(readFileSync(join(out, 'trajectory.csv'), 'utf8'));

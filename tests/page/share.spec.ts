@@ -1,10 +1,10 @@
-import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { deflateRawSync } from 'node:zlib';
 import { type Page, test as plain } from '@playwright/test';
 import type { Experiment } from '../../web/src/core/experiment.ts';
+import { driven } from './commandLine.ts';
 import { expect, loaded, state, test, until } from './page.ts';
 
 /** A boulder and a rough patch ahead of the start of `ht`, another goal behind a stop, and another parameter. */
@@ -82,17 +82,7 @@ test('a link drives the same run in another profile, and so does the command lin
 
   const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
   for (const [name, bytes] of unzip(readFileSync(await zipped.path()))) writeFileSync(join(folder, name), bytes);
-  const { stdout, stderr, error } = spawnSync(
-    'target/release/mapless',
-    ['run', join(folder, 'scenario.toml'), '--json'],
-    {
-      encoding: 'utf8',
-    },
-  );
-  if (error)
-    throw new Error('Build the command line first: cargo build --release --package mapless-cli', { cause: error });
-  expect(stdout, stderr).not.toBe('');
-  const { outcome, ticks, digest } = JSON.parse(stdout);
+  const { outcome, ticks, digest } = driven(join(folder, 'scenario.toml'));
   expect({ outcome, ticks, digest }).toEqual(run);
 
   const other = await (await browser.newContext(baseURL ? { baseURL } : {})).newPage();

@@ -10,13 +10,15 @@ const DUTY = 0.4;
 const PAUSE_MS = 1500;
 
 export class Pacer {
+  /** Whether a processor draws in place of a graphics card. */
+  readonly software: boolean;
   pixelRatio: number;
   #cost_ms = 16;
   #drawn_ms: number | undefined;
   #last_ms = 0;
 
-  /** `software`: whether a processor draws in place of a graphics card. */
   constructor(software: boolean, devicePixelRatio: number) {
+    this.software = software;
     this.pixelRatio = software ? LEAST_PIXEL_RATIO : Math.min(devicePixelRatio, MOST_PIXEL_RATIO);
   }
 
@@ -42,11 +44,12 @@ export class Pacer {
   }
 }
 
-/** Whether a processor draws in place of a graphics card. */
-export function drawsInSoftware(): boolean {
+/** Whether a processor draws in place of a graphics card; nothing where there is no WebGL 2. */
+export function drawsInSoftware(): boolean | undefined {
   const probe = new OffscreenCanvas(1, 1).getContext('webgl2');
-  const info = probe?.getExtension('WEBGL_debug_renderer_info');
-  const name = info ? String(probe?.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
-  probe?.getExtension('WEBGL_lose_context')?.loseContext();
+  if (!probe) return undefined;
+  const info = probe.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? String(probe.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
+  probe.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|software/i.test(name);
 }

@@ -10,7 +10,7 @@ import type { Theme } from '../ui/theme.ts';
 import { Ghosts } from './ghosts.ts';
 import { Husky } from './husky.ts';
 import { Overlays } from './overlays.ts';
-import { drawsInSoftware, Pacer } from './pacer.ts';
+import type { Pacer } from './pacer.ts';
 import { Places } from './places.ts';
 import { DEPTH_M, type FromPainter, type Look, type Scenery, type Seen, type ToPainter } from './protocol.ts';
 import { Relief } from './relief.ts';
@@ -53,17 +53,16 @@ export class Painter {
   /** Who waits until nothing changes. */
   #resting: number[] = [];
 
-  /** Throws where there is no WebGL 2. */
   constructor(
     canvas: OffscreenCanvas,
     theme: Theme,
-    devicePixelRatio: number,
+    pacer: Pacer,
     post: (message: FromPainter, transfer?: Transferable[]) => void,
   ) {
     this.#canvas = canvas;
     this.#post = post;
-    const software = drawsInSoftware();
-    this.#pacer = new Pacer(software, devicePixelRatio);
+    const { software } = pacer;
+    this.#pacer = pacer;
     this.#renderer = new WebGLRenderer({ canvas, antialias: !software, alpha: true });
     canvas.addEventListener('webglcontextlost', () => post({ type: 'lost' }));
     canvas.addEventListener('webglcontextrestored', () => {

@@ -1,5 +1,6 @@
 /** The worker that draws the 3D view, so that no drawing ever blocks the page. */
 
+import { drawsInSoftware, Pacer } from './pacer.ts';
 import { Painter } from './painter.ts';
 import type { FromPainter, ToPainter } from './protocol.ts';
 
@@ -14,9 +15,7 @@ self.onmessage = ({ data }: MessageEvent<ToPainter>) => {
     painter?.obey(data);
     return;
   }
-  try {
-    painter = new Painter(data.canvas, data.theme, data.devicePixelRatio, post);
-  } catch {
-    post({ type: 'unavailable' });
-  }
+  const software = drawsInSoftware();
+  if (software === undefined) post({ type: 'unavailable' });
+  else painter = new Painter(data.canvas, data.theme, new Pacer(software, data.devicePixelRatio), post);
 };

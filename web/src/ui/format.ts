@@ -28,7 +28,7 @@ export function wrap(angle_rad: number): number {
   return angle_rad - turn * Math.floor((angle_rad + Math.PI) / turn);
 }
 
-/** A whole number with commas at the thousands. The browser's own formatting takes 40 ms to begin. */
+/** A whole number with commas at the thousands. The browser's own formatting is slow to begin. */
 export function grouped(count: number): string {
   return String(count).replace(/\B(?=(\d{3})+$)/g, ',');
 }
