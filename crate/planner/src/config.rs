@@ -118,7 +118,7 @@ pub struct ForecastConfig {
     pub step_m: f64,
     /// How far inside the tilt limits a way stays, radians.
     pub tilt_margin_rad: f64,
-    /// As `tilt_margin_rad`, for a robot that finds no way with that one: to get away from where it should not be.
+    /// The least margin, radians: for ground that is the last choice, for turns, and for a robot that has to get away from where it should not be.
     pub escape_margin_rad: f64,
     /// How far from the robot that holds, metres; it leaves out what is uncertain, too.
     pub escape_m: f64,
@@ -273,7 +273,7 @@ impl Default for ForecastConfig {
         Self {
             step_m: 0.5,
             tilt_margin_rad: 0.09,
-            escape_margin_rad: 0.04,
+            escape_margin_rad: 0.06,
             escape_m: 2.5,
             deviations: 1.0,
             blind_radius_m: 7.5,

@@ -119,7 +119,7 @@ fn forecast_terms(subgoal: &Subgoal, config: &DecisionConfig, situation: &Situat
     let turn = situation
         .last_bearing_rad
         .map_or(0.0, |last| difference_rad(situation.pose.yaw_rad + subgoal.bearing_rad, last));
-    let detour_m = situation.dead_ends.detour_m(there, situation.goal_m);
+    let detour_m = situation.dead_ends.detour_m(there);
     Cost {
         direction: subgoal.bearing_rad.abs() / PI,
         distance: 0.5 + 0.5 * lost_m / situation.surface_radius_m,

@@ -1,64 +1,72 @@
 //! Memory of dead ends: what was learned of how far the goal is from places around the robot.
 //!
 //! The straight distance is all that is known of the way to the goal beyond what the scans saw. Where every way on turns
-//! out to be longer than that, the places from which those ways were looked for must be farther from the goal than the straight line
-//! says. That is kept, so that the robot does not return there for the same promise: learning real-time A* with a local
-//! search space (Koenig and Sun 2009), on cells of a metre.
+//! out to be longer than that, the places that it leads from are farther from the goal than the straight line says. That is kept, so
+//! that the robot does not return there for the same promise: learning real-time A* with a local search space (Koenig and
+//! Sun 2009).
 
 use glam::{DVec2, IVec2};
 
 use crate::elementary::floor;
 
-/// Side of a cell.
-const CELL_M: f64 = 1.0;
-/// Cells per side of the window that moves with the robot.
-const SIDE: i32 = 64;
+/// Places per side of the window that moves with the robot.
+const SIDE: i32 = 128;
 
 #[derive(Clone, Copy, Debug)]
-struct Cell {
+struct Known {
     index: IVec2,
-    to_goal_m: f64,
+    detour_m: f64,
 }
 
-/// How far the goal is from places around the robot, where that is more than the straight distance.
+/// How much farther the goal is from the places of the ways' lattice than the straight line says.
 #[derive(Clone, Debug)]
 pub(crate) struct DeadEnds {
-    cells: Vec<Option<Cell>>,
+    step_m: f64,
+    known: Vec<Option<Known>>,
 }
 
 impl DeadEnds {
-    pub(crate) fn new() -> Self {
-        Self { cells: vec![None; (SIDE * SIDE) as usize] }
+    /// For places `step_m` apart.
+    pub(crate) fn new(step_m: f64) -> Self {
+        Self { step_m, known: vec![None; (SIDE * SIDE) as usize] }
     }
 
     pub(crate) fn clear(&mut self) {
-        self.cells.fill(None);
+        self.known.fill(None);
     }
 
-    /// How much farther the goal is from a place than the straight line says, as far as is known.
-    pub(crate) fn detour_m(&self, position_m: DVec2, goal_m: DVec2) -> f64 {
-        let index = index_of(position_m);
-        match self.cells[slot_of(index)] {
-            Some(cell) if cell.index == index => (cell.to_goal_m - (goal_m - position_m).length()).max(0.0),
-            _ => 0.0,
-        }
+    /// How much farther the goal is from the place nearest to a point than the straight line says, as far as is known.
+    pub(crate) fn detour_m(&self, point_m: DVec2) -> f64 {
+        let index = self.index_of(point_m);
+        self.known[slot_of(index)].filter(|known| known.index == index).map_or(0.0, |known| known.detour_m)
     }
 
     /// Keeps that from a place the goal is at least `to_goal_m` away.
-    pub(crate) fn learn(&mut self, position_m: DVec2, goal_m: DVec2, to_goal_m: f64) {
-        if to_goal_m <= (goal_m - position_m).length() {
-            return;
+    pub(crate) fn learn(&mut self, place_m: DVec2, goal_m: DVec2, to_goal_m: f64) {
+        let detour_m = to_goal_m - (goal_m - place_m).length();
+        if detour_m > self.detour_m(place_m) {
+            let index = self.index_of(place_m);
+            self.known[slot_of(index)] = Some(Known { index, detour_m });
         }
-        let index = index_of(position_m);
-        let slot = &mut self.cells[slot_of(index)];
-        let known_m = slot.filter(|cell| cell.index == index).map_or(0.0, |cell| cell.to_goal_m);
-        *slot = Some(Cell { index, to_goal_m: to_goal_m.max(known_m) });
     }
-}
 
-fn index_of(position_m: DVec2) -> IVec2 {
-    let cells = position_m / CELL_M;
-    IVec2::new(floor(cells.x), floor(cells.y))
+    /// Puts the goal farther from the places within `radius_m` of a point.
+    pub(crate) fn raise(&mut self, point_m: DVec2, radius_m: f64, by_m: f64) {
+        let centre = self.index_of(point_m);
+        let reach = (radius_m / self.step_m) as i32;
+        for y in -reach..=reach {
+            for x in -reach..=reach {
+                let index = centre + IVec2::new(x, y);
+                let detour_m = self.detour_m(index.as_dvec2() * self.step_m) + by_m;
+                self.known[slot_of(index)] = Some(Known { index, detour_m });
+            }
+        }
+    }
+
+    fn index_of(&self, point_m: DVec2) -> IVec2 {
+        let steps = point_m / self.step_m;
+        IVec2::new(floor(steps.x + 0.5), floor(steps.y + 0.5))
+    }
 }
 
 fn slot_of(index: IVec2) -> usize {
@@ -69,28 +77,42 @@ fn slot_of(index: IVec2) -> usize {
 mod tests {
     use super::*;
 
+    const STEP_M: f64 = 0.5;
     const GOAL_M: DVec2 = DVec2::new(50.0, 0.0);
     const HERE_M: DVec2 = DVec2::new(0.5, 0.5);
 
     #[test]
-    fn what_was_learned_holds_in_its_cell_and_only_grows() {
-        let mut memory = DeadEnds::new();
-        assert!(memory.detour_m(HERE_M, GOAL_M) < 1e-12);
-        memory.learn(HERE_M, GOAL_M, 40.0);
-        assert!(memory.detour_m(HERE_M, GOAL_M) < 1e-12, "less than the straight distance is no news");
+    fn what_was_learned_holds_around_its_place_and_only_grows() {
+        let mut memory = DeadEnds::new(STEP_M);
         let straight_m = (GOAL_M - HERE_M).length();
-        memory.learn(HERE_M, GOAL_M, straight_m + 10.0);
-        memory.learn(HERE_M, GOAL_M, straight_m + 5.0);
-        assert!((memory.detour_m(HERE_M, GOAL_M) - 10.0).abs() < 1e-12);
-        assert!(memory.detour_m(HERE_M + DVec2::X, GOAL_M) < 1e-12);
+        memory.learn(HERE_M, GOAL_M, 40.0);
+        assert!(memory.detour_m(HERE_M) < 1e-12, "less than the straight distance is no news");
+        for (told_m, known_m) in [(10.0, 10.0), (5.0, 10.0), (12.0, 12.0)] {
+            memory.learn(HERE_M, GOAL_M, straight_m + told_m);
+            assert!((memory.detour_m(HERE_M) - known_m).abs() < 1e-12);
+        }
+        assert!((memory.detour_m(HERE_M + DVec2::splat(0.24)) - 12.0).abs() < 1e-12);
+        assert!(memory.detour_m(HERE_M + DVec2::X * STEP_M) < 1e-12);
         memory.clear();
-        assert!(memory.detour_m(HERE_M, GOAL_M) < 1e-12);
+        assert!(memory.detour_m(HERE_M) < 1e-12);
+    }
+
+    #[test]
+    fn what_is_raised_grows_each_time_and_only_around() {
+        let mut memory = DeadEnds::new(STEP_M);
+        memory.learn(HERE_M, GOAL_M, (GOAL_M - HERE_M).length() + 3.0);
+        for times in 1..=3 {
+            memory.raise(HERE_M, 1.0, 7.0);
+            assert!((memory.detour_m(HERE_M) - 3.0 - 7.0 * f64::from(times)).abs() < 1e-12);
+            assert!((memory.detour_m(HERE_M + DVec2::splat(1.0)) - 7.0 * f64::from(times)).abs() < 1e-12);
+            assert!(memory.detour_m(HERE_M + DVec2::X * 1.5) < 1e-12);
+        }
     }
 
     #[test]
     fn a_place_far_away_does_not_answer_for_another() {
-        let mut memory = DeadEnds::new();
+        let mut memory = DeadEnds::new(STEP_M);
         memory.learn(HERE_M, GOAL_M, 1e3);
-        assert!(memory.detour_m(HERE_M + DVec2::new(f64::from(SIDE) * CELL_M, 0.0), GOAL_M) < 1e-12);
+        assert!(memory.detour_m(HERE_M + DVec2::new(f64::from(SIDE) * STEP_M, 0.0)) < 1e-12);
     }
 }

@@ -66,6 +66,7 @@ mod planner;
 pub mod pose;
 pub mod profile;
 mod projection;
+mod pursuit;
 mod reduction;
 mod sectors;
 pub mod segments;

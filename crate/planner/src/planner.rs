@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use glam::{DVec2, DVec3, Vec3};
 
 use crate::angle::wrap_rad;
-use crate::config::{CostModel, PlannerConfig};
+use crate::config::{CostModel, DecisionConfig, PlannerConfig};
 use crate::controller::{Command, Controller};
 use crate::cost::{self, Situation};
 use crate::dead_ends::DeadEnds;
@@ -17,10 +17,11 @@ use crate::perception::{Effort, Perception, PredictedSurface};
 use crate::plane::Plane;
 use crate::pose::Pose;
 use crate::profile::{Column, ElevationProfile};
+use crate::pursuit::Pursuit;
 use crate::segments::{Segment, cut_segments};
 use crate::sparse_gp::GpError;
 use crate::subgoals::{Refusal, Subgoal, bearing_rad, carries_subgoals, spread_azimuths, world_position_m};
-use crate::ways::{WayPoint, Ways};
+use crate::ways::{Reached, WayPoint, Ways};
 
 /// Why the planner stands still for good.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -94,6 +95,9 @@ const FARTHEST_M: f64 = 1e6;
 const MOST_WAY_POINTS: usize = 256;
 /// What is known of dead ends is brought up to date when the robot has driven this far.
 const LEARN_SPACING_M: f64 = 0.5;
+/// What the robot cannot get to lies this much farther from the goal than it seemed, with the places around it.
+const IN_VAIN_M: f64 = 7.0;
+const IN_VAIN_RADIUS_M: f64 = 1.0;
 
 /// Scan, pose and goal in; subgoal and command out. No map: it keeps the ground that the last scans saw, where it has
 /// been, and its last choice.
@@ -110,7 +114,9 @@ pub struct Planner {
     ways: Ways,
     way: Vec<WayPoint>,
     dead_ends: DeadEnds,
+    pursuit: Pursuit,
     learned_at_m: Option<DVec2>,
+    ends: Vec<(Reached, f64)>,
     goal_m: Option<DVec2>,
     last_bearing_rad: Option<f64>,
     looked_ticks: u32,
@@ -136,8 +142,10 @@ impl Planner {
             controller: Controller::new(config.controller),
             ways: Ways::new(config.forecast, &config.limits, config.perception.surface_radius_m),
             way: Vec::with_capacity(MOST_WAY_POINTS),
-            dead_ends: DeadEnds::new(),
+            dead_ends: DeadEnds::new(config.forecast.step_m),
+            pursuit: Pursuit::default(),
             learned_at_m: None,
+            ends: Vec::new(),
             goal_m: None,
             last_bearing_rad: None,
             looked_ticks: 0,
@@ -185,6 +193,7 @@ impl Planner {
             self.goal_m = Some(goal_m);
             self.dead_ends.clear();
             self.ways.stand();
+            self.pursuit.stand();
             self.learned_at_m = None;
             self.last_bearing_rad = None;
             self.looked_ticks = 0;
@@ -260,6 +269,7 @@ impl Planner {
             self.looked_ticks += 1;
             self.last_bearing_rad = None;
             self.ways.stand();
+            self.pursuit.stand();
             let given_up = self.looked_ticks > self.config.decision.look_ticks;
             return if given_up { Status::Stopped(StopReason::NoSubgoal) } else { Status::Looking };
         };
@@ -273,6 +283,9 @@ impl Planner {
                 self.controller.drive(distance_m, subgoal.bearing_rad, self.config.period_s)
             }
             CostModel::Forecast => {
+                if let Some(place_m) = self.pursuit.head_for(&subgoal, pose) {
+                    self.dead_ends.raise(place_m, IN_VAIN_RADIUS_M, IN_VAIN_M);
+                }
                 self.learn(pose, goal_m);
                 self.follow(&subgoal, pose)
             }
@@ -297,7 +310,7 @@ impl Planner {
             last.position_m = end_m;
         }
         let ahead = self.ways.shortcut(&self.way);
-        self.ways.drive(reached, &ahead);
+        self.ways.drive(&ahead);
         let bearing = bearing_rad(pose, ahead.position_m);
         let way_m = subgoal.forecast.map_or(0.0, |f| f.way_m);
         let facing = if ahead.reverse { wrap_rad(bearing + PI) } else { bearing };
@@ -308,29 +321,23 @@ impl Planner {
         self.controller.slowed(command, self.ways.share_ahead(&self.way))
     }
 
-    /// Learns how far the goal is from here and from the places around by the best of the ways on.
+    /// Learns how far the goal is from the places around by the best of the ways on: to the goal itself or to where what was seen ends,
+    /// and from there as far as is known.
     fn learn(&mut self, pose: &Pose, goal_m: DVec2) {
         let here = pose.plan_m();
         if self.learned_at_m.is_some_and(|last| (last - here).length() < LEARN_SPACING_M) {
             return;
         }
         self.learned_at_m = Some(here);
-        let radius = self.config.perception.surface_radius_m;
-        let candidates = self.subgoals.iter().filter(|subgoal| subgoal.refusal.is_none());
-        let to_goal_m = candidates
-            .filter_map(|subgoal| {
-                let there = subgoal.position_m.truncate();
-                let forecast = subgoal.forecast?;
-                // Ground that is known to be steep beyond makes a detour of what lies before it.
-                let blocked_m = if forecast.end == ReachEnd::Tilt { radius - forecast.reach_m } else { 0.0 };
-                let beyond_m = (goal_m - there).length() + self.dead_ends.detour_m(there, goal_m);
-                Some(forecast.way_m + blocked_m + beyond_m)
-            })
-            .fold(f64::INFINITY, f64::min);
-        if to_goal_m.is_finite() {
-            for (place_m, cost_m) in self.ways.reached() {
-                self.dead_ends.learn(place_m, goal_m, to_goal_m - cost_m);
-            }
+        let left_m = |place_m: DVec2| (goal_m - place_m).length() + self.dead_ends.detour_m(place_m);
+        let frontier = self.ways.frontier().map(|(reached, place_m)| (reached, left_m(place_m)));
+        self.ends.clear();
+        self.ends.extend(frontier.chain(self.ways.to(goal_m).map(|reached| (reached, 0.0))));
+        let DecisionConfig { distance_weight, steepness_weight, climb_weight, .. } = self.config.decision;
+        // The prices of the subgoals' cost: a risk counts for the way to r_oc there, and 2 r_oc of distance for one.
+        let tilt_price = if distance_weight > 0.0 { 2.0 * steepness_weight / distance_weight } else { 0.0 };
+        for (place_m, to_goal_m) in self.ways.remaining(&self.ends, tilt_price, climb_weight) {
+            self.dead_ends.learn(place_m, goal_m, to_goal_m);
         }
     }
 
@@ -341,6 +348,10 @@ impl Planner {
         if let Some(goal) = self.goal_in_sight(pose, goal_m) {
             self.subgoals.push(goal);
             return Some(self.subgoals.len() - 1);
+        }
+        match self.pursuit.again(&self.ways, &mut self.way, pose) {
+            Ok(again) => self.subgoals.extend(again),
+            Err(place_m) => self.dead_ends.raise(place_m, IN_VAIN_RADIUS_M, IN_VAIN_M),
         }
         let situation = Situation {
             pose,

@@ -11,6 +11,7 @@ mod bridge;
 mod footing;
 mod headings;
 mod queue;
+mod remaining;
 mod route;
 #[cfg(test)]
 mod tests;
@@ -59,6 +60,7 @@ pub(crate) struct Ways {
     first_directions: Vec<DVec2>,
     costs_mm: Vec<u32>,
     came_from: Vec<u32>,
+    remaining_mm: Vec<u32>,
     queue: BucketQueue,
     here_m: DVec2,
     standing_height_m: f64,
@@ -66,8 +68,6 @@ pub(crate) struct Ways {
     caution: Caution,
     /// How the way that was last driven began.
     last: Option<First>,
-    /// The first direction that its way itself begins with, which the place that was headed for need not lie in.
-    begun: i32,
     /// Where it last began to change its mind, and how often it did so there.
     changed_at_m: DVec2,
     changes: i32,
@@ -76,6 +76,14 @@ pub(crate) struct Ways {
     /// The first direction that the robot faces, and how many it may turn to the left and to the right.
     facing: i32,
     turns: [i32; 2],
+}
+
+/// What a metre of a way costs beyond itself: at the tilt limit, and for each metre up or down; and what one in reverse costs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prices {
+    pub(crate) tilt: f64,
+    pub(crate) climb: f64,
+    pub(crate) reverse: f64,
 }
 
 /// How a way begins.
@@ -120,6 +128,7 @@ impl Ways {
             first_directions: (0..FIRST_DIRECTIONS).map(direction).collect(),
             costs_mm: vec![UNREACHED; states],
             came_from: vec![BEGIN; states],
+            remaining_mm: vec![UNREACHED; states],
             queue: BucketQueue::new(
                 LEAST_COST_MM,
                 FARTHEST_M * MILLIMETRES as usize / LEAST_COST_MM as usize,
@@ -130,7 +139,6 @@ impl Ways {
             standing_gradient: DVec2::ZERO,
             caution: Caution::Usual,
             last: None,
-            begun: 0,
             changed_at_m: DVec2::ZERO,
             changes: 0,
             retreat: None,
@@ -159,17 +167,14 @@ impl Ways {
     fn mind_standing(&mut self) {
         if self.standing_share() < CALM_SHARE {
             self.retreat = None;
-        } else if self.retreat.is_none()
-            && !self.standing_slopes().within(self.footing.allowed_to_escape(), 0.0)
-        {
+        } else if self.retreat.is_none() && !self.standing_slopes().within(self.footing.most(), 0.0) {
             self.turn_back();
         }
     }
 
-    /// How much of the slope that a way may have the robot stands on.
+    /// How much of the slope that a way may have at most the robot stands on.
     fn standing_share(&self) -> f64 {
-        let allowed = self.footing.allowed_in_turn(Caution::Usual, self.is_turning());
-        self.standing_slopes().share_of(allowed)
+        self.standing_slopes().share_of(self.footing.most())
     }
 
     fn standing_slopes(&self) -> Slopes {
@@ -198,10 +203,9 @@ impl Ways {
         self.expand();
     }
 
-    /// Remembers how the way to a place begins, on which the robot heads for `point`. Where it turns back on steep ground, what lay
+    /// Remembers how the way begins on which the robot heads for `point`. Where it turns back on steep ground, what lay
     /// ahead costs more from now on.
-    pub(crate) fn drive(&mut self, reached: Option<Reached>, point: &WayPoint) {
-        self.begun = reached.map_or(self.facing, |reached| self.first_of(reached));
+    pub(crate) fn drive(&mut self, point: &WayPoint) {
         let next = {
             let way = point.position_m - self.here_m;
             let facing = if point.reverse { -way } else { way };
@@ -229,36 +233,48 @@ impl Ways {
 
     /// Dijkstra's search from the states that [`begin`](Self::begin) reached.
     fn expand(&mut self) {
-        let step_mm = STEPS.map(|step| step.as_dvec2().length() * self.config.step_m * MILLIMETRES);
-        let turn_mm = (self.config.turn_cost_m * MILLIMETRES) as u32;
+        let prices = Prices {
+            tilt: self.config.tilt_price,
+            climb: self.config.climb_price,
+            reverse: self.config.reverse_price,
+        };
         while let Some((state, cost_mm)) = self.queue.pop() {
             if self.costs_mm[state as usize] != cost_mm {
                 continue;
             }
-            let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
-            let offset = self.footing.offset(place);
-            for turned in [(heading + 1) % HEADINGS, (heading + HEADINGS - 1) % HEADINGS] {
-                if self.footing.risk(offset, turned).is_finite() {
-                    self.reach(place * HEADINGS + turned, state, cost_mm.saturating_add(turn_mm));
-                }
-            }
-            for (forward, price) in [(true, 1.0), (false, self.config.reverse_price)] {
-                if let Some((to, risk)) = self.footing.drive(offset, heading, forward) {
-                    let price_mm = price * step_mm[heading] * (1.0 + self.config.tilt_price * risk)
-                        + self.climb_cost_m(self.footing.climb_m(offset, to)) * MILLIMETRES;
-                    let next = self.footing.index(to) * HEADINGS + heading;
-                    self.reach(next, state, cost_mm.saturating_add(price_mm as u32));
-                }
-            }
-            if let Some((to, price_m)) = self.cross_gap(offset, heading) {
-                let next = self.footing.index(to) * HEADINGS + heading;
-                self.reach(next, state, cost_mm.saturating_add((price_m * MILLIMETRES) as u32));
+            for (next, price_mm) in self.steps(state, &prices).into_iter().flatten() {
+                self.reach(next, state, cost_mm.saturating_add(price_mm));
             }
         }
     }
 
-    fn climb_cost_m(&self, climb_m: f64) -> f64 {
-        self.config.climb_price * climb_m
+    /// The states that one step leads to, and what each costs: both turns, a drive forward and one in reverse, and one across unseen
+    /// ground ahead.
+    fn steps(&self, state: u32, prices: &Prices) -> [Option<(usize, u32)>; 5] {
+        let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
+        let offset = self.footing.offset(place);
+        let turn = |turned: usize| {
+            let price_mm = (self.config.turn_cost_m * MILLIMETRES) as u32;
+            self.footing.risk(offset, turned).is_finite().then_some((place * HEADINGS + turned, price_mm))
+        };
+        let step_mm = STEPS[heading].as_dvec2().length() * self.config.step_m * MILLIMETRES;
+        let drive = |forward: bool, price: f64| {
+            let (to, risk) = self.footing.drive(offset, heading, forward)?;
+            let price_mm = price * step_mm * (1.0 + prices.tilt * risk)
+                + prices.climb * self.footing.climb_m(offset, to) * MILLIMETRES;
+            Some((self.footing.index(to) * HEADINGS + heading, price_mm as u32))
+        };
+        let gap = || {
+            let (to, price_m) = self.cross_gap(offset, heading, prices)?;
+            Some((self.footing.index(to) * HEADINGS + heading, (price_m * MILLIMETRES) as u32))
+        };
+        [
+            turn((heading + 1) % HEADINGS),
+            turn((heading + HEADINGS - 1) % HEADINGS),
+            drive(true, 1.0),
+            drive(false, prices.reverse),
+            gap(),
+        ]
     }
 
     fn reach(&mut self, state: usize, from: u32, cost_mm: u32) {

@@ -6,7 +6,8 @@ use glam::{DVec2, IVec2};
 
 use super::bridge::Station;
 use super::headings::{HEADINGS, nearest};
-use super::{BEGIN, FIRST_DIRECTIONS, First, JOIN_M, MILLIMETRES, Reached, Ways};
+use super::{BEGIN, FIRST_DIRECTIONS, First, JOIN_M, MILLIMETRES, Ways};
+use crate::slopes::Slopes;
 
 /// A way begins at a place at least this far from the robot.
 const FIRST_STEP_M: f64 = 0.3;
@@ -19,14 +20,18 @@ impl Ways {
     /// From where the robot stands straight to the first known places in each direction that it may turn to.
     pub(super) fn begin(&mut self) {
         let count = FIRST_DIRECTIONS as i32;
-        let begun = self.begun_turns();
+        let standing = self.standing_slopes();
         let most_change_m = self.config.change_cost_m * f64::from(1 << self.changes);
         for (side, sign) in [1, -1].into_iter().enumerate() {
             self.turns[side] = count / 2;
             for turn in 0..=count / 2 {
                 let facing = self.first_direction(self.facing + sign * turn);
-                let allowed = self.footing.allowed_in_turn(self.caution, turn <= begun[side]);
-                if turn > 0 && self.standing_gradient.dot(facing.perp()).abs() > allowed.across {
+                let allowed = self.footing.most();
+                // Where it stands on more than its limits allow, a turn may still not make the pitch worse.
+                let slopes = Slopes::facing(self.standing_gradient, facing);
+                let steeper =
+                    slopes.across > allowed.across || slopes.along > allowed.along.max(standing.along);
+                if turn > 0 && steeper {
                     self.turns[side] = turn - 1;
                     break;
                 }
@@ -43,36 +48,12 @@ impl Ways {
         }
     }
 
-    /// How many directions to the left and to the right are left of the turn that the last way began with. On ground at the limit,
-    /// where each attitude says something else of it, a turn that may be begun now may be refused half-way; the robot would turn
-    /// to and fro.
-    fn begun_turns(&self) -> [i32; 2] {
-        let Some(last) = self.last else { return [0; 2] };
-        let turns = [self.turn_to(self.begun), self.turn_to(index_of(last.facing))];
-        [1, -1].map(|side| turns.map(|turn| side * turn).into_iter().fold(0, i32::max))
-    }
-
-    /// The first direction in which the way to a place begins.
-    pub(super) fn first_of(&self, reached: Reached) -> i32 {
-        let mut state = reached.state;
-        while state < BEGIN {
-            state = self.came_from[state as usize];
-        }
-        (state - BEGIN) as i32
-    }
-
     /// How many directions the robot turns to the left, or if negative to the right, until it faces one. The controller turns
     /// the shorter way.
     fn turn_to(&self, index: i32) -> i32 {
         let count = FIRST_DIRECTIONS as i32;
         let left = (index - self.facing).rem_euclid(count);
         if left <= count / 2 { left } else { left - count }
-    }
-
-    /// Whether the robot is turning on the spot.
-    pub(super) fn is_turning(&self) -> bool {
-        let facing = self.first_direction(self.facing);
-        self.last.is_some_and(|last| last.facing.dot(facing) < SAME_COSINE)
     }
 
     /// Whether a way that begins like this begins as the last one meant to.
@@ -140,7 +121,7 @@ impl Ways {
         let price = if first.reverse { self.config.reverse_price } else { 1.0 };
         let cost_m = cost_m
             + price * distance_m * (1.0 + self.config.tilt_price * risk)
-            + self.climb_cost_m((end.height_m - start.height_m).abs());
+            + self.config.climb_price * (end.height_m - start.height_m).abs();
         let state = self.footing.index(offset) * HEADINGS + heading;
         let from = BEGIN + index.rem_euclid(FIRST_DIRECTIONS as i32) as u32;
         self.reach(state, from, (cost_m * MILLIMETRES) as u32);

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, IVec2};
 
-use super::Ways;
+use super::{Prices, Ways};
 use crate::slopes::Slopes;
 
 /// Unseen ground that is driven over between two places, and what a metre of it costs.
@@ -11,7 +11,7 @@ const GAP_PRICE: f64 = 1.5;
 
 impl Ways {
     /// The place beyond unseen ground that a drive along a heading leads to, and what that costs.
-    pub(super) fn cross_gap(&self, from: IVec2, heading: usize) -> Option<(IVec2, f64)> {
+    pub(super) fn cross_gap(&self, from: IVec2, heading: usize, prices: &Prices) -> Option<(IVec2, f64)> {
         let to = self.footing.beyond_gap(from, heading, GAP_M)?;
         let (begin, end) = (self.footing.plane(from)?, self.footing.plane(to)?);
         let way = self.footing.position_m(to) - self.footing.position_m(from);
@@ -20,25 +20,19 @@ impl Ways {
         let end = Station { distance_m, height_m: end.height_m, gradient: end.gradient };
         let risk = self.risk_between(&start, &end, way / distance_m);
         let climb_m = (end.height_m - start.height_m).abs();
-        let price_m = GAP_PRICE * distance_m * (1.0 + self.config.tilt_price * risk);
-        risk.is_finite().then_some((to, price_m + self.climb_cost_m(climb_m)))
+        let price_m = GAP_PRICE * distance_m * (1.0 + prices.tilt * risk);
+        risk.is_finite().then_some((to, price_m + prices.climb * climb_m))
     }
 
     /// Mean risk along a straight line over ground that was not seen, a cubic through both heights and slopes; infinite where
     /// it is not safe.
     pub(super) fn risk_between(&self, from: &Station, to: &Station, direction: DVec2) -> f64 {
-        let allowed = *self.footing.allowed(self.caution, to.distance_m);
         let count = (to.distance_m / self.config.step_m).ceil().max(1.0) as usize;
-        let mut sum = 0.0;
-        for k in 1..=count {
+        let risk_at = |k: usize| {
             let slopes = from.slopes_towards(to, direction, k as f64 / count as f64);
-            if !slopes.within(&allowed, 0.0) {
-                return f64::INFINITY;
-            }
-            let share = slopes.share_of(self.footing.limits());
-            sum += share * share;
-        }
-        sum / count as f64
+            self.footing.risk_on(&slopes, 0.0, self.caution, to.distance_m)
+        };
+        (1..=count).map(risk_at).sum::<f64>() / count as f64
     }
 }
 

@@ -32,10 +32,10 @@ const UNKNOWN: Place = Place { plane: None, risk: [f32::INFINITY; HEADINGS / 2] 
 #[derive(Clone, Debug)]
 pub(crate) struct Footing {
     config: ForecastConfig,
-    /// The tilt limits, and what of them may be used.
+    /// The tilt limits, what of them may be used, and the most that may be where there is nothing better.
     limits: Slopes,
     allowed: Slopes,
-    allowed_near: Slopes,
+    most: Slopes,
     half: i32,
     centre: IVec2,
     places: Vec<Place>,
@@ -50,6 +50,12 @@ pub(crate) struct Footing {
 const MOST_MISTRUSTED: usize = 128;
 const MISTRUSTED_RADIUS_M: f64 = 0.6;
 const MISTRUST_RISK: f32 = 2.0;
+/// Places this near the border of the lattice are its horizon; those beside them lie on it, too.
+const HORIZON: i32 = 2;
+/// Ground that keeps no more than the margin for an escape, with this share of the deviations, is the last choice: it counts as this much
+/// more risk.
+const TIGHT_SHARE: f64 = 0.5;
+const TIGHT_RISK: f64 = 2.0;
 /// Standard deviation of a slope between wheels under which returns were averaged.
 const WHEELS_DEVIATION: f64 = 0.05;
 
@@ -78,7 +84,7 @@ impl Footing {
             config,
             limits: Slopes::of_limits(limits, 0.0),
             allowed: Slopes::of_limits(limits, config.tilt_margin_rad),
-            allowed_near: Slopes::of_limits(limits, config.escape_margin_rad),
+            most: Slopes::of_limits(limits, config.escape_margin_rad),
             half,
             centre: IVec2::ZERO,
             places: vec![UNKNOWN; side * side],
@@ -138,26 +144,18 @@ impl Footing {
 
     /// Judges how the robot, which stands at `here_m`, would stand at the places looked at.
     pub(crate) fn judge(&mut self, here_m: DVec2, caution: Caution) {
-        let usual = (self.allowed, self.config.deviations);
-        let near = match caution {
-            Caution::Usual => usual,
-            Caution::Escape => (self.allowed_near, 0.0),
-        };
-        let near_squared = self.config.escape_m * self.config.escape_m;
         for index in 0..self.places.len() {
             let offset = self.offset(index);
             let known = self.planes[self.slot(self.centre + offset)];
             self.places[index] = match known.plane {
                 Some(plane) if known.index == self.centre + offset => {
                     let place_m = self.position_m(offset);
-                    let away = place_m - here_m;
-                    let (allowed, deviations) =
-                        if away.length_squared() < near_squared { near } else { usual };
+                    let away_m = (place_m - here_m).length();
                     let mistrust = match caution {
                         Caution::Usual => self.mistrust_risk(place_m),
                         Caution::Escape => 0.0,
                     };
-                    let risk = self.risk_of(&plane, &known.on_wheels, &allowed, deviations);
+                    let risk = self.risk_of(&plane, &known.on_wheels, caution, away_m);
                     Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust) }
                 }
                 _ => UNKNOWN,
@@ -169,20 +167,31 @@ impl Footing {
         &self,
         plane: &Plane,
         on_wheels: &[Option<Slopes>; HEADINGS / 2],
-        allowed: &Slopes,
-        deviations: f64,
+        caution: Caution,
+        away_m: f64,
     ) -> [f32; HEADINGS / 2] {
         core::array::from_fn(|axis| {
             let (slopes, deviation) = match on_wheels[axis] {
                 Some(slopes) => (slopes, WHEELS_DEVIATION),
                 None => (Slopes::facing(plane.gradient, DIRECTIONS[axis]), plane.gradient_deviation),
             };
-            if !slopes.within(allowed, deviations * deviation) {
-                return f32::INFINITY;
-            }
-            let share = slopes.share_of(&self.limits);
-            (share * share) as f32
+            self.risk_on(&slopes, deviation, caution, away_m) as f32
         })
+    }
+
+    /// The risk of standing on slopes with a standard deviation at a distance from the robot; infinite where that is not safe.
+    pub(crate) fn risk_on(&self, slopes: &Slopes, deviation: f64, caution: Caution, away_m: f64) -> f64 {
+        let escapes = caution == Caution::Escape && away_m < self.config.escape_m;
+        let (allowed, deviations) =
+            if escapes { (&self.most, 0.0) } else { (&self.allowed, self.config.deviations) };
+        let share = slopes.share_of(&self.limits);
+        if slopes.within(allowed, deviations * deviation) {
+            share * share
+        } else if slopes.within(&self.most, TIGHT_SHARE * deviations * deviation) {
+            share * share + TIGHT_RISK
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// The tilt limits as slopes.
@@ -190,20 +199,9 @@ impl Footing {
         &self.limits
     }
 
-    /// What of the limits may be used at a distance from the robot, as slopes.
-    pub(crate) fn allowed(&self, caution: Caution, distance_m: f64) -> &Slopes {
-        let near = caution == Caution::Escape && distance_m < self.config.escape_m;
-        if near { &self.allowed_near } else { &self.allowed }
-    }
-
-    /// What of the limits may be used to get away, as slopes.
-    pub(crate) fn allowed_to_escape(&self) -> &Slopes {
-        &self.allowed_near
-    }
-
-    /// What of the limits may be used in a turn on the spot, as slopes.
-    pub(crate) fn allowed_in_turn(&self, caution: Caution, has_begun: bool) -> &Slopes {
-        if has_begun { &self.allowed_near } else { self.allowed(caution, 0.0) }
+    /// The most of the limits that may be used, as slopes.
+    pub(crate) fn most(&self) -> &Slopes {
+        &self.most
     }
 
     /// How many places there are.
@@ -241,6 +239,15 @@ impl Footing {
         let cells = point_m / self.config.step_m;
         let offset = IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5)) - self.centre;
         self.holds(offset).then_some(offset)
+    }
+
+    /// Whether what was seen ends at a place: at the border of the lattice, or with nothing known of a place beside it.
+    pub(crate) fn is_frontier(&self, offset: IVec2) -> bool {
+        let inner = self.half - HORIZON;
+        offset.length_squared() > inner * inner || {
+            let beside = (-1..=1).flat_map(|y| (-1..=1).map(move |x| offset + IVec2::new(x, y)));
+            beside.into_iter().any(|place| self.plane(place).is_none())
+        }
     }
 
     /// Where a place lies in the world, seen from above.

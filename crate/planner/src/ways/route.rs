@@ -131,7 +131,7 @@ impl Ways {
             risk += at.map_or(f64::INFINITY, |at| self.footing.risk(at, heading));
         }
         let price = if point.reverse { self.config.reverse_price } else { 1.0 };
-        price * length_m * (1.0 + self.config.tilt_price * risk / count) + self.climb_cost_m(climb_m)
+        price * length_m * (1.0 + self.config.tilt_price * risk / count) + self.config.climb_price * climb_m
     }
 
     /// The share of the tilt limits that the robot takes up or soon will on a way, in slope.
@@ -155,14 +155,5 @@ impl Ways {
             }
         }
         share
-    }
-
-    /// Every place that was reached, and what getting there costs.
-    pub(crate) fn reached(&self) -> impl Iterator<Item = (DVec2, f64)> {
-        self.costs_mm.chunks_exact(HEADINGS).enumerate().filter_map(|(place, costs)| {
-            let cost_mm = costs.iter().copied().min().filter(|&cost| cost != UNREACHED)?;
-            let position_m = self.footing.position_m(self.footing.offset(place));
-            Some((position_m, f64::from(cost_mm) / MILLIMETRES))
-        })
     }
 }

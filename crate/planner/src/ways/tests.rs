@@ -36,7 +36,7 @@ fn set_out(ways: &mut Ways, goal_m: DVec2, way: &mut Vec<WayPoint>) -> WayPoint 
     let reached = ways.to(goal_m).unwrap();
     ways.follow(reached, way);
     let ahead = ways.shortcut(way);
-    ways.drive(Some(reached), &ahead);
+    ways.drive(&ahead);
     ahead
 }
 
@@ -145,37 +145,78 @@ fn on_a_slope_too_steep_to_turn_on_the_way_back_is_in_reverse() {
 }
 
 #[test]
-fn a_turn_that_has_begun_may_be_finished() {
-    // The robot faces up a slope and wants to go back down; across the slope it rolls as far as a way may.
+fn a_turn_keeps_the_least_margin_in_roll_and_in_pitch() {
     let limits = PlannerConfig::default().limits;
-    let roll_rad = limits.roll_rad - PlannerConfig::default().forecast.tilt_margin_rad;
-    let slope = |excess_rad: f64| DVec2::new(libm::tan(roll_rad + excess_rad), 0.0);
-    let knoll =
-        |place_m: DVec2| plane(place_m, if place_m.length() < 0.6 { slope(0.0) } else { DVec2::ZERO });
-    // What attitude it has where it has turned by an angle on ground that is a little steeper.
-    let turned = |yaw_rad: f64, excess_rad: f64| {
-        let (sin, cos) = libm::sincos(yaw_rad);
-        let gradient = slope(excess_rad);
-        let along = gradient.x * cos;
-        let roll_rad = libm::atan(-gradient.x * sin / libm::sqrt(1.0 + along * along));
-        Pose { yaw_rad, ..pose(roll_rad, libm::atan(along)) }
-    };
-    let behind_m = DVec2::new(-4.0, 0.5);
+    let least_rad = PlannerConfig::default().forecast.escape_margin_rad;
     let mut ways = ways();
-    let mut way = Vec::new();
-    ways.search(&knoll, &turned(0.0, -0.02));
-    let ahead = set_out(&mut ways, behind_m, &mut way);
-    assert!(!ahead.reverse && ahead.position_m.y > 0.0, "it turns to the left: {ahead:?}");
-    // Half-way round the ground is felt to be steeper than it was at first: still to the left, and forward.
-    for (yaw_rad, excess_rad) in [(0.8, 0.01), (1.2, 0.02), (1.7, 0.02), (2.4, 0.02)] {
-        ways.search(&knoll, &turned(yaw_rad, excess_rad));
-        let ahead = set_out(&mut ways, behind_m, &mut way);
-        assert!(!ahead.reverse && ways.may_turn_to(behind_m), "at {yaw_rad} rad: {ahead:?}");
+    // Half-way between up and down a slope the robot rolls.
+    for (excess_rad, may_turn) in [(-0.01, true), (0.01, false)] {
+        ways.search(&level, &pose(0.0, limits.roll_rad - least_rad + excess_rad));
+        assert_eq!(ways.may_turn_around(), may_turn);
     }
-    // A turn that was not begun before is refused there.
-    let mut other = self::ways();
-    other.search(&knoll, &turned(0.8, 0.02));
-    assert!(!other.may_turn_to(behind_m));
+    // Inside both limits, on a slope that is steeper than either: only towards its foot does the pitch grow.
+    ways.search(&level, &pose(0.28, -0.70));
+    let down_m = -ways.standing_gradient;
+    assert!(down_m.length() > libm::tan(limits.pitch_rad - least_rad));
+    assert!(!ways.may_turn_to(down_m));
+    assert!(ways.may_turn_to(DVec2::from_angle(-0.1 * down_m.y.signum())));
+}
+
+#[test]
+fn ground_with_the_least_margin_is_crossed_where_nothing_else_leads_on() {
+    let config = PlannerConfig::default();
+    let steep = libm::tan(config.limits.pitch_rad - config.forecast.escape_margin_rad - 0.005);
+    let slope = |place_m: DVec2, half_width_m: f64| {
+        let on_bank = (1.9..3.1).contains(&place_m.x) && place_m.y.abs() < half_width_m;
+        plane(place_m, if on_bank { DVec2::new(steep, 0.0) } else { DVec2::ZERO })
+    };
+    let mut way = Vec::new();
+    for (half_width_m, crosses) in [(2.0, false), (20.0, true)] {
+        let mut ways = ways();
+        ways.search(&|place_m| slope(place_m, half_width_m), &pose(0.0, 0.0));
+        ways.follow(ways.to(DVec2::new(5.0, 0.0)).unwrap(), &mut way);
+        let steep_places =
+            way.iter().filter(|point| slope(point.position_m, half_width_m).unwrap().gradient.x > 0.1);
+        assert_eq!(steep_places.count() > 0, crosses, "{half_width_m} m: {way:?}");
+    }
+}
+
+#[test]
+fn the_frontier_is_where_what_was_seen_ends_and_not_right_here() {
+    let mut ways = ways();
+    let edge = |place_m: DVec2| level(place_m).filter(|_| place_m.x < 3.1);
+    let here_m = DVec3::new(2.0, 0.0, 0.0);
+    ways.search(&edge, &Pose { position_m: here_m, ..pose(0.0, 0.0) });
+    let frontier: Vec<DVec2> = ways.frontier().map(|(_, place_m)| place_m).collect();
+    assert!(frontier.iter().any(|place_m| place_m.x > 2.9 && place_m.y.abs() < 2.0), "{frontier:?}");
+    for place_m in &frontier {
+        let away_m = (*place_m - here_m.truncate()).length();
+        assert!(place_m.x > 2.9 && away_m > 1.2 || away_m > 5.0, "{place_m}");
+    }
+}
+
+#[test]
+fn what_remains_leads_out_of_a_pocket_and_grows_towards_its_end() {
+    // Walls ahead and on both sides; the goal is behind the wall ahead.
+    let pocket = |place_m: DVec2| {
+        let wall = (2.4..3.6).contains(&place_m.x) && place_m.y.abs() < 4.1
+            || (3.4..4.6).contains(&place_m.y.abs()) && (-2.1..3.6).contains(&place_m.x);
+        plane(place_m, if wall { DVec2::new(2.0, 2.0) } else { DVec2::ZERO })
+    };
+    let goal_m = DVec2::new(20.0, 0.0);
+    let mut ways = ways();
+    ways.search(&pocket, &pose(0.0, 0.0));
+    let ends: Vec<_> = ways.frontier().map(|(end, place_m)| (end, (goal_m - place_m).length())).collect();
+    let remaining: Vec<(DVec2, f64)> = ways.remaining(&ends, 2.0, 1.0).collect();
+    let left_m = |place_m: DVec2| remaining.iter().find(|(other_m, _)| *other_m == place_m).unwrap().1;
+    // Out, along a side, and on: 2.5 m back, some 4 m aside, and then as far as from there.
+    let out_m = (DVec2::new(-2.5, 3.5) - goal_m).length() + 2.5 + 3.5;
+    assert!(left_m(DVec2::ZERO) > out_m && left_m(DVec2::ZERO) < out_m + 6.0, "{}", left_m(DVec2::ZERO));
+    assert!(left_m(DVec2::new(2.0, 0.0)) > left_m(DVec2::ZERO) + 1.5);
+    for (end, told_m) in &ends {
+        let place_m = ways.frontier().find(|(other, _)| other == end).unwrap().1;
+        assert!(left_m(place_m) <= told_m + 2e-3);
+    }
 }
 
 #[test]
@@ -289,7 +330,7 @@ proptest! {
         let Some(reached) = ways.to(DVec2::new(cos, sin) * 6.0) else { return Ok(()) };
         let mut way = Vec::new();
         let forecast = ways.follow(reached, &mut way);
-        let margin_rad = PlannerConfig::default().forecast.tilt_margin_rad;
+        let margin_rad = PlannerConfig::default().forecast.escape_margin_rad;
         let limits = PlannerConfig::default().limits;
         prop_assert!(forecast.max_roll_rad <= limits.roll_rad - margin_rad + 1e-6, "{forecast:?}");
         prop_assert!(forecast.max_pitch_rad <= limits.pitch_rad - margin_rad + 1e-6, "{forecast:?}");
