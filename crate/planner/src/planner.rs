@@ -349,7 +349,7 @@ impl Planner {
             self.subgoals.push(goal);
             return Some(self.subgoals.len() - 1);
         }
-        match self.pursuit.again(&self.ways, &mut self.way, pose) {
+        match self.pursuit.again(&self.ways, &mut self.way, pose, &self.config.mount) {
             Ok(again) => self.subgoals.extend(again),
             Err(place_m) => self.dead_ends.raise(place_m, IN_VAIN_RADIUS_M, IN_VAIN_M),
         }

@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use crate::forecast::Forecast;
-use crate::pose::Pose;
+use crate::pose::{Pose, SensorMount};
 use crate::subgoals::{Subgoal, bearing_rad};
 use crate::ways::{WayPoint, Ways};
 
@@ -32,6 +32,7 @@ impl Pursuit {
         ways: &Ways,
         way: &mut Vec<WayPoint>,
         pose: &Pose,
+        mount: &SensorMount,
     ) -> Result<Option<Subgoal>, DVec2> {
         let Some(last) = self.subgoal else { return Ok(None) };
         let place_m = last.position_m.truncate();
@@ -45,13 +46,16 @@ impl Pursuit {
             return Err(place_m);
         };
         let end = last.forecast.unwrap_or_default().end;
+        let (height_m, bearing_rad) = (ways.height_m(reached), bearing_rad(pose, place_m));
         Ok(Some(Subgoal {
             segment: None,
-            position_m: place_m.extend(ways.height_m(reached)),
-            bearing_rad: bearing_rad(pose, place_m),
+            azimuth_rad: bearing_rad,
+            elevation_rad: libm::atan2(height_m - pose.position_m.z - mount.height_m, away_m),
+            position_m: place_m.extend(height_m),
+            bearing_rad,
             forecast: Some(Forecast { reach_m: away_m, end, ..ways.follow(reached, way) }),
+            refusal: None,
             cost: None,
-            ..last
         }))
     }
 
@@ -86,6 +90,10 @@ mod tests {
         Pose { position_m: DVec3::new(x_m, 0.0, 0.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 }
     }
 
+    fn mount() -> SensorMount {
+        PlannerConfig::default().mount
+    }
+
     fn subgoal(x_m: f64) -> Subgoal {
         Subgoal {
             segment: Some(3),
@@ -114,16 +122,16 @@ mod tests {
     #[test]
     fn what_it_heads_for_stays_a_candidate_until_it_is_there() {
         let (mut pursuit, mut way) = (Pursuit::default(), Vec::new());
-        assert_eq!(pursuit.again(&ways(9.0, &pose(0.0)), &mut way, &pose(0.0)), Ok(None));
+        assert_eq!(pursuit.again(&ways(9.0, &pose(0.0)), &mut way, &pose(0.0), &mount()), Ok(None));
         assert_eq!(pursuit.head_for(&subgoal(5.0), &pose(0.0)), None);
         for x_m in [0.5, 2.0, 4.0] {
             let here = pose(x_m);
-            let again = pursuit.again(&ways(9.0, &here), &mut way, &here).unwrap().unwrap();
+            let again = pursuit.again(&ways(9.0, &here), &mut way, &here, &mount()).unwrap().unwrap();
             assert!(again.position_m == subgoal(5.0).position_m && again.segment.is_none());
             let forecast = again.forecast.unwrap();
             assert!((forecast.reach_m - (5.0 - x_m)).abs() < 1e-12 && forecast.way_m > 0.5);
         }
-        assert_eq!(pursuit.again(&ways(9.0, &pose(4.6)), &mut way, &pose(4.6)), Ok(None));
+        assert_eq!(pursuit.again(&ways(9.0, &pose(4.6)), &mut way, &pose(4.6), &mount()), Ok(None));
     }
 
     #[test]
@@ -131,8 +139,8 @@ mod tests {
         let (mut pursuit, mut way) = (Pursuit::default(), Vec::new());
         pursuit.head_for(&subgoal(5.0), &pose(0.0));
         let short = ways(3.0, &pose(0.0));
-        assert_eq!(pursuit.again(&short, &mut way, &pose(0.0)), Err(DVec2::new(5.0, 0.0)));
-        assert_eq!(pursuit.again(&short, &mut way, &pose(0.0)), Ok(None));
+        assert_eq!(pursuit.again(&short, &mut way, &pose(0.0), &mount()), Err(DVec2::new(5.0, 0.0)));
+        assert_eq!(pursuit.again(&short, &mut way, &pose(0.0), &mount()), Ok(None));
     }
 
     #[test]

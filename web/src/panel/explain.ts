@@ -14,7 +14,8 @@ export const VERDICT_WORDS: Record<Verdict, string> = {
 
 /** Where a subgoal is. */
 export function subgoalTitle(one: Subgoal): string {
-  return isGoal(one) ? 'The goal itself' : `Subgoal ${direction(one.azimuth_rad)}`;
+  if (isGoal(one)) return 'The goal itself';
+  return one.segment === undefined ? 'Where it already heads' : `Subgoal ${direction(one.azimuth_rad)}`;
 }
 
 export function subgoalState(one: Subgoal): string {
@@ -79,7 +80,7 @@ export function segmentReason(one: Segment, { demands, occupancy_radius_m }: Ses
   }
 }
 
-/** The goal itself stands on no segment. */
+/** The goal itself stands on no segment and is not weighed. */
 export function isGoal(one: Subgoal): boolean {
-  return one.segment === undefined;
+  return one.segment === undefined && one.terms === undefined;
 }
