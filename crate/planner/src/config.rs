@@ -118,9 +118,9 @@ pub struct ForecastConfig {
     pub step_m: f64,
     /// How far inside the tilt limits a way stays, radians.
     pub tilt_margin_rad: f64,
-    /// The least margin, radians: for ground that is the last choice, for turns, and for a robot that has to get away from where it should not be.
+    /// The least margin, radians: for ground that is the last choice, for turns on the spot, and for a robot that has to get away.
     pub escape_margin_rad: f64,
-    /// How far from the robot that holds, metres; it leaves out what is uncertain, too.
+    /// How far from a robot that finds no way at all the least margin suffices, without what is uncertain, metres.
     pub escape_m: f64,
     /// Standard deviations of the predicted slope added to it before it is compared.
     pub deviations: f64,

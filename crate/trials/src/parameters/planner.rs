@@ -214,9 +214,14 @@ pub(super) const GROUPS: &[Group] = &[
                 "escape_margin_rad",
                 "rad",
                 Number(0.0, 0.4),
-                "The same for a robot that finds no way with that one.",
+                "The least margin: for ground that is the last choice, for turns on the spot, and to get away.",
             ),
-            open("escape_m", "m", Number(0.0, 10.0), "How far from the robot that holds."),
+            open(
+                "escape_m",
+                "m",
+                Number(0.0, 10.0),
+                "How far from a robot that finds no way at all the least margin suffices.",
+            ),
             open(
                 "deviations",
                 "",
