@@ -68,6 +68,10 @@ pub(crate) struct Ways {
     caution: Caution,
     /// How the way that was last driven began.
     last: Option<First>,
+    /// Whether it was last driven in reverse, also if the robot has stood since.
+    came_in_reverse: Option<bool>,
+    /// How much steeper it stands than at the search before, as a share of the tilt limits.
+    steeper_share: f64,
     /// Where it last began to change its mind, and how often it did so there.
     changed_at_m: DVec2,
     changes: i32,
@@ -139,6 +143,8 @@ impl Ways {
             standing_gradient: DVec2::ZERO,
             caution: Caution::Usual,
             last: None,
+            came_in_reverse: None,
+            steeper_share: 0.0,
             changed_at_m: DVec2::ZERO,
             changes: 0,
             retreat: None,
@@ -149,11 +155,13 @@ impl Ways {
 
     /// Finds the ways from `pose` over the ground that was seen.
     pub(crate) fn search(&mut self, ground: &dyn SeenGround, pose: &Pose) {
+        let before = self.standing_slopes().share_of(self.footing.limits());
         self.here_m = pose.plan_m();
         self.standing_height_m = pose.position_m.z;
         self.facing = (wrap_rad(pose.yaw_rad) / TAU * FIRST_DIRECTIONS as f64).round() as i32;
         let up = pose.world_from_robot().z_axis;
         self.standing_gradient = -up.truncate() / up.z;
+        self.steeper_share = self.standing_slopes().share_of(self.footing.limits()) - before;
         if (self.changed_at_m - self.here_m).length() > SAME_PLACE_M {
             self.changes = 0;
         }
@@ -182,10 +190,10 @@ impl Ways {
     }
 
     fn turn_back(&mut self) {
-        let Some(last) = self.last else { return };
-        self.retreat = Some(!last.reverse);
+        let Some(in_reverse) = self.came_in_reverse else { return };
+        self.retreat = Some(!in_reverse);
         let facing = self.first_direction(self.facing);
-        let travel = if last.reverse { -facing } else { facing };
+        let travel = if in_reverse { -facing } else { facing };
         self.footing.mistrust(self.here_m + travel * MISTRUSTED_AHEAD_M);
     }
 
@@ -224,6 +232,7 @@ impl Ways {
             self.turn_back();
         }
         self.last = Some(next);
+        self.came_in_reverse = Some(next.reverse);
     }
 
     /// Forgets what was driven last.
@@ -289,6 +298,7 @@ impl Ways {
     pub(crate) fn clear(&mut self) {
         self.footing.clear();
         self.last = None;
+        self.came_in_reverse = None;
         self.retreat = None;
     }
 }

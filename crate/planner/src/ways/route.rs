@@ -14,6 +14,8 @@ const LONGEST_STEP: f64 = 2.3;
 const AHEAD_M: f64 = 1.0;
 const BLIND_SHARE: f64 = 0.75;
 const LEVEL_SHARE: f64 = 0.2;
+/// How many steps of the same change of its attitude the robot is ready for.
+const GETS_STEEPER_TICKS: f64 = 5.0;
 
 impl Ways {
     /// The cheapest way to the place nearest to a point; `None` when there is none.
@@ -137,7 +139,8 @@ impl Ways {
     /// The share of the tilt limits that the robot takes up or soon will on a way, in slope.
     pub(crate) fn share_ahead(&self, way: &[WayPoint]) -> f64 {
         let standing = self.standing_slopes().share_of(self.footing.limits());
-        let mut share = standing;
+        // Ground that gets steeper fast may go on to do so.
+        let mut share = standing + GETS_STEEPER_TICKS * self.steeper_share.max(0.0);
         for leg in way.windows(2) {
             let (from_m, to_m) = (leg[0].position_m, leg[1].position_m);
             if (from_m - self.here_m).length() > AHEAD_M {

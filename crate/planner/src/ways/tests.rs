@@ -239,6 +239,34 @@ fn a_robot_that_stands_steeper_than_told_goes_back_and_leaves_the_place_aside() 
 }
 
 #[test]
+fn a_robot_that_has_stood_still_goes_back_the_way_it_came() {
+    let mut ways = ways();
+    let mut way = Vec::new();
+    ways.search(&level, &pose(0.0, 0.0));
+    set_out(&mut ways, DVec2::new(4.0, 0.0), &mut way);
+    ways.stand();
+    ways.search(&level, &pose(0.0, -0.76));
+    ways.search_escape();
+    let ahead = set_out(&mut ways, DVec2::new(4.0, 0.0), &mut way);
+    assert!(ahead.reverse && ahead.position_m.x < 0.0, "{ahead:?}");
+}
+
+#[test]
+fn ground_that_gets_steeper_fast_slows_the_robot_before_it_is_steep() {
+    let mut ways = ways();
+    let mut way = Vec::new();
+    let mut shares = [0.0; 2];
+    for (share, pitches_rad) in shares.iter_mut().zip([[0.10, 0.15], [0.15, 0.15]]) {
+        for pitch_rad in pitches_rad {
+            ways.search(&level, &pose(0.0, -pitch_rad));
+        }
+        set_out(&mut ways, DVec2::new(4.0, 0.0), &mut way);
+        *share = ways.share_ahead(&way);
+    }
+    assert!((shares[1] - libm::tan(0.15)).abs() < 0.01 && shares[0] > shares[1] + 0.2, "{shares:?}");
+}
+
+#[test]
 fn what_was_steeper_than_told_is_tried_again_where_nothing_else_leads_on() {
     let corridor =
         |place_m: DVec2| plane(place_m, DVec2::new(0.0, if place_m.y.abs() < 0.6 { 0.0 } else { 1.5 }));
