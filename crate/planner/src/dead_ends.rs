@@ -50,10 +50,10 @@ impl DeadEnds {
         }
     }
 
-    /// Puts the goal farther from the places within `radius_m` of a point.
-    pub(crate) fn raise(&mut self, point_m: DVec2, radius_m: f64, by_m: f64) {
+    /// Puts the goal farther from the places in a square around a point, `half_side_m` to each side.
+    pub(crate) fn raise(&mut self, point_m: DVec2, half_side_m: f64, by_m: f64) {
         let centre = self.index_of(point_m);
-        let reach = (radius_m / self.step_m) as i32;
+        let reach = (half_side_m / self.step_m) as i32;
         for y in -reach..=reach {
             for x in -reach..=reach {
                 let index = centre + IVec2::new(x, y);

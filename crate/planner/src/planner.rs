@@ -97,7 +97,7 @@ const MOST_WAY_POINTS: usize = 256;
 const LEARN_SPACING_M: f64 = 0.5;
 /// What the robot cannot get to lies this much farther from the goal than it seemed, with the places around it.
 const IN_VAIN_M: f64 = 7.0;
-const IN_VAIN_RADIUS_M: f64 = 1.0;
+const IN_VAIN_HALF_SIDE_M: f64 = 1.0;
 
 /// Scan, pose and goal in; subgoal and command out. No map: it keeps the ground that the last scans saw, where it has
 /// been, and its last choice.
@@ -284,7 +284,7 @@ impl Planner {
             }
             CostModel::Forecast => {
                 if let Some(place_m) = self.pursuit.head_for(&subgoal, pose) {
-                    self.dead_ends.raise(place_m, IN_VAIN_RADIUS_M, IN_VAIN_M);
+                    self.dead_ends.raise(place_m, IN_VAIN_HALF_SIDE_M, IN_VAIN_M);
                 }
                 self.learn(pose, goal_m);
                 self.follow(&subgoal, pose)
@@ -351,7 +351,7 @@ impl Planner {
         }
         match self.pursuit.again(&self.ways, &mut self.way, pose, &self.config.mount) {
             Ok(again) => self.subgoals.extend(again),
-            Err(place_m) => self.dead_ends.raise(place_m, IN_VAIN_RADIUS_M, IN_VAIN_M),
+            Err(place_m) => self.dead_ends.raise(place_m, IN_VAIN_HALF_SIDE_M, IN_VAIN_M),
         }
         let situation = Situation {
             pose,
