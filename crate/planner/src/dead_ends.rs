@@ -41,6 +41,11 @@ impl DeadEnds {
         self.known[slot_of(index)].filter(|known| known.index == index).map_or(0.0, |known| known.detour_m)
     }
 
+    /// How far the goal is from the place nearest to a point, as far as is known.
+    pub(crate) fn left_m(&self, point_m: DVec2, goal_m: DVec2) -> f64 {
+        (goal_m - point_m).length() + self.detour_m(point_m)
+    }
+
     /// Keeps that from a place the goal is at least `to_goal_m` away.
     pub(crate) fn learn(&mut self, place_m: DVec2, goal_m: DVec2, to_goal_m: f64) {
         let detour_m = to_goal_m - (goal_m - place_m).length();

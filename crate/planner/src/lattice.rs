@@ -105,21 +105,24 @@ impl LatticeGp {
         let stride_columns = (1..=widest).rev().find(|s| COLUMNS.is_multiple_of(*s)).unwrap_or(1);
         let stride_rings = ((spacing * elevation_scale / RING_STEP_RAD) as usize).clamp(1, RINGS);
         let reach = (REACH_LENGTH_SCALES * azimuth_scale / COLUMN_STEP_RAD) as usize;
+        // Beyond half a turn a window would meet itself.
+        let margin_columns = reach.min((COLUMNS - SECTOR_COLUMNS) / 2);
+        let positions = (COLUMNS + 2 * margin_columns) / stride_columns + 1;
+        let most_inputs = positions * (RINGS / stride_rings + 1);
         Self {
             covariances: Covariances::new(config, ROWS + ROWS_PER_RING * stride_rings),
             noise_variance: config.noise_variance_m2,
             signal_variance: config.kernel.variance,
             stride_columns,
             stride_rings,
-            // Beyond half a turn a window would meet itself.
-            margin_columns: reach.min((COLUMNS - SECTOR_COLUMNS) / 2),
+            margin_columns,
             origin: 0,
-            rows: Vec::new(),
-            starts: Vec::new(),
-            positions: Vec::new(),
+            rows: Vec::with_capacity(most_inputs),
+            starts: Vec::with_capacity(positions + 1),
+            positions: Vec::with_capacity(most_inputs),
             products: Vec::new(),
-            first: Vec::new(),
-            offsets: Vec::new(),
+            first: Vec::with_capacity(most_inputs),
+            offsets: Vec::with_capacity(most_inputs),
             projections: Vec::new(),
             column_covariances: Vec::new(),
             window: 0..0,

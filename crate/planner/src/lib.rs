@@ -39,6 +39,7 @@
 pub mod angle;
 mod ascent;
 pub mod bound;
+mod candidates;
 mod cholesky;
 pub mod config;
 pub mod controller;

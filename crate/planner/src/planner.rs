@@ -5,14 +5,14 @@ use core::f64::consts::PI;
 use glam::{DVec2, DVec3, Vec3};
 
 use crate::angle::wrap_rad;
+use crate::candidates::Candidates;
 use crate::config::{CostModel, DecisionConfig, PlannerConfig};
 use crate::controller::{Command, Controller};
 use crate::cost::{self, Situation};
 use crate::dead_ends::DeadEnds;
 use crate::error::ConfigError;
-use crate::forecast::{Forecast, ReachEnd};
 use crate::ground::Ground;
-use crate::occupancy::{COLUMNS, LOWEST_ELEVATION_RAD, OccupancySurface, column_azimuth_rad, column_of};
+use crate::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad};
 use crate::perception::{Effort, Perception, PredictedSurface};
 use crate::plane::Plane;
 use crate::pose::Pose;
@@ -20,7 +20,7 @@ use crate::profile::{Column, ElevationProfile};
 use crate::pursuit::Pursuit;
 use crate::segments::{Segment, cut_segments};
 use crate::sparse_gp::GpError;
-use crate::subgoals::{Refusal, Subgoal, bearing_rad, carries_subgoals, spread_azimuths, world_position_m};
+use crate::subgoals::{Subgoal, bearing_rad};
 use crate::ways::{Reached, WayPoint, Ways};
 
 /// Why the planner stands still for good.
@@ -132,6 +132,7 @@ impl Planner {
     /// [`ConfigError`] for a value that makes no sense.
     pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
         config.validate()?;
+        let ways = Ways::new(config.forecast, &config.limits, config.perception.surface_radius_m);
         Ok(Self {
             observed: OccupancySurface::new(config.perception.surface_radius_m),
             perception: Perception::new(config.perception),
@@ -140,12 +141,12 @@ impl Planner {
             subgoals: Vec::new(),
             ground: Ground::new(&config),
             controller: Controller::new(config.controller),
-            ways: Ways::new(config.forecast, &config.limits, config.perception.surface_radius_m),
             way: Vec::with_capacity(MOST_WAY_POINTS),
             dead_ends: DeadEnds::new(config.forecast.step_m),
             pursuit: Pursuit::default(),
             learned_at_m: None,
-            ends: Vec::new(),
+            ends: Vec::with_capacity(ways.count() + 1),
+            ways,
             goal_m: None,
             last_bearing_rad: None,
             looked_ticks: 0,
@@ -329,10 +330,11 @@ impl Planner {
             return;
         }
         self.learned_at_m = Some(here);
-        let left_m = |place_m: DVec2| (goal_m - place_m).length() + self.dead_ends.detour_m(place_m);
+        let left_m = |place_m| self.dead_ends.left_m(place_m, goal_m);
         let frontier = self.ways.frontier().map(|(reached, place_m)| (reached, left_m(place_m)));
+        let goal = self.ways.to_within(goal_m, self.config.goal_tolerance_m);
         self.ends.clear();
-        self.ends.extend(frontier.chain(self.ways.to(goal_m).map(|reached| (reached, 0.0))));
+        self.ends.extend(frontier.chain(goal.map(|(reached, _)| (reached, 0.0))));
         let DecisionConfig { distance_weight, steepness_weight, climb_weight, .. } = self.config.decision;
         // The prices of the subgoals' cost: a risk counts for the way to r_oc there, and 2 r_oc of distance for one.
         let tilt_price = if distance_weight > 0.0 { 2.0 * steepness_weight / distance_weight } else { 0.0 };
@@ -344,14 +346,21 @@ impl Planner {
     /// Places the subgoals and chooses one; `None` when there is no candidate.
     fn choose(&mut self, pose: &Pose, goal_m: DVec2) -> Option<usize> {
         self.subgoals.clear();
-        self.place_subgoals(pose);
-        if let Some(goal) = self.goal_in_sight(pose, goal_m) {
+        let mut candidates = Candidates { config: &self.config, pose, ways: &self.ways, way: &mut self.way };
+        candidates.on_segments(&self.segments, &mut self.subgoals);
+        if let Some(goal) = candidates.goal(goal_m, &self.profile) {
             self.subgoals.push(goal);
             return Some(self.subgoals.len() - 1);
         }
-        match self.pursuit.again(&self.ways, &mut self.way, pose, &self.config.mount) {
-            Ok(again) => self.subgoals.extend(again),
-            Err(place_m) => self.dead_ends.raise(place_m, IN_VAIN_HALF_SIDE_M, IN_VAIN_M),
+        if self.config.decision.cost_model == CostModel::Forecast {
+            match self.pursuit.again(&mut candidates) {
+                Ok(again) => self.subgoals.extend(again),
+                Err(place_m) => self.dead_ends.raise(place_m, IN_VAIN_HALF_SIDE_M, IN_VAIN_M),
+            }
+            if self.subgoals.iter().all(|subgoal| subgoal.refusal.is_some()) {
+                let left_m = |place_m| self.dead_ends.left_m(place_m, goal_m);
+                self.subgoals.extend(candidates.edge_of_sight(&self.profile, left_m));
+            }
         }
         let situation = Situation {
             pose,
@@ -403,90 +412,4 @@ impl Planner {
             }
         }
     }
-
-    fn place_subgoals(&mut self, pose: &Pose) {
-        let config = &self.config;
-        let radius = config.perception.surface_radius_m;
-        for (index, segment) in self.segments.iter().enumerate() {
-            if !carries_subgoals(segment, config.robot_width_m, &config.segments) {
-                continue;
-            }
-            let elevation_rad = segment.elevation_rad.unwrap_or(LOWEST_ELEVATION_RAD);
-            for azimuth_rad in spread_azimuths(segment, config.robot_width_m, &config.segments) {
-                let skyline_m = world_position_m(pose, &config.mount, azimuth_rad, elevation_rad, radius);
-                let mut subgoal = Subgoal {
-                    segment: Some(index),
-                    azimuth_rad,
-                    elevation_rad,
-                    position_m: skyline_m,
-                    bearing_rad: bearing_rad(pose, skyline_m.truncate()),
-                    forecast: None,
-                    refusal: None,
-                    cost: None,
-                };
-                if config.decision.cost_model == CostModel::Forecast {
-                    look_along(&mut subgoal, &self.ways, &mut self.way, config, pose);
-                }
-                self.subgoals.push(subgoal);
-            }
-        }
-    }
-
-    /// The goal itself, when it is nearer than what was seen in its direction.
-    fn goal_in_sight(&mut self, pose: &Pose, goal_m: DVec2) -> Option<Subgoal> {
-        let config = &self.config;
-        let distance = (goal_m - pose.plan_m()).length();
-        let radius = config.perception.surface_radius_m;
-        let bearing = bearing_rad(pose, goal_m);
-        let mut goal = Subgoal {
-            segment: None,
-            azimuth_rad: bearing,
-            elevation_rad: -libm::atan2(config.mount.height_m, distance),
-            position_m: goal_m.extend(pose.position_m.z),
-            bearing_rad: bearing,
-            forecast: None,
-            refusal: None,
-            cost: None,
-        };
-        match config.decision.cost_model {
-            CostModel::Paper => match self.profile[column_of(bearing)] {
-                Column::Ground { elevation_rad } => {
-                    (distance < radius * libm::cos(elevation_rad)).then_some(goal)
-                }
-                Column::Unknown | Column::Wall => None,
-            },
-            CostModel::Forecast if distance < radius => {
-                let reached = self.ways.to(goal_m)?;
-                goal.position_m.z = self.ways.height_m(reached);
-                goal.forecast =
-                    Some(Forecast { reach_m: distance, ..self.ways.follow(reached, &mut self.way) });
-                Some(goal)
-            }
-            CostModel::Forecast => None,
-        }
-    }
-}
-
-/// Moves a subgoal to where the ways in its direction reach, and refuses it when that is too near.
-fn look_along(
-    subgoal: &mut Subgoal,
-    ways: &Ways,
-    way: &mut Vec<WayPoint>,
-    config: &PlannerConfig,
-    pose: &Pose,
-) {
-    let (sin, cos) = libm::sincos(pose.yaw_rad + subgoal.bearing_rad);
-    let direction = DVec2::new(cos, sin);
-    let (reach_m, end) = ways.reach_along(direction, config.perception.surface_radius_m);
-    let end_m = pose.plan_m() + direction * reach_m;
-    let reached = ways.to(end_m).filter(|_| end == ReachEnd::Whole || reach_m >= config.forecast.min_reach_m);
-    let found = reached.map_or(Forecast::default(), |reached| ways.follow(reached, way));
-    let height_m = reached.map_or(pose.position_m.z, |reached| ways.height_m(reached));
-    subgoal.position_m = end_m.extend(height_m);
-    subgoal.forecast = Some(Forecast { reach_m, end, ..found });
-    subgoal.refusal = match (reached, end) {
-        (Some(_), _) => None,
-        (None, ReachEnd::Unseen) => Some(Refusal::Unseen),
-        (None, _) => Some(Refusal::Tilt),
-    };
 }

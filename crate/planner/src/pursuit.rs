@@ -5,10 +5,9 @@
 
 use glam::DVec2;
 
-use crate::forecast::Forecast;
-use crate::pose::{Pose, SensorMount};
-use crate::subgoals::{Subgoal, bearing_rad};
-use crate::ways::{WayPoint, Ways};
+use crate::candidates::Candidates;
+use crate::pose::Pose;
+use crate::subgoals::Subgoal;
 
 /// The robot is there when it is this near.
 const THERE_M: f64 = 0.5;
@@ -25,38 +24,19 @@ pub(crate) struct Pursuit {
 }
 
 impl Pursuit {
-    /// The subgoal that was chosen last as seen from here, a candidate again; `way` is overwritten. `Err` is where it lies when no way
-    /// leads there any more.
-    pub(crate) fn again(
-        &mut self,
-        ways: &Ways,
-        way: &mut Vec<WayPoint>,
-        pose: &Pose,
-        mount: &SensorMount,
-    ) -> Result<Option<Subgoal>, DVec2> {
+    /// The subgoal that was chosen last as seen from here, a candidate again. `Err` is where it lies when no way leads there any more.
+    pub(crate) fn again(&mut self, candidates: &mut Candidates<'_>) -> Result<Option<Subgoal>, DVec2> {
         let Some(last) = self.subgoal else { return Ok(None) };
         let place_m = last.position_m.truncate();
-        let away_m = (place_m - pose.plan_m()).length();
-        if away_m < THERE_M {
+        if (place_m - candidates.pose.plan_m()).length() < THERE_M {
             self.subgoal = None;
             return Ok(None);
         }
-        let Some(reached) = ways.to(place_m) else {
+        let Some(reached) = candidates.ways.to(place_m) else {
             self.subgoal = None;
             return Err(place_m);
         };
-        let end = last.forecast.unwrap_or_default().end;
-        let (height_m, bearing_rad) = (ways.height_m(reached), bearing_rad(pose, place_m));
-        Ok(Some(Subgoal {
-            segment: None,
-            azimuth_rad: bearing_rad,
-            elevation_rad: libm::atan2(height_m - pose.position_m.z - mount.height_m, away_m),
-            position_m: place_m.extend(height_m),
-            bearing_rad,
-            forecast: Some(Forecast { reach_m: away_m, end, ..ways.follow(reached, way) }),
-            refusal: None,
-            cost: None,
-        }))
+        Ok(Some(candidates.place(place_m, reached, last.forecast.unwrap_or_default().end)))
     }
 
     /// Heads for a subgoal. Gives where it lies, and lets go of it, when the robot has not got on for too long.
@@ -83,15 +63,13 @@ impl Pursuit {
 mod tests {
     use super::*;
     use crate::config::PlannerConfig;
+    use crate::forecast::Forecast;
     use crate::plane::Plane;
+    use crate::ways::Ways;
     use glam::DVec3;
 
     fn pose(x_m: f64) -> Pose {
         Pose { position_m: DVec3::new(x_m, 0.0, 0.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 }
-    }
-
-    fn mount() -> SensorMount {
-        PlannerConfig::default().mount
     }
 
     fn subgoal(x_m: f64) -> Subgoal {
@@ -107,40 +85,39 @@ mod tests {
         }
     }
 
-    /// Ways on level ground that ends at `x_m`.
-    fn ways(x_m: f64, pose: &Pose) -> Ways {
-        let config = PlannerConfig::default();
+    /// What was headed for as seen from `here_x_m`, on level ground that ends at `end_x_m`.
+    fn again(pursuit: &mut Pursuit, here_x_m: f64, end_x_m: f64) -> Result<Option<Subgoal>, DVec2> {
+        let (config, pose) = (PlannerConfig::default(), pose(here_x_m));
         let mut ways = Ways::new(config.forecast, &config.limits, 7.0);
         let ground = |place_m: DVec2| {
             let plane = Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 };
-            (place_m.x < x_m).then_some(plane)
+            (place_m.x < end_x_m).then_some(plane)
         };
-        ways.search(&ground, pose);
-        ways
+        ways.search(&ground, &pose);
+        let way = &mut Vec::new();
+        pursuit.again(&mut Candidates { config: &config, pose: &pose, ways: &ways, way })
     }
 
     #[test]
     fn what_it_heads_for_stays_a_candidate_until_it_is_there() {
-        let (mut pursuit, mut way) = (Pursuit::default(), Vec::new());
-        assert_eq!(pursuit.again(&ways(9.0, &pose(0.0)), &mut way, &pose(0.0), &mount()), Ok(None));
+        let mut pursuit = Pursuit::default();
+        assert_eq!(again(&mut pursuit, 0.0, 9.0), Ok(None));
         assert_eq!(pursuit.head_for(&subgoal(5.0), &pose(0.0)), None);
         for x_m in [0.5, 2.0, 4.0] {
-            let here = pose(x_m);
-            let again = pursuit.again(&ways(9.0, &here), &mut way, &here, &mount()).unwrap().unwrap();
+            let again = again(&mut pursuit, x_m, 9.0).unwrap().unwrap();
             assert!(again.position_m == subgoal(5.0).position_m && again.segment.is_none());
             let forecast = again.forecast.unwrap();
             assert!((forecast.reach_m - (5.0 - x_m)).abs() < 1e-12 && forecast.way_m > 0.5);
         }
-        assert_eq!(pursuit.again(&ways(9.0, &pose(4.6)), &mut way, &pose(4.6), &mount()), Ok(None));
+        assert_eq!(again(&mut pursuit, 4.6, 9.0), Ok(None));
     }
 
     #[test]
     fn where_no_way_leads_any_more_is_told_once() {
-        let (mut pursuit, mut way) = (Pursuit::default(), Vec::new());
+        let mut pursuit = Pursuit::default();
         pursuit.head_for(&subgoal(5.0), &pose(0.0));
-        let short = ways(3.0, &pose(0.0));
-        assert_eq!(pursuit.again(&short, &mut way, &pose(0.0), &mount()), Err(DVec2::new(5.0, 0.0)));
-        assert_eq!(pursuit.again(&short, &mut way, &pose(0.0), &mount()), Ok(None));
+        assert_eq!(again(&mut pursuit, 0.0, 3.0), Err(DVec2::new(5.0, 0.0)));
+        assert_eq!(again(&mut pursuit, 0.0, 3.0), Ok(None));
     }
 
     #[test]

@@ -21,7 +21,8 @@ pub enum Refusal {
 /// A place the robot could drive to next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Subgoal {
-    /// Index of its segment; `None` for the goal itself and for what the robot already headed for.
+    /// Index of its segment; `None` for the goal itself, for what the robot already headed for, and for where what was seen
+    /// ends.
     pub segment: Option<usize>,
     /// Azimuth α_g in the sensor frame, in [-π, π).
     pub azimuth_rad: f64,

@@ -153,6 +153,11 @@ impl Ways {
         }
     }
 
+    /// How many places there are.
+    pub(crate) fn count(&self) -> usize {
+        self.footing.count()
+    }
+
     /// Finds the ways from `pose` over the ground that was seen.
     pub(crate) fn search(&mut self, ground: &dyn SeenGround, pose: &Pose) {
         let before = self.standing_slopes().share_of(self.footing.limits());

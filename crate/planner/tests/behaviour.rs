@@ -4,10 +4,12 @@
 
 use glam::{DVec2, DVec3, Vec3};
 use mapless::config::InducingInputs;
+use mapless::plane::Plane;
 use mapless::pose::Pose;
 use mapless::profile::Column;
 use mapless::segments::Verdict;
-use mapless::{Command, Planner, PlannerConfig, Status, StopReason};
+use mapless::subgoals::Subgoal;
+use mapless::{Command, Insight, Planner, PlannerConfig, Status, StopReason};
 use proptest::prelude::*;
 
 const START: Pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
@@ -107,6 +109,38 @@ fn a_goal_in_sight_is_driven_to_and_arrived_at() {
         assert!((chosen.position_m.truncate() - goal).length() < 1e-9);
         assert_eq!(planner.step(&points, &START, DVec2::new(0.3, 0.3)).status, Status::Arrived);
     }
+}
+
+/// A planner that is told the ground.
+fn step_told(goal_m: DVec2, ground: impl Fn(DVec2) -> Option<Plane>) -> (Status, Option<Subgoal>) {
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    let insight = Insight { ground: Some(&ground), ..Insight::default() };
+    let step = planner.step_with(&scan(level), &START, goal_m, insight);
+    (step.status, step.chosen.map(|chosen| step.subgoals[chosen]))
+}
+
+#[test]
+fn a_goal_where_it_may_not_stand_is_driven_to_within_its_tolerance() {
+    let goal_m = DVec2::new(3.0, 1.0);
+    let (status, chosen) = step_told(goal_m, |place_m| {
+        let steep = (place_m - goal_m).length() < 0.4;
+        let gradient = if steep { DVec2::splat(2.0) } else { DVec2::ZERO };
+        Some(Plane { height_m: 0.0, gradient, gradient_deviation: 0.0 })
+    });
+    let beside_m = chosen.unwrap().position_m.truncate();
+    assert_eq!(status, Status::Driving);
+    assert!((0.4..=0.5).contains(&(beside_m - goal_m).length()), "{beside_m}");
+}
+
+#[test]
+fn on_a_hilltop_whose_flanks_it_cannot_see_it_drives_to_the_edge() {
+    let (status, chosen) = step_told(AHEAD, |place_m| {
+        let plane = Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 };
+        (place_m.length() < 1.7).then_some(plane)
+    });
+    let edge_m = chosen.unwrap().position_m.truncate();
+    assert_eq!(status, Status::Driving);
+    assert!(edge_m.x > 1.0 && (1.2..1.7).contains(&edge_m.length()), "{edge_m}");
 }
 
 #[test]

@@ -132,7 +132,7 @@ export interface Forecast {
   readonly end: ReachEnd;
 }
 
-/** A place where the robot could go next: on the skyline, where it already heads, or the goal itself once it is in sight. */
+/** A place where the robot could go next: on the skyline, where it already heads, where what it saw ends, or the goal itself once it is in sight. */
 export interface Subgoal {
   readonly azimuth_rad: number;
   readonly elevation_rad: number;
@@ -142,7 +142,7 @@ export interface Subgoal {
   readonly z: number;
   readonly chosen: boolean;
   readonly refusal: Refusal;
-  /** Index of its segment in the frame; nothing for the goal itself and for where the robot already heads. */
+  /** Index of its segment in the frame; nothing for the goal itself, for where the robot already heads, and for where what it saw ends. */
   readonly segment: number | undefined;
   /** Nothing where the cost judges steepness by the paper's height alone. */
   readonly forecast: Forecast | undefined;

@@ -48,15 +48,20 @@ impl Ways {
         })
     }
 
-    /// The places that were reached and where what was seen ends, by where they lie.
+    /// Every place that was reached by its cheapest way, and where it lies.
+    pub(crate) fn reached(&self) -> impl Iterator<Item = (Reached, DVec2)> {
+        self.costs_mm.chunks_exact(HEADINGS).enumerate().filter_map(|(place, costs_mm)| {
+            let (heading, &cost_mm) = costs_mm.iter().enumerate().min_by_key(|(_, cost_mm)| **cost_mm)?;
+            let reached = Reached { state: (place * HEADINGS + heading) as u32 };
+            (cost_mm != UNREACHED).then(|| (reached, self.footing.position_m(self.footing.offset(place))))
+        })
+    }
+
+    /// Those of the places that were reached where what was seen ends.
     pub(crate) fn frontier(&self) -> impl Iterator<Item = (Reached, DVec2)> {
-        let reached = self.costs_mm.chunks_exact(HEADINGS).enumerate();
-        let reached = reached.filter(|(_, costs_mm)| costs_mm.iter().any(|&cost| cost != UNREACHED));
-        reached.filter_map(|(place, _)| {
-            let offset = self.footing.offset(place);
-            let position_m = self.footing.position_m(offset);
-            let is_end = (position_m - self.here_m).length() > NEAR_M && self.footing.is_frontier(offset);
-            is_end.then_some((Reached { state: (place * HEADINGS) as u32 }, position_m))
+        self.reached().filter(|&(reached, position_m)| {
+            let offset = self.footing.offset(reached.state as usize / HEADINGS);
+            (position_m - self.here_m).length() > NEAR_M && self.footing.is_frontier(offset)
         })
     }
 

@@ -26,6 +26,17 @@ impl Ways {
         (self.costs_mm[state] != UNREACHED).then_some(Reached { state: state as u32 })
     }
 
+    /// The cheapest way to a point or, where none leads there, to the place next to it within a distance; and where that is.
+    pub(crate) fn to_within(&self, point_m: DVec2, distance_m: f64) -> Option<(Reached, DVec2)> {
+        let around = || {
+            let places =
+                self.reached().map(|(reached, place_m)| ((place_m - point_m).length(), reached, place_m));
+            let next = places.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|next| next.0 <= distance_m);
+            next.map(|(_, reached, place_m)| (reached, place_m))
+        };
+        self.to(point_m).map(|reached| (reached, point_m)).or_else(around)
+    }
+
     /// How far one can get along the straight line from the robot in a direction, up to `length_m`, whatever the way there.
     pub(crate) fn reach_along(&self, direction: DVec2, length_m: f64) -> (f64, ReachEnd) {
         let steps = (length_m / self.config.step_m).ceil() as usize;
@@ -88,6 +99,11 @@ impl Ways {
             max_pitch_rad: libm::atan(along),
             ..Forecast::default()
         }
+    }
+
+    /// What the way to a place costs.
+    pub(crate) fn cost_m(&self, reached: Reached) -> f64 {
+        f64::from(self.costs_mm[reached.state as usize]) / MILLIMETRES
     }
 
     /// Height of the ground at a place that was reached.
