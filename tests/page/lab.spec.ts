@@ -3,7 +3,7 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import type { Page } from '@playwright/test';
 import { driven } from './commandLine.ts';
-import { expect, state, test, until } from './page.ts';
+import { expect, loaded, state, test, until } from './page.ts';
 
 async function openLab(page: Page, tab: string): Promise<void> {
   await page.getByRole('button', { name: /^Parameters, comparison/ }).click();
@@ -119,6 +119,30 @@ test('ghosts drive the same course: the same planner gives the same digest, anot
   await expect(row('Curvature change').getByRole('cell').nth(2)).not.toHaveText(/\(0\.0+\)$/);
 });
 
+/** What the table and the summary of a batch of six seeds say; `most` is how many workers drove at once. */
+async function batch(page: Page): Promise<{ rows: string[]; summary: string | null; most: number }> {
+  const before = page.workers().length;
+  let most = 0;
+  page.on('worker', () => {
+    most = Math.max(most, page.workers().length - before);
+  });
+  await shortCourse(page, 3);
+  await openLab(page, 'Seeds');
+  await page.getByLabel('How many').fill('6');
+  await page.getByLabel('From seed').fill('41');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await expect(page.getByText('6 trials. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
+  const rows = await page.locator('.seeds-table tbody tr').allInnerTexts();
+  return { rows, summary: await page.locator('.seeds-summary').textContent(), most };
+}
+
+/** Has the page believe that there are so many processors. */
+function processors(page: Page, count: number): Promise<unknown> {
+  return page.addInitScript((value) => {
+    Object.defineProperty(navigator, 'hardwareConcurrency', { value, configurable: true });
+  }, count);
+}
+
 test('many seeds run beside the page, are summed up, replayed and cancelled', async ({ mapless: page }) => {
   test.setTimeout(400_000);
   await shortCourse(page, 3);
@@ -137,4 +161,49 @@ test('many seeds run beside the page, are summed up, replayed and cancelled', as
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await page.getByRole('button', { name: 'Cancel' }).click();
   await expect(page.getByRole('status').filter({ hasText: /^Cancelled after \d+ of 200/ })).toBeVisible();
+});
+
+test('one worker and several give the same table and the same summary', async ({ mapless: page }) => {
+  test.setTimeout(400_000);
+  await processors(page, 2);
+  await page.reload();
+  await loaded(page);
+  const one = await batch(page);
+  await processors(page, 4);
+  await page.reload();
+  await loaded(page);
+  const several = await batch(page);
+  expect([one.most, several.most]).toEqual([1, 3]);
+  expect(one.rows.map((row) => Number.parseInt(row, 10))).toEqual([41, 42, 43, 44, 45, 46]);
+  expect(several.rows).toEqual(one.rows);
+  expect(several.summary).toBe(one.summary);
+});
+
+test.describe(() => {
+  // What this test replaces must come from the server.
+  test.use({ serviceWorkers: 'block' });
+
+  test('a panic is told with its seed, and all other seeds are driven', async ({ mapless: page }) => {
+    test.setTimeout(400_000);
+    let served = 0;
+    await page.route('**/mapless_wasm_baselines*.js', async (route) => {
+      const response = await route.fetch();
+      const script = await response.text();
+      served += 1;
+      const broken = script.replace(/\btick\(\)\s*\{/, 'tick(){throw new WebAssembly.RuntimeError("unreachable");');
+      expect(broken).not.toBe(script);
+      await route.fulfill({ response, body: served === 1 ? broken : script });
+    });
+    await processors(page, 3);
+    await page.reload();
+    await loaded(page);
+    await shortCourse(page, 3);
+    await openLab(page, 'Seeds');
+    await page.getByLabel('How many').fill('6');
+    await page.getByRole('button', { name: 'Run', exact: true }).click();
+    await expect(page.getByRole('alert').filter({ hasText: /^Seed \d: unreachable$/ })).toBeVisible();
+    await expect(page.getByText('5 of 6 trials. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
+    await expect(page.locator('.seeds-table tbody tr')).toHaveCount(5);
+    await expect(page.locator('.seeds-summary')).toContainText('5 of 5');
+  });
 });

@@ -5,9 +5,9 @@ import type { Overrides } from '../core/overrides.ts';
 import type { SessionInfo } from '../core/protocol.ts';
 import { METRIC_ROWS } from '../panel/metrics.ts';
 import { OUTCOME_WORDS } from '../panel/status.ts';
-import { type RunningJob, startJob } from '../trials/client.ts';
+import { Batch, type FromBatch, workersFor } from '../trials/batch.ts';
 import { courseOf } from '../trials/course.ts';
-import type { FromTrials, Summary, TrialResult } from '../trials/protocol.ts';
+import type { Summary, TrialResult } from '../trials/protocol.ts';
 import { html, setText } from '../ui/dom.ts';
 import { clock, fixed } from '../ui/format.ts';
 import type { Tab } from './lab.ts';
@@ -30,7 +30,7 @@ export class SeedsTab implements Tab {
   readonly #summary = html('table', 'comparison seeds-summary');
   readonly #rows = html('tbody');
   readonly #table = html('table', 'comparison seeds-table');
-  #job: RunningJob | undefined;
+  #batch: Batch | undefined;
   /** The course that the table stands for. */
   #course: { key: string; overrides: Overrides } | undefined;
   #total = 0;
@@ -40,9 +40,7 @@ export class SeedsTab implements Tab {
     this.#start.type = 'button';
     this.#cancel.type = 'button';
     this.#start.addEventListener('click', () => this.#begin());
-    this.#cancel.addEventListener('click', () =>
-      this.#end(`Cancelled after ${this.#rows.childElementCount} of ${this.#total}.`),
-    );
+    this.#cancel.addEventListener('click', () => this.#end(`Cancelled after ${this.#done} of ${this.#total}.`));
     this.#note.setAttribute('role', 'status');
     this.#fault.setAttribute('role', 'alert');
     this.#fault.hidden = true;
@@ -76,7 +74,7 @@ export class SeedsTab implements Tab {
 
   #idle(): void {
     for (const part of [this.#cancel, this.#progress]) part.hidden = true;
-    const empty = this.#rows.childElementCount === 0;
+    const empty = this.#done === 0;
     for (const part of [this.#summary, this.#table]) part.hidden = empty;
     this.#start.disabled = false;
   }
@@ -90,6 +88,7 @@ export class SeedsTab implements Tab {
     const seeds = Array.from({ length: this.#count.valueAsNumber }, (_, index) => (first + index) % (MAX_SEED + 1));
     this.#rows.replaceChildren();
     this.#summary.replaceChildren();
+    this.#fault.replaceChildren();
     this.#fault.hidden = true;
     this.#course = { key: courseKey(info), overrides: info.overrides };
     setText(this.#stand, '');
@@ -99,32 +98,44 @@ export class SeedsTab implements Tab {
     for (const part of [this.#cancel, this.#progress, this.#summary, this.#table]) part.hidden = false;
     this.#start.disabled = true;
     setText(this.#note, `0 of ${seeds.length} done.`);
-    this.#job = startJob({ type: 'seeds', course, planner: info.preset, seeds }, (message) => this.#hear(message));
+    const workers = workersFor(seeds.length, navigator.hardwareConcurrency);
+    this.#batch = new Batch({ course, planner: info.preset, seeds }, workers, (message) => this.#hear(message));
   }
 
-  #hear(message: FromTrials): void {
-    if (message.type === 'trial') {
-      this.#add(message.result);
-      this.#sum(message.summary);
-      const done = message.summary.trials;
-      this.#progress.value = done;
-      setText(this.#note, `${done} of ${this.#total} done.`);
-      if (done === this.#total) this.#end(`${done} trials. Press a seed to see it driven.`);
-    } else if (message.type === 'failed') {
-      setText(this.#fault, message.message);
-      this.#fault.hidden = false;
-      this.#end('');
+  get #done(): number {
+    return this.#rows.childElementCount;
+  }
+
+  #hear(message: FromBatch): void {
+    switch (message.type) {
+      case 'trial':
+        this.#rows.insertBefore(this.#row(message.result), this.#rows.children[message.place] ?? null);
+        this.#progress.value = this.#done;
+        setText(this.#note, `${this.#done} of ${this.#total} done.`);
+        break;
+      case 'summary':
+        this.#sum(message.summary);
+        break;
+      case 'failed':
+        this.#fault.append(html('span', 'fault-line', [message.message]));
+        this.#fault.hidden = false;
+        break;
+      case 'end': {
+        const done = this.#done === this.#total ? this.#total : `${this.#done} of ${this.#total}`;
+        this.#end(this.#done === 0 ? '' : `${done} trials. Press a seed to see it driven.`);
+        break;
+      }
     }
   }
 
   #end(words: string): void {
-    this.#job?.stop();
-    this.#job = undefined;
+    this.#batch?.stop();
+    this.#batch = undefined;
     setText(this.#note, words);
     this.#idle();
   }
 
-  #add({ seed, outcome, time_s, metrics }: TrialResult): void {
+  #row({ seed, outcome, time_s, metrics }: TrialResult): HTMLElement {
     const replay = html('button', 'plain', [String(seed)]);
     replay.type = 'button';
     replay.setAttribute('aria-label', `Show seed ${seed}`);
@@ -139,7 +150,7 @@ export class SeedsTab implements Tab {
       fixed(metrics.max_abs_roll_rad, 3),
       fixed(metrics.max_abs_pitch_rad, 3),
     ];
-    this.#rows.append(html('tr', '', [head, end, ...cells.map((words) => html('td', '', [words]))]));
+    return html('tr', '', [head, end, ...cells.map((words) => html('td', '', [words]))]);
   }
 
   #sum({ reached, trials, low, high, metrics }: Summary): void {

@@ -13,7 +13,8 @@ export function startJob(job: Job, hear: (message: FromTrials) => void): Running
   worker.onmessage = ({ data }: MessageEvent<FromTrials>) => hear(data);
   worker.onerror = (event) => {
     event.preventDefault();
-    hear({ type: 'failed', message: event.message || 'The other planners could not be loaded.' });
+    const message = event.message || 'The other planners could not be loaded.';
+    hear({ type: 'failed', message, panicked: false });
   };
   worker.postMessage(job);
   return {

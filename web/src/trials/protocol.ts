@@ -1,4 +1,4 @@
-/** What the page and a worker that runs whole trials say to each other. The worker does one job and is then ended. */
+/** What the page and a worker that runs whole trials say to each other. A worker has one job and is then ended. */
 
 import type { Overrides } from '../core/overrides.ts';
 import type { Ground, Heading, Learning, Metrics, Outcome, Place } from '../core/protocol.ts';
@@ -26,10 +26,15 @@ export interface TrialResult {
 export type Job =
   /** Several planners on the course, no farther than asked for. */
   | { type: 'ghosts'; course: Course; planners: readonly string[]; seed: number }
-  /** One planner with many seeds, each to its end. */
-  | { type: 'seeds'; course: Course; planner: string; seeds: readonly number[] };
+  /** One planner with the seeds that are then given, each to its end. */
+  | { type: 'seeds'; course: Course; planner: string };
 
-export type ToTrials = Job | { type: 'until'; tick: number };
+export type ToTrials =
+  | Job
+  | { type: 'until'; tick: number }
+  | { type: 'drive'; seed: number }
+  /** Asks for what these trials show together, whoever drove them. */
+  | { type: 'sum'; results: readonly TrialResult[] };
 
 /** What is known of a trial at one tick, in the order of `WasmRunner.status`. */
 export const ROW = [
@@ -72,7 +77,9 @@ export interface Summary {
 export type FromTrials =
   /** A ghost's rows since the message before, and how it stands now. */
   | { type: 'ghost'; rows: Float64Array<ArrayBuffer>; result: TrialResult }
-  | { type: 'trial'; result: TrialResult; summary: Summary }
+  | { type: 'trial'; result: TrialResult }
+  | { type: 'summary'; summary: Summary }
   /** A planner that cannot drive this course. */
   | { type: 'refused'; planner: string; message: string }
-  | { type: 'failed'; message: string };
+  /** After a panic the worker is of no more use; another one may be. */
+  | { type: 'failed'; message: string; panicked: boolean };

@@ -1,9 +1,9 @@
 /** The worker of ghosts and batches: runs whole trials beside the page's own, and tells how they stand. */
 
 import { panicMessage } from '../core/wasm.ts';
-import type { FromTrials, Job, ToTrials, TrialResult } from './protocol.ts';
+import type { FromTrials, Job, ToTrials } from './protocol.ts';
 import { Garage, type Runner, summary } from './runner.ts';
-import { loadTrials } from './wasm.ts';
+import { loadTrials, type TrialsModule } from './wasm.ts';
 
 /** How long it runs before it listens and tells again, in milliseconds. */
 const SLICE_MS = 40;
@@ -61,25 +61,48 @@ async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' 
   }
 }
 
-async function seeds({ course, planner, seeds }: Extract<Job, { type: 'seeds' }>): Promise<void> {
+interface Batch {
+  readonly module: TrialsModule;
+  readonly garage: Garage;
+  readonly planner: string;
+}
+
+/** There once the job is a batch. */
+let batch: Promise<Batch> | undefined;
+
+async function opened({ course, planner }: Extract<Job, { type: 'seeds' }>): Promise<Batch> {
   const module = await loadTrials();
-  const garage = new Garage(module, course);
-  const results: TrialResult[] = [];
-  for (const seed of seeds) {
-    const runner = garage.runner(planner, seed);
-    while (runner.running) runner.tick();
-    results.push(runner.result);
-    runner.free();
-    post({ type: 'trial', result: results[results.length - 1] as TrialResult, summary: summary(module, results) });
+  return { module, garage: new Garage(module, course), planner };
+}
+
+function drive({ garage, planner }: Batch, seed: number): void {
+  const runner = garage.runner(planner, seed);
+  while (runner.running) runner.tick();
+  post({ type: 'trial', result: runner.result });
+  runner.free();
+}
+
+/** Whatever is asked of a batch while it loads is done in its order afterwards. */
+function carryOut(message: ToTrials): Promise<void> | undefined {
+  switch (message.type) {
+    case 'until':
+      until = message.tick;
+      wake?.();
+      return;
+    case 'ghosts':
+      return ghosts(message);
+    case 'seeds':
+      batch = opened(message);
+      return;
+    case 'drive':
+      return batch?.then((open) => drive(open, message.seed));
+    case 'sum':
+      return batch?.then(({ module }) => post({ type: 'summary', summary: summary(module, message.results) }));
   }
 }
 
 self.onmessage = ({ data }: MessageEvent<ToTrials>) => {
-  if (data.type === 'until') {
-    until = data.tick;
-    wake?.();
-    return;
-  }
-  const job = data.type === 'ghosts' ? ghosts(data) : seeds(data);
-  job.catch((error: unknown) => post({ type: 'failed', message: words(error) }));
+  carryOut(data)?.catch((error: unknown) => {
+    post({ type: 'failed', message: words(error), panicked: error instanceof WebAssembly.RuntimeError });
+  });
 };
