@@ -1,15 +1,20 @@
 /** Begun before the rest of the page is there: the core, and what it loads. */
 
 import { CoreClient } from './core/client.ts';
-import type { Address, Beginning } from './core/protocol.ts';
-
-export const core = new CoreClient();
+import type { Address, Beginning, Command } from './core/protocol.ts';
 
 /** Has the core load what an address asks for, or else where somebody left off, or the first scenario. */
-export function beginAt({ hash, search }: Address): Promise<Beginning> {
-  return core.request({ type: 'begin', address: { hash, search } });
+function begin({ hash, search }: Address): Command {
+  return { type: 'begin', address: { hash, search } };
 }
 
-export const begun = beginAt(location);
+export const core = new CoreClient(begin(location));
+
+/** Has the core begin anew without an address. */
+export function beginPlainly(): Promise<Beginning> {
+  return core.request(begin({ hash: '', search: '' }));
+}
+
+export const begun = core.first as Promise<Beginning>;
 // The page hears of a failure once it is there.
 begun.catch(() => undefined);

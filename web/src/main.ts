@@ -7,9 +7,13 @@ import './style/measure.css';
 import './style/panels.css';
 import './style/thinking.css';
 import './style/ground.css';
-import './early.ts';
+import { core } from './early.ts';
 
 if (document.readyState === 'loading') {
   await new Promise((resolve) => document.addEventListener('DOMContentLoaded', resolve, { once: true }));
 }
+// Hidden until now: browsers lay every form out for their filling-in as soon as it is read, and again with its styles.
+document.getElementById('app')?.removeAttribute('hidden');
+// Making the page takes longer than starting the core's thread, which then loads beside it.
+await core.started;
 await import('./page.ts');

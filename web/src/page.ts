@@ -6,7 +6,7 @@ import { begin } from './begin.ts';
 import { Autosave } from './core/autosave.ts';
 import { entry, following } from './core/catalogue.ts';
 import { countOverrides } from './core/overrides.ts';
-import { beginAt, begun, core } from './early.ts';
+import { beginPlainly, begun, core } from './early.ts';
 import type { Lab } from './lab/lab.ts';
 import { keepOffline } from './offline/register.ts';
 import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
@@ -221,4 +221,4 @@ keepOffline((start) => notice.tell('A new version of this page is ready.', 'Relo
 
 publish(app);
 
-app.attempt(begin(app, notice, begun, () => beginAt({ hash: '', search: '' })));
+app.attempt(begin(app, notice, begun, beginPlainly));

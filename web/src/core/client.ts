@@ -1,6 +1,7 @@
 /** The page's end of the worker: requests with answers, events, and a new worker after a panic. */
 
 import type { Experiment } from './experiment.ts';
+import { gate } from './gate.ts';
 import {
   type Command,
   type Frame,
@@ -33,9 +34,21 @@ export class CoreClient {
   readonly #waiting = new Map<number, Waiting>();
   #worker: Worker;
   #nextId = 0;
+  /** What the worker answers to the command that it was started with. */
+  readonly first: Promise<unknown>;
+  readonly #started = gate();
 
-  constructor() {
-    this.#worker = this.#start();
+  /** Starts the worker with a command that it need not wait for. */
+  constructor(first: Command) {
+    const id = this.#nextId++;
+    this.first = new Promise((resolve, reject) => this.#waiting.set(id, { resolve, reject }));
+    // A message to a new worker waits in the page until the page is idle; its name is there at once.
+    this.#worker = this.#start(JSON.stringify({ type: 'request', id, command: first } satisfies ToWorker));
+  }
+
+  /** Resolves once the worker runs, or cannot. */
+  get started(): Promise<void> {
+    return this.#started.passed;
   }
 
   /** Tells `events` what happens from now on, and first what happened until now. */
@@ -62,11 +75,15 @@ export class CoreClient {
     this.#worker.postMessage(message, transfer);
   }
 
-  #start(): Worker {
-    const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'mapless core' });
-    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.#tell((events) => this.#receive(data, events));
+  #start(name = ''): Worker {
+    const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name });
+    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
+      if (data.type === 'started') this.#started.open();
+      else this.#tell((events) => this.#receive(data, events));
+    };
     worker.onerror = (event) => {
       event.preventDefault();
+      this.#started.open();
       this.#tell((events) => this.#fail(event.message || 'The simulation could not be loaded.', true, events));
     };
     return worker;

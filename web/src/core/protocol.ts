@@ -307,6 +307,8 @@ export type ToWorker = { type: 'request'; id: number; command: Command } | { typ
 
 /** From the worker. */
 export type FromWorker =
+  /** Its thread runs: whatever keeps the page busy, the core loads beside it. */
+  | { type: 'started' }
   /** After a load, with the ground and the experiment. */
   | { type: 'session'; info: SessionInfo; ground: Ground | undefined; experiment: Experiment | undefined }
   | { type: 'frame'; frame: Frame }

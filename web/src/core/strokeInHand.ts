@@ -1,6 +1,7 @@
 /** A stroke while it is being made: touches go to the core as they come, and what the ground was before is kept for undoing. */
 
 import { centimetres, type Stroke } from './experiment.ts';
+import { gate } from './gate.ts';
 import type { Ground, GroundPatch, Place } from './protocol.ts';
 
 export type Brush = Omit<Stroke, 'points_cm'>;
@@ -71,14 +72,6 @@ export class StrokeInHand {
     await this.#apply({ ...this.#brush, points_cm });
     for (const value of points_cm) this.#done.push(value);
   }
-}
-
-function gate(): { readonly passed: Promise<void>; open(): void } {
-  let open = () => {};
-  const passed = new Promise<void>((resolve) => {
-    open = resolve;
-  });
-  return { passed, open };
 }
 
 function cut(heights_m: Float32Array, width: number, bounds: Omit<GroundPatch, 'heights_m'>): GroundPatch {

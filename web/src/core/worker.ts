@@ -289,11 +289,11 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
   }
 }
 
-self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
-  if (data.type === 'recycle') {
+function hear(message: ToWorker): void {
+  if (message.type === 'recycle') {
     // Frames from before a panic come back to the worker that took over.
     inFlight = Math.max(0, inFlight - 1);
-    session?.recycle(data.buffers);
+    session?.recycle(message.buffers);
     try {
       showIfDue();
     } catch (error) {
@@ -301,7 +301,7 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
     }
     return;
   }
-  const { id, command } = data;
+  const { id, command } = message;
   if (command.type === 'seek') newestSeek = id;
   queue = queue.then(async () => {
     try {
@@ -312,4 +312,9 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
     }
     schedule();
   });
-};
+}
+
+post({ type: 'started' });
+self.onmessage = ({ data }: MessageEvent<ToWorker>) => hear(data);
+// The first request comes as the worker's name.
+if (self.name) hear(JSON.parse(self.name));
