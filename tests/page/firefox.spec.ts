@@ -1,60 +1,143 @@
-import { expect, test } from '@playwright/test';
-import type { MaplessState } from '../../web/src/api.ts';
+import { mkdtempSync, readFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test as base, expect } from '@playwright/test';
+import { preview } from 'vite';
 import { driven } from './commandLine.ts';
 import { FIREFOX, Firefox } from './firefox.ts';
+import { kept, shortCourse, state, until } from './page.ts';
 
-/** Opens the page and waits for its first scenario. */
-async function opened(address: string | undefined): Promise<Firefox> {
-  const firefox = await Firefox.open(FIREFOX ?? '', address ?? '');
-  await expect.poll(() => firefox.evaluate<boolean>('window.mapless?.state() !== undefined')).toBe(true);
+/** Opens an address and waits for the first scenario. */
+async function opened(address: string): Promise<Firefox> {
+  const firefox = await Firefox.open(FIREFOX ?? '', address);
+  await loaded(firefox);
   return firefox;
 }
 
-const state = (firefox: Firefox) => firefox.evaluate<MaplessState>('mapless.state()');
+function loaded(firefox: Firefox): Promise<void> {
+  return expect.poll(() => firefox.evaluate(() => window.mapless?.state() !== undefined)).toBe(true);
+}
+
+/** The page, in a Firefox of its own; the test fails when a script throws. */
+const test = base.extend<{ firefox: Firefox }>({
+  firefox: async ({ baseURL }, use) => {
+    const firefox = await opened(baseURL ?? '');
+    try {
+      await use(firefox);
+      expect(firefox.faults).toEqual([]);
+    } finally {
+      await firefox.close();
+    }
+  },
+});
 
 test.describe('in Firefox', () => {
   test.skip(!FIREFOX, 'No Firefox was found: install it, or name it in the environment variable FIREFOX.');
 
-  test('a run has the digest of the command line', async ({ baseURL }) => {
+  test('a run has the digest and the trajectory of the command line', async ({ firefox }) => {
     test.setTimeout(600_000);
-    const firefox = await opened(baseURL);
-    try {
-      await firefox.evaluate('mapless.setSpeed(Infinity)');
-      await firefox.evaluate('mapless.loadScenario("ht", { seed: 3 })');
-      await firefox.evaluate('mapless.play()');
-      await expect.poll(async () => (await state(firefox)).outcome, { timeout: 500_000 }).not.toBe('running');
-      const { outcome, digest } = await state(firefox);
-      const run = driven('terrains/scenarios/ht.toml', '--seed', '3');
-      expect({ outcome, digest }).toEqual({ outcome: run.outcome, digest: run.digest });
-    } finally {
-      await firefox.close();
-    }
+    await firefox.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+    await firefox.evaluate(() => window.mapless?.loadScenario('ht', { seed: 3 }));
+    await firefox.evaluate(() => window.mapless?.play());
+    await until(firefox, (now) => now.outcome !== 'running', 500_000);
+    const { outcome, digest } = await state(firefox);
+    const out = mkdtempSync(join(tmpdir(), 'mapless-'));
+    const run = driven('terrains/scenarios/ht.toml', '--seed', '3', '--out', out);
+    expect({ outcome, digest }).toEqual({ outcome: run.outcome, digest: run.digest });
+    await firefox.click('#save-csv');
+    const csv = await firefox.saved('mapless-ht-seed3-trajectory.csv');
+    expect(csv).toBe(readFileSync(join(out, 'trajectory.csv'), 'utf8'));
   });
 
-  test('ground and goal change, are undone, and the page says what it cannot do', async ({ baseURL }) => {
-    const firefox = await opened(baseURL);
-    try {
-      await firefox.evaluate('mapless.pause()');
-      const height = () => firefox.evaluate<number>('mapless.heightAt({ x: 30, y: 30 })');
-      const before = await height();
-      await firefox.evaluate(
-        'mapless.sculpt({ kind: "raise", radius_m: 2, strength_m: 0.5, points_cm: [3000, 3000] })',
-      );
-      expect(await height()).toBeCloseTo(before + 0.5, 3);
-      await firefox.evaluate('mapless.undo()');
-      expect(await height()).toBe(before);
-      await firefox.evaluate('mapless.setGoal({ x: 30, y: 31 })');
-      expect((await state(firefox)).goal).toEqual({ x: 30, y: 31 });
-      expect(await firefox.evaluate<string>('mapless.link()')).toContain('#e=');
-      // Where nothing draws WebGL, as in a Firefox without a screen, the view says so; and nothing else is amiss.
-      const graphics = await firefox.evaluate<boolean>(
-        'document.createElement("canvas").getContext("webgl2") !== null',
-      );
-      const seen = 'getComputedStyle(document.getElementById("no-view")).display !== "none"';
-      await expect.poll(() => firefox.evaluate<boolean>(seen)).toBe(!graphics);
-      expect(await firefox.evaluate<boolean>('document.getElementById("notice").hidden')).toBe(true);
-    } finally {
-      await firefox.close();
-    }
+  test('ground and goal change, are undone, and the page says what it cannot do', async ({ firefox }) => {
+    await firefox.evaluate(() => window.mapless?.pause());
+    const height = () => firefox.evaluate(() => window.mapless?.heightAt({ x: 30, y: 30 }) ?? Number.NaN);
+    const before = await height();
+    const stroke = { kind: 'raise', radius_m: 2, strength_m: 0.5, points_cm: [3000, 3000] } as const;
+    await firefox.evaluate((one) => window.mapless?.sculpt(one), stroke);
+    expect(await height()).toBeCloseTo(before + 0.5, 3);
+    await firefox.evaluate(() => window.mapless?.undo());
+    expect(await height()).toBe(before);
+    await firefox.evaluate(() => window.mapless?.setGoal({ x: 30, y: 31 }));
+    expect((await state(firefox)).goal).toEqual({ x: 30, y: 31 });
+    // Where nothing draws WebGL, as in a Firefox without a screen, the view says so; and nothing else is amiss.
+    const graphics = () => document.createElement('canvas').getContext('webgl2') !== null;
+    const missing = () => getComputedStyle(document.getElementById('no-view') as Element).display !== 'none';
+    await expect.poll(() => firefox.evaluate(missing)).toBe(!(await firefox.evaluate(graphics)));
+    expect(await firefox.evaluate(() => document.getElementById('notice')?.hidden)).toBe(true);
   });
+
+  test('it drives, stands, goes back in time, and the plots follow', async ({ firefox }) => {
+    await until(firefox, ({ tick }) => tick > 20);
+    await firefox.click('#play');
+    await until(firefox, ({ playing }) => !playing);
+    const { tick } = await state(firefox);
+    await firefox.evaluate(() => window.mapless?.step());
+    expect((await state(firefox)).tick).toBe(tick + 1);
+    const lines = () => [...document.querySelectorAll('.plot-line')].map((line) => line.getAttribute('d') ?? '');
+    // What is out of sight is not drawn.
+    await firefox.evaluate(() => document.getElementById('plots')?.scrollIntoView());
+    const drawn = async () => (await firefox.evaluate(lines)).filter((line) => /^M.*L.*L/.test(line)).length;
+    await expect.poll(drawn).toBe(5);
+    await firefox.evaluate(() => window.mapless?.seek(7));
+    expect(await firefox.evaluate(() => document.getElementById('time')?.textContent)).toBe('0:00.7');
+  });
+
+  test('a link opens the experiment, and the next visit goes on where one left off', async ({ firefox, baseURL }) => {
+    const experiment = () => firefox.evaluate(() => window.mapless?.experiment());
+    await firefox.evaluate(() => window.mapless?.pause());
+    await firefox.evaluate(() => window.mapless?.loadScenario('gsb', { seed: 11 }));
+    await firefox.evaluate(() => window.mapless?.setGoal({ x: 30, y: 31 }));
+    const shared = await experiment();
+    const link = await firefox.evaluate(() => window.mapless?.link());
+    await firefox.evaluate(() => window.mapless?.loadScenario('vta'));
+    const own = await kept(firefox);
+    expect(own).not.toEqual(shared);
+    await firefox.goto('about:blank');
+    await firefox.goto(link ?? '');
+    await loaded(firefox);
+    expect(await experiment()).toEqual(shared);
+    await firefox.evaluate(() => window.mapless?.undo());
+    expect(await kept(firefox)).toEqual(own);
+    await firefox.goto('about:blank');
+    await firefox.goto(baseURL ?? '');
+    await loaded(firefox);
+    expect(await experiment()).toEqual(own);
+  });
+
+  test('a batch of seeds runs beside the page', async ({ firefox }) => {
+    test.setTimeout(300_000);
+    await shortCourse(firefox, 3);
+    await firefox.click('#lab');
+    await firefox.click('[role=tab]:nth-of-type(3)');
+    await firefox.evaluate(() => {
+      const count = document.getElementById('seeds-how-many');
+      if (count instanceof HTMLInputElement) count.value = '3';
+    });
+    await firefox.click('.lab-action');
+    const text = (selector: string) =>
+      firefox.evaluate((asked) => document.querySelector(asked)?.textContent, selector);
+    await expect.poll(() => text('.seeds-summary'), { timeout: 200_000 }).toContain('3 of 3 (95 %: 44 % to 100 %)');
+    expect(await text('.seeds-table tbody')).toMatch(/^1Goal reached.*2Goal reached.*3Goal reached/);
+  });
+});
+
+test('in Firefox, after the first visit, the page opens and drives without a network', async () => {
+  test.skip(!FIREFOX, 'No Firefox was found.');
+  // A server of its own, that can go away.
+  const server = await preview({ preview: { host: '127.0.0.1', port: 0 } });
+  const address = server.resolvedUrls?.local[0] ?? '';
+  const firefox = await opened(address);
+  try {
+    await firefox.evaluate(() => navigator.serviceWorker.ready.then(() => true));
+    await server.close();
+    await firefox.goto(`${address}?again`);
+    await loaded(firefox);
+    await until(firefox, ({ tick }) => tick > 3);
+    // What is loaded only when it is asked for is there, too.
+    await firefox.evaluate(() => window.mapless?.loadScenario('vta'));
+    expect((await state(firefox)).scenario).toBe('vta');
+  } finally {
+    await firefox.close();
+  }
 });

@@ -3,24 +3,11 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import type { Page } from '@playwright/test';
 import { driven } from './commandLine.ts';
-import { expect, loaded, state, test, until } from './page.ts';
+import { expect, loaded, shortCourse, state, test, until } from './page.ts';
 
 async function openLab(page: Page, tab: string): Promise<void> {
   await page.getByRole('button', { name: /^Parameters, comparison/ }).click();
   await page.getByRole('tab', { name: tab }).click();
-}
-
-/** A short course, at tick 0. */
-async function shortCourse(page: Page, ahead_m: number, left_m = 0): Promise<void> {
-  await page.evaluate(() => window.mapless?.pause());
-  await page.evaluate(() => window.mapless?.restart());
-  const { pose } = await state(page);
-  const goal = {
-    x: pose.x + ahead_m * Math.cos(pose.yaw) - left_m * Math.sin(pose.yaw),
-    y: pose.y + ahead_m * Math.sin(pose.yaw) + left_m * Math.cos(pose.yaw),
-  };
-  await page.evaluate((place) => window.mapless?.setGoal(place), goal);
-  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
 }
 
 test('a parameter is found, changed, refused with the reason at its field, and reset', async ({ mapless: page }) => {

@@ -2,11 +2,21 @@
 
 import { test as base, expect, type Page } from '@playwright/test';
 import type { MaplessApi, MaplessState } from '../../web/src/api.ts';
+import type { Experiment } from '../../web/src/core/experiment.ts';
 
 declare global {
   interface Window {
     mapless?: MaplessApi;
   }
+}
+
+/** A page that answers: Playwright's, or one in Firefox. */
+export interface Asked {
+  evaluate<Result>(work: () => Result | Promise<Result>): Promise<Result>;
+  evaluate<Result, Argument>(
+    work: (argument: Argument) => Result | Promise<Result>,
+    argument: Argument,
+  ): Promise<Result>;
 }
 
 /** A page that fails its test when a script throws or a request leaves the page's own origin. */
@@ -36,14 +46,14 @@ export async function loaded(page: Page): Promise<void> {
   await page.waitForFunction(() => window.mapless?.state() !== undefined);
 }
 
-export async function state(page: Page): Promise<MaplessState> {
+export async function state(page: Asked): Promise<MaplessState> {
   const now = await page.evaluate(() => window.mapless?.state());
   if (!now) throw new Error('The page has no scenario.');
   return now;
 }
 
 /** Waits until what `read` gives passes `check`. */
-export async function until(page: Page, check: (now: MaplessState) => boolean, timeout = 60_000): Promise<void> {
+export async function until(page: Asked, check: (now: MaplessState) => boolean, timeout = 60_000): Promise<void> {
   await expect.poll(async () => check(await state(page)), { timeout, intervals: [100] }).toBe(true);
 }
 
@@ -53,15 +63,48 @@ export function moved(now: { x: number; y: number }, before: { x: number; y: num
 }
 
 /** Pauses and waits until nothing changes any more, neither state nor view. */
-export async function still(page: Page): Promise<void> {
+export async function still(page: Asked): Promise<void> {
   await page.evaluate(() => window.mapless?.still());
 }
 
 /** Drives on as fast as it goes, to this tick at least, and stands there. */
-export async function driveTo(page: Page, tick: number): Promise<void> {
+export async function driveTo(page: Asked, tick: number): Promise<void> {
   await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
   await until(page, (now) => now.tick >= tick || now.outcome !== 'running');
   await still(page);
+}
+
+/** A short course, at tick 0. */
+export async function shortCourse(page: Asked, ahead_m: number, left_m = 0): Promise<void> {
+  await page.evaluate(() => window.mapless?.pause());
+  await page.evaluate(() => window.mapless?.restart());
+  const { pose } = await state(page);
+  const goal = {
+    x: pose.x + ahead_m * Math.cos(pose.yaw) - left_m * Math.sin(pose.yaw),
+    y: pose.y + ahead_m * Math.sin(pose.yaw) + left_m * Math.cos(pose.yaw),
+  };
+  await page.evaluate((place) => window.mapless?.setGoal(place), goal);
+  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+}
+
+/** Waits until the browser has kept the experiment for the next visit; returns it. */
+export async function kept(page: Asked): Promise<Experiment | undefined> {
+  const own = await page.evaluate(() => window.mapless?.experiment());
+  const stored = () =>
+    page.evaluate(
+      () =>
+        new Promise((resolve, reject) => {
+          const opening = indexedDB.open('mapless', 1);
+          opening.onerror = () => reject(opening.error);
+          opening.onsuccess = () => {
+            const reading = opening.result.transaction('experiments').objectStore('experiments').get('last');
+            reading.onerror = () => reject(reading.error);
+            reading.onsuccess = () => resolve(reading.result);
+          };
+        }),
+    );
+  await expect.poll(stored).toEqual(own);
+  return own;
 }
 
 /** Waits until an element's drawing has more than so many different colours: a blank one has one or a few. */

@@ -3,9 +3,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { deflateRawSync } from 'node:zlib';
 import { type Page, test as plain } from '@playwright/test';
-import type { Experiment } from '../../web/src/core/experiment.ts';
 import { driven } from './commandLine.ts';
-import { expect, loaded, state, test, until } from './page.ts';
+import { expect, kept, loaded, state, test, until } from './page.ts';
 
 /** A boulder and a rough patch ahead of the start of `ht`, another goal behind a stop, and another parameter. */
 async function shape(page: Page): Promise<void> {
@@ -30,26 +29,6 @@ async function runToEnd(page: Page) {
   await until(page, (now) => now.outcome !== 'running', 400_000);
   const { outcome, tick, digest } = await state(page);
   return { outcome, ticks: tick, digest };
-}
-
-/** Waits until the browser has kept the experiment for the next visit; returns it. */
-async function kept(page: Page): Promise<Experiment | undefined> {
-  const own = await page.evaluate(() => window.mapless?.experiment());
-  const stored = () =>
-    page.evaluate(
-      () =>
-        new Promise((resolve, reject) => {
-          const opening = indexedDB.open('mapless', 1);
-          opening.onerror = () => reject(opening.error);
-          opening.onsuccess = () => {
-            const reading = opening.result.transaction('experiments').objectStore('experiments').get('last');
-            reading.onerror = () => reject(reading.error);
-            reading.onsuccess = () => resolve(reading.result);
-          };
-        }),
-    );
-  await expect.poll(stored).toEqual(own);
-  return own;
 }
 
 /** Takes an archive of stored files apart by its directory. */
