@@ -1,4 +1,4 @@
-import { drawnIn, expect, moved, state, test, until } from './page.ts';
+import { drawnIn, expect, loaded, moved, state, test, until } from './page.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
 
@@ -34,4 +34,47 @@ test('a tap with a tool in hand sets the goal', async ({ mapless: page }) => {
   if (!box) throw new Error('The view has no place.');
   await page.touchscreen.tap(box.x + 0.5 * box.width, box.y + 0.35 * box.height);
   await until(page, (now) => moved(now.goal, old.goal));
+});
+
+test('a hill, a goal and a link by touch alone, each tool saying what to do', async ({ mapless: page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.evaluate(() => window.mapless?.still());
+  const caption = page.locator('.scene-caption');
+  await page.locator('label.tool', { hasText: 'Raise' }).tap();
+  await expect(caption).toContainText('Hold or drag to raise the ground');
+  const [above, below] = [await caption.boundingBox(), await page.locator('#brush').boundingBox()];
+  expect((above?.y ?? 0) + (above?.height ?? 0)).toBeLessThan(below?.y ?? 0);
+  const box = await page.locator('#view').boundingBox();
+  if (!box) throw new Error('The view has no place.');
+  const [x, y] = [box.x + 0.45 * box.width, box.y + 0.5 * box.height];
+  await page.touchscreen.tap(x, y);
+  await expect(page.locator('#undo')).toBeEnabled();
+  await page.locator('label.tool', { hasText: 'Goal' }).tap();
+  await expect(caption).toContainText('Press the ground where the robot should go');
+  const old = await state(page);
+  await page.touchscreen.tap(x, y);
+  await until(page, (now) => moved(now.goal, old.goal));
+  await page.locator('label.tool', { hasText: 'Look' }).tap();
+  await expect(caption).not.toContainText('Press');
+  await page.locator('#share').tap();
+  await page.locator('#copy-link').tap();
+  await expect(page.locator('#share-state')).toHaveText('Copied.');
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  await page.goto('about:blank');
+  await page.goto(link);
+  await loaded(page);
+  const { strokes, goal } = (await page.evaluate(() => window.mapless?.experiment())) ?? {};
+  expect(strokes).toHaveLength(1);
+  expect(goal).not.toEqual(old.goal);
+});
+
+test('the head of the page fits windows of every width', async ({ mapless: page }) => {
+  for (const width of [320, 390, 699, 700, 900, 1099, 1100, 1280, 1366, 1380, 1920]) {
+    await page.setViewportSize({ width, height: 800 });
+    expect(await page.evaluate(() => document.documentElement.scrollWidth), `${width}`).toBe(width);
+    for (const id of ['scenario', 'preset', 'learning', 'seed', 'terrains', 'lab', 'share', 'help']) {
+      const box = await page.locator(`#${id}`).boundingBox();
+      expect(box && box.x >= 0 && box.x + box.width <= width && box.width >= 36, `#${id} at ${width}`).toBe(true);
+    }
+  }
 });

@@ -11,7 +11,7 @@ import type { HeightField, Vector } from './heightfield.ts';
 /** `chase` follows behind the robot, `eye` is its sensor, `top` follows from above with north up, `free` stays. */
 export type CameraMode = 'chase' | 'eye' | 'top' | 'free';
 
-const FIELD_OF_VIEW_DEG = 42;
+export const FIELD_OF_VIEW_DEG = 42;
 const NEAREST_M = 3;
 const FARTHEST_M = 260;
 const FOLLOW_DISTANCE_M = 14.5;
@@ -22,12 +22,22 @@ const TARGET_LIFT_M = 0.4;
 const CLEARANCE_M = 0.8;
 /** From above, the circle that the planner looks at and as much again around it. */
 const TOP_DISTANCE_M = 34;
+/** From where the whole ground is seen. */
+export const OVERVIEW_ELEVATION_RAD = 0.85;
 /** The chasing camera swings behind a turning robot within about this time. */
 const SWING_MS = 900;
 /** Less than this it makes at once. */
 const LEAST_SWING_RAD = 0.002;
 /** How far the camera rises with each picture while a hill hides the robot. */
 const RISE_RAD = 0.03;
+
+/** How far from the middle of a ground all of it is in a view of this aspect, seen from the middle of its south side. */
+export function overviewDistance_m(ground: Pick<HeightField, 'width_m' | 'depth_m'>, aspect: number): number {
+  const slope = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
+  // The near edge, which looks widest, has to fit in a narrow view.
+  const nearer_m = 0.5 * ground.depth_m * Math.cos(OVERVIEW_ELEVATION_RAD);
+  return Math.max((0.55 * ground.depth_m) / slope, (0.53 * ground.width_m) / (slope * aspect) + nearer_m);
+}
 
 export class Viewpoint {
   readonly #camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, DEPTH_M.near, DEPTH_M.far);
@@ -142,9 +152,8 @@ export class Viewpoint {
   /** The whole ground from the south, from above. */
   overview(field: HeightField): void {
     this.#enter('free');
-    const width_m = Math.max(field.width_m / Math.min(this.#camera.aspect, 1.5), field.depth_m);
     this.#controls.target.set(field.width_m / 2, field.depth_m / 2, field.min_m);
-    this.#stand(-Math.PI / 2, 0.85, (0.55 * width_m) / Math.tan(MathUtils.degToRad(this.#camera.fov / 2)));
+    this.#stand(-Math.PI / 2, OVERVIEW_ELEVATION_RAD, overviewDistance_m(field, this.#camera.aspect));
   }
 
   /** Makes a share of the robot's turns that the chasing camera has still to make; any other makes none. */

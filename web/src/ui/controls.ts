@@ -4,7 +4,7 @@ import { CATALOGUE } from '../core/catalogue.ts';
 import { LEARNING, MAX_SEED } from '../core/experiment.ts';
 import type { SessionInfo, Setting } from '../core/protocol.ts';
 import { TOOLS, type Tool } from '../scene/tools.ts';
-import { byId, html } from './dom.ts';
+import { byId, html, setText } from './dom.ts';
 
 export const SPEEDS: readonly number[] = [0.5, 1, 2, 4, Number.POSITIVE_INFINITY];
 
@@ -34,6 +34,8 @@ export class Controls {
   readonly #play = byId('play', HTMLButtonElement);
   readonly #routeTools = byId('route-tools', HTMLElement);
   readonly #routeClear = byId('route-clear', HTMLButtonElement);
+  readonly #lesson = byId('scene-lesson', HTMLElement);
+  readonly #hint = byId('tool-hint', HTMLElement);
   readonly #own = html('option');
 
   constructor(actions: Actions) {
@@ -88,7 +90,13 @@ export class Controls {
   }
 
   showTool(tool: Tool): void {
-    for (const input of this.#radios('tool')) input.checked = input.value === tool;
+    for (const input of this.#radios('tool')) {
+      input.checked = input.value === tool;
+      // A finger cannot hover: what to do with the tool is said in the view, too, without its key.
+      if (input.checked) setText(this.#hint, input.labels?.[0]?.title.replace(/ \(.\)$/, '') ?? '');
+    }
+    this.#hint.hidden = tool === 'look';
+    this.#lesson.hidden = tool !== 'look';
     this.#routeTools.hidden = tool !== 'goal';
   }
 
