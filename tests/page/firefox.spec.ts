@@ -71,6 +71,8 @@ test.describe('in Firefox', () => {
     await until(firefox, ({ tick }) => tick > 20);
     await firefox.click('#play');
     await until(firefox, ({ playing }) => !playing);
+    // A frame may be on its way.
+    await firefox.evaluate(() => window.mapless?.pause());
     const { tick } = await state(firefox);
     await firefox.evaluate(() => window.mapless?.step());
     expect((await state(firefox)).tick).toBe(tick + 1);
