@@ -15,7 +15,7 @@ export const VERDICT_WORDS: Record<Verdict, string> = {
 /** Where a subgoal is. */
 export function subgoalTitle(one: Subgoal): string {
   if (isGoal(one)) return 'The goal itself';
-  return one.segment === undefined ? 'A place it knows a way to' : `Subgoal ${direction(one.azimuth_rad)}`;
+  return one.segment === undefined ? 'A place already seen' : `Subgoal ${direction(one.azimuth_rad)}`;
 }
 
 export function subgoalState(one: Subgoal): string {
