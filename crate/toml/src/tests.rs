@@ -112,6 +112,23 @@ fn a_located_table_knows_its_header() {
     assert_eq!(found, [(0, 1.0), (23, 2.0)]);
 }
 
+/// The toml crate's words for an integer that it cannot read, whatever the reason; ours give the reason.
+const OVERFLOWED: &str = "integer number overflowed";
+
+#[test]
+fn an_integer_that_cannot_be_read_is_told_with_its_reason() {
+    for (seed, reason) in [
+        ("0x#1f", "integer: expected digits"),
+        ("99999999999999999999999999999999999999999", "99: expected one of 64 bits"),
+    ] {
+        let text = GOOD.replace("0x_1f", seed);
+        let (ours, theirs) =
+            (ours::<toml::Table>(&text).unwrap_err(), theirs::<toml::Table>(&text).unwrap_err());
+        assert!(theirs.ends_with(OVERFLOWED) && ours.ends_with(reason), "{theirs} {ours}");
+        assert!(ours.contains("line 2, column 8"), "{ours}");
+    }
+}
+
 proptest! {
     /// A byte of a good document changed, left out or doubled: the same value or the same fault as with the toml crate.
     #[test]
@@ -123,7 +140,10 @@ proptest! {
             _ => bytes.insert(at, byte),
         }
         if let Ok(text) = String::from_utf8(bytes) {
-            prop_assert_eq!(ours::<toml::Table>(&text), theirs::<toml::Table>(&text));
+            let (ours_read, theirs_read) = (ours::<toml::Table>(&text), theirs::<toml::Table>(&text));
+            if !matches!(&theirs_read, Err(words) if words.ends_with(OVERFLOWED)) {
+                prop_assert_eq!(ours_read, theirs_read);
+            }
             prop_assert_eq!(ours::<Document>(&text).is_ok(), theirs::<Document>(&text).is_ok(), "{}", text);
         }
     }

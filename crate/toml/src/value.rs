@@ -104,6 +104,8 @@ impl<'de> Deserializer<'de> for Value<'_> {
                 Some(value) => visitor.visit_i64(value),
                 None => match u64::from_str_radix(number.as_str(), number.radix()) {
                     Ok(value) => visitor.visit_u64(value),
+                    // As `0x` without more is read.
+                    Err(_) if number.as_str().is_empty() => Err(Error::custom("integer: expected digits")),
                     Err(_) => Err(Error::custom(format_args!(
                         "integer {}: expected one of 64 bits",
                         number.as_str()
