@@ -129,6 +129,11 @@ fn an_integer_that_cannot_be_read_is_told_with_its_reason() {
     }
 }
 
+/// A message without the line that underlines its place: the toml crate counts bytes there, we characters.
+fn without_carets(message: String) -> String {
+    message.lines().filter(|line| !line.ends_with('^')).collect::<Vec<_>>().join("\n")
+}
+
 proptest! {
     /// A byte of a good document changed, left out or doubled: the same value or the same fault as with the toml crate.
     #[test]
@@ -142,7 +147,7 @@ proptest! {
         if let Ok(text) = String::from_utf8(bytes) {
             let (ours_read, theirs_read) = (ours::<toml::Table>(&text), theirs::<toml::Table>(&text));
             if !matches!(&theirs_read, Err(words) if words.ends_with(OVERFLOWED)) {
-                prop_assert_eq!(ours_read, theirs_read);
+                prop_assert_eq!(ours_read.map_err(without_carets), theirs_read.map_err(without_carets));
             }
             prop_assert_eq!(ours::<Document>(&text).is_ok(), theirs::<Document>(&text).is_ok(), "{}", text);
         }
