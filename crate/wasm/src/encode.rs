@@ -25,7 +25,7 @@ pub(crate) fn segment(segment: &Segment) -> [f64; 6] {
 }
 
 /// Azimuth and elevation in the sensor frame, world x, y, z, chosen (0 or 1), refusal (0 none, 1 tilt, 2 unseen), index of
-/// its segment (-1 for the goal itself and for where the robot already heads); reach, mean risk, largest roll and pitch of the forecast and its end (0 whole,
+/// its segment (-1 for a place that is not on the skyline); reach, mean risk, largest roll and pitch of the forecast and its end (0 whole,
 /// 1 tilt, 2 unseen), NaN without one; the cost's terms: direction, distance, steepness, commitment, dead_end, NaN without one.
 pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 18] {
     let refusal = match subgoal.refusal {

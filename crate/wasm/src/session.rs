@@ -427,7 +427,7 @@ impl Session {
     }
 
     /// Eighteen numbers for each subgoal: azimuth and elevation in the sensor frame; world x, y, z; chosen (0 or 1); refusal
-    /// (0 none, 1 tilt, 2 unseen); index of its segment (-1 for the goal itself and for where the robot already heads); the forecast's reach, mean risk, largest
+    /// (0 none, 1 tilt, 2 unseen); index of its segment (-1 for a place that is not on the skyline); the forecast's reach, mean risk, largest
     /// roll and pitch, and why it ends (0 whole, 1 tilt, 2 unseen), NaN without one; the weighted costs of direction,
     /// distance, steepness, commitment, dead_end. The goal itself, once in sight, is a subgoal without cost: NaN.
     pub fn subgoals(&self) -> Vec<f64> {
