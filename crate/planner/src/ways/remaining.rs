@@ -39,21 +39,18 @@ impl Ways {
             }
         }
         let ways = &*self;
-        let states = ways.costs_mm.chunks_exact(HEADINGS).zip(ways.remaining_mm.chunks_exact(HEADINGS));
-        states.enumerate().filter_map(move |(place, (costs_mm, remaining_mm))| {
-            let remaining_mm = remaining_mm.iter().copied().min().filter(|&left| left != UNREACHED)?;
-            let reached = costs_mm.iter().any(|&cost| cost != UNREACHED);
-            let position_m = ways.footing.position_m(ways.footing.offset(place));
-            reached.then_some((position_m, least_m + f64::from(remaining_mm) / MILLIMETRES))
+        ways.reached().filter_map(move |(reached, position_m)| {
+            let place = reached.state as usize / HEADINGS;
+            let headings = &ways.remaining_mm[place * HEADINGS..][..HEADINGS];
+            let remaining_mm = headings.iter().copied().min().filter(|&left| left != UNREACHED)?;
+            Some((position_m, least_m + f64::from(remaining_mm) / MILLIMETRES))
         })
     }
 
     /// Every place that was reached by its cheapest way, and where it lies.
     pub(crate) fn reached(&self) -> impl Iterator<Item = (Reached, DVec2)> {
-        self.costs_mm.chunks_exact(HEADINGS).enumerate().filter_map(|(place, costs_mm)| {
-            let (heading, &cost_mm) = costs_mm.iter().enumerate().min_by_key(|(_, cost_mm)| **cost_mm)?;
-            let reached = Reached { state: (place * HEADINGS + heading) as u32 };
-            (cost_mm != UNREACHED).then(|| (reached, self.footing.position_m(self.footing.offset(place))))
+        (0..self.footing.count()).filter_map(|place| {
+            Some((self.cheapest(place)?, self.footing.position_m(self.footing.offset(place))))
         })
     }
 

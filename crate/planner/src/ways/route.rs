@@ -20,7 +20,11 @@ const GETS_STEEPER_TICKS: f64 = 5.0;
 impl Ways {
     /// The cheapest way to the place nearest to a point; `None` when there is none.
     pub(crate) fn to(&self, point_m: DVec2) -> Option<Reached> {
-        let place = self.footing.index(self.footing.nearest(point_m)?);
+        self.cheapest(self.footing.index(self.footing.nearest(point_m)?))
+    }
+
+    /// The cheapest way to a place; `None` when there is none.
+    pub(super) fn cheapest(&self, place: usize) -> Option<Reached> {
         let states = place * HEADINGS..(place + 1) * HEADINGS;
         let state = states.min_by_key(|&state| self.costs_mm[state])?;
         (self.costs_mm[state] != UNREACHED).then_some(Reached { state: state as u32 })
