@@ -1,5 +1,5 @@
 import { type Page, test as plain, type Worker } from '@playwright/test';
-import { drawnIn, expect, loaded, state, test, until } from './page.ts';
+import { drawnIn, expect, loaded, state, still, test, until } from './page.ts';
 
 // What these tests replace must come from the server, not from what the page keeps.
 for (const one of [plain, test]) one.use({ serviceWorkers: 'block' });
@@ -42,6 +42,32 @@ test('a lost graphics context is explained, and the view comes back', async ({ m
   const { tick } = await state(page);
   await until(page, (now) => now.tick > tick + 3);
   await drawnIn(page, '#view', 500);
+});
+
+test('while the window changes its size the view is never empty', async ({ mapless: page }) => {
+  await until(page, (now) => now.tick > 10);
+  await still(page);
+  await page.evaluate(() => window.mapless?.play());
+  await page.evaluate(() => {
+    const view = document.querySelector<HTMLCanvasElement>('#view');
+    const copy = new OffscreenCanvas(16, 16).getContext('2d', { willReadFrequently: true });
+    const look = () => {
+      requestAnimationFrame(look);
+      if (!view || !copy) return;
+      copy.clearRect(0, 0, 16, 16);
+      copy.drawImage(view, 0, 0, 16, 16);
+      const drawn = copy.getImageData(0, 0, 16, 16).data.some((value) => value > 0);
+      const seen = drawn ? 'pictures' : 'gaps';
+      view.dataset[seen] = String(Number(view.dataset[seen] ?? 0) + 1);
+    };
+    look();
+  });
+  for (let width = 1440; width > 900; width -= 20) {
+    await page.setViewportSize({ width, height: 900 - (width % 40) });
+  }
+  const view = page.locator('#view');
+  await expect.poll(async () => Number(await view.getAttribute('data-pictures'))).toBeGreaterThan(20);
+  await expect(view).not.toHaveAttribute('data-gaps');
 });
 
 plain('without WebGL the view stays empty, and all else works', async ({ page }) => {

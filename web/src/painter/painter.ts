@@ -43,6 +43,8 @@ export class Painter {
   readonly #overlays: Overlays;
   readonly #relief: Relief;
   #size_px = { width: 1, height: 1 };
+  /** Whether canvas and camera have this size and the pacer's resolution. */
+  #fits = false;
   #scenery: Scenery | undefined;
   #colouring: Colouring = 'elevation';
   /** The robot as it is drawn; nothing until it stands on the present ground. */
@@ -93,7 +95,7 @@ export class Painter {
     switch (message.type) {
       case 'size':
         this.#size_px = { width: message.width_px, height: message.height_px };
-        this.#resize();
+        this.#fits = false;
         break;
       case 'theme':
         this.#theme(message.theme);
@@ -193,7 +195,7 @@ export class Painter {
     this.#camera.quaternion.set(...quaternion);
     if (this.#camera.fov !== fieldOfView_deg) {
       this.#camera.fov = fieldOfView_deg;
-      this.#resize();
+      this.#fits = false;
     }
     this.#husky.group.visible = !eye;
     this.#move(robot);
@@ -221,7 +223,7 @@ export class Painter {
     // Returns keep a size in metres.
     const heightAtOneMetre = 2 * Math.tan((this.#camera.fov * Math.PI) / 360);
     this.#returns.scale((height * this.#pacer.pixelRatio) / heightAtOneMetre);
-    this.#dirty = true;
+    this.#fits = true;
   }
 
   #loop(now_ms: number): void {
@@ -232,13 +234,18 @@ export class Painter {
     // No picture of the ground without the robot, which comes right after it.
     if (!this.#robot || !this.#pacer.due(now_ms) || !this.#dirty) return;
     this.#dirty = false;
+    // Only now, as it empties the canvas: until there is another picture, the last one stays.
+    if (!this.#fits) this.#resize();
     const { position } = this.#camera;
     this.#subgoals.attach(this.#sensor, position);
     this.#places.face(position);
     this.#waypoints.face(position);
     this.#renderer.render(this.#scene, this.#camera);
     if (this.#filming) this.#sendPicture();
-    if (this.#pacer.drew(now_ms)) this.#resize();
+    if (this.#pacer.drew(now_ms)) {
+      this.#fits = false;
+      this.#dirty = true;
+    }
   }
 
   /** Right after the drawing: later its pixels are gone. */

@@ -15,7 +15,8 @@ export const VERDICT_WORDS: Record<Verdict, string> = {
 /** Where a subgoal is. */
 export function subgoalTitle(one: Subgoal): string {
   if (isGoal(one)) return 'The goal itself';
-  return one.segment === undefined ? 'A place already seen' : `Subgoal ${direction(one.azimuth_rad)}`;
+  const where = direction(one.azimuth_rad);
+  return one.segment === undefined ? `Place already seen, ${where}` : `Subgoal ${where}`;
 }
 
 export function subgoalState(one: Subgoal): string {
