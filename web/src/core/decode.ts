@@ -1,5 +1,6 @@
 /** Names for the flat arrays that the core sends; `crate/wasm` documents their order. */
 
+import { METRICS, MOTION } from './columns.ts';
 import {
   COLUMN_KINDS,
   type ColumnKind,
@@ -33,28 +34,7 @@ export const SCENE = [
 ] as const;
 
 /** Order of the scalars in `CoreSession.status`. */
-export const STATUS = [
-  'tick',
-  'time_s',
-  'x',
-  'y',
-  'z',
-  'roll',
-  'pitch',
-  'yaw',
-  'v_m_s',
-  'omega_rad_s',
-  'command_v_m_s',
-  'command_omega_rad_s',
-  'threshold',
-  'distance_m',
-  'max_abs_roll_rad',
-  'max_abs_pitch_rad',
-  'mean_vibration_rad_s',
-  'mean_elevation_rate_cm_s',
-  'curvature_change_rad_m',
-  'waypoints_passed',
-] as const;
+export const STATUS = ['tick', 'time_s', ...MOTION, 'threshold', ...METRICS, 'waypoints_passed'] as const;
 
 const SEGMENT_STRIDE = 6;
 const SUBGOAL_STRIDE = 13;
@@ -65,6 +45,14 @@ export function named<Name extends string>(names: readonly Name[], values: Float
     throw new Error(`The core sent ${values.length} numbers; the page expects ${names.length}: ${names.join(', ')}.`);
   }
   return Object.fromEntries(names.map((name, index) => [name, values[index]])) as Record<Name, number>;
+}
+
+/** Those of a row's numbers that have these names. */
+export function only<Name extends string>(
+  names: readonly Name[],
+  row: Readonly<Record<Name, number>>,
+): Record<Name, number> {
+  return Object.fromEntries(names.map((name) => [name, row[name]])) as Record<Name, number>;
 }
 
 export function decodeSegments(values: Float64Array): Segment[] {

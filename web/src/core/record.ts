@@ -3,20 +3,13 @@
  * when the scan was taken and what the planner decided on it. It grows with the run and is bounded.
  */
 
+import { MOTION } from './columns.ts';
+
 /** What a row holds, in its order. The worker appends the last three, which the core cannot measure. */
 export const ROW = [
   'tick',
   'time_s',
-  'x',
-  'y',
-  'z',
-  'roll',
-  'pitch',
-  'yaw',
-  'v_m_s',
-  'omega_rad_s',
-  'command_v_m_s',
-  'command_omega_rad_s',
+  ...MOTION,
   'subgoal_x',
   'subgoal_y',
   'activity',

@@ -1,6 +1,7 @@
 /** One loaded scenario in the wasm core, as the plain data of the protocol. Runs in the worker. */
 
-import { decodeSegments, decodeSubgoals, named, SCENE, STATUS } from './decode.ts';
+import { METRICS, POSE } from './columns.ts';
+import { decodeSegments, decodeSubgoals, named, only, SCENE, STATUS } from './decode.ts';
 import type { Experiment, Stroke } from './experiment.ts';
 import { filesOf } from './opening.ts';
 import { countOverrides, type Overrides, sectionsOf } from './overrides.ts';
@@ -193,14 +194,13 @@ export class Session {
       buffers.profile.fill(Number.NaN);
       buffers.kinds.fill(0);
     }
-    const { x, y, z, roll, pitch, yaw } = status;
     return {
       tick: status.tick,
       time_s: status.time_s,
       outcome: this.outcome,
       activity: core.activity() as Activity,
       stopReason: core.stop_reason(),
-      pose: { x, y, z, roll, pitch, yaw },
+      pose: only(POSE, status),
       v_m_s: status.v_m_s,
       omega_rad_s: status.omega_rad_s,
       command: { v_m_s: status.command_v_m_s, omega_rad_s: status.command_omega_rad_s },
@@ -211,14 +211,7 @@ export class Session {
       segments: decided ? decodeSegments(core.segments()) : [],
       subgoals: decided ? decodeSubgoals(core.subgoals()) : [],
       way: decided ? core.way() : new Float64Array(),
-      metrics: {
-        distance_m: status.distance_m,
-        max_abs_roll_rad: status.max_abs_roll_rad,
-        max_abs_pitch_rad: status.max_abs_pitch_rad,
-        mean_vibration_rad_s: status.mean_vibration_rad_s,
-        mean_elevation_rate_cm_s: status.mean_elevation_rate_cm_s,
-        curvature_change_rad_m: status.curvature_change_rad_m,
-      },
+      metrics: only(METRICS, status),
       planner_ms: this.#planner_ms,
       digest: core.digest(),
       buffers,

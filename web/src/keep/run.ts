@@ -1,5 +1,6 @@
 /** A run as its files describe it. */
 
+import { MOTION, POSE } from '../core/columns.ts';
 import type { Frame, SessionInfo } from '../core/protocol.ts';
 import type { RunRecord } from '../core/record.ts';
 
@@ -26,23 +27,10 @@ export function trajectoryCsv({ frame, record }: Run): string {
     lines.push(`${record.get(row, 'time_s').toFixed(3)},${motion.join(',')},${subgoal},${activity}`);
   }
   const { pose, time_s, v_m_s, omega_rad_s, outcome } = frame;
-  const last = [pose.x, pose.y, pose.z, pose.roll, pose.pitch, pose.yaw, v_m_s, omega_rad_s].map(decimals);
+  const last = [...POSE.map((name) => pose[name]), v_m_s, omega_rad_s].map(decimals);
   lines.push(`${time_s.toFixed(3)},${last.join(',')},,,,,${outcome}`);
   return `${lines.join('\n')}\n`;
 }
-
-const MOTION = [
-  'x',
-  'y',
-  'z',
-  'roll',
-  'pitch',
-  'yaw',
-  'v_m_s',
-  'omega_rad_s',
-  'command_v_m_s',
-  'command_omega_rad_s',
-] as const;
 
 /** In the order of the record's codes. */
 const ACTIVITIES = ['driving', 'arrived', 'looking', 'stopped'];

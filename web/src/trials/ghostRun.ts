@@ -1,6 +1,7 @@
 /** What is known of one ghost: its rows by tick and how it stands. */
 
-import { named } from '../core/decode.ts';
+import { POSE } from '../core/columns.ts';
+import { named, only } from '../core/decode.ts';
 import type { Pose } from '../core/protocol.ts';
 import { ROW, type Row, standing, type TrialResult } from './protocol.ts';
 
@@ -36,8 +37,7 @@ export class GhostRun {
 
   pose(tick: number): Pose | undefined {
     if (tick < 0 || tick > this.lastTick) return undefined;
-    const { x, y, z, roll, pitch, yaw } = this.#row(tick);
-    return { x, y, z, roll, pitch, yaw };
+    return only(POSE, this.#row(tick));
   }
 
   /** How it stood at a tick, or stands now where that is later. */

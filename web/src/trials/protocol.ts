@@ -1,5 +1,7 @@
 /** What the page and a worker that runs whole trials say to each other. A worker has one job and is then ended. */
 
+import { METRICS, POSE } from '../core/columns.ts';
+import { only } from '../core/decode.ts';
 import type { Overrides } from '../core/overrides.ts';
 import type { Ground, Heading, Learning, Metrics, Outcome, Place } from '../core/protocol.ts';
 
@@ -37,31 +39,13 @@ export type ToTrials =
   | { type: 'sum'; results: readonly TrialResult[] };
 
 /** What is known of a trial at one tick, in the order of `WasmRunner.status`. */
-export const ROW = [
-  'tick',
-  'time_s',
-  'x',
-  'y',
-  'z',
-  'roll',
-  'pitch',
-  'yaw',
-  'distance_m',
-  'max_abs_roll_rad',
-  'max_abs_pitch_rad',
-  'mean_vibration_rad_s',
-  'mean_elevation_rate_cm_s',
-  'curvature_change_rad_m',
-] as const;
+export const ROW = ['tick', 'time_s', ...POSE, ...METRICS] as const;
 
 export type Row = Readonly<Record<(typeof ROW)[number], number>>;
 
-export const METRICS = ROW.slice(ROW.indexOf('distance_m')) as (keyof Metrics)[];
-
 /** How a trial stands by its row. */
 export function standing(row: Row): Pick<TrialResult, 'tick' | 'time_s' | 'metrics'> {
-  const metrics = Object.fromEntries(METRICS.map((key) => [key, row[key]])) as unknown as Metrics;
-  return { tick: row.tick, time_s: row.time_s, metrics };
+  return { tick: row.tick, time_s: row.time_s, metrics: only(METRICS, row) };
 }
 
 /** Mean and standard deviation over the trials that reached the goal; NaN where there is none. */

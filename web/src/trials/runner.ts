@@ -1,10 +1,11 @@
 /** Trials on one course, as plain data. Runs in the worker. */
 
+import { METRICS } from '../core/columns.ts';
 import { named } from '../core/decode.ts';
 import { sectionsOf, withOverride } from '../core/overrides.ts';
 import type { Metrics, Outcome } from '../core/protocol.ts';
 import { scenarioFile } from '../core/toml.ts';
-import { type Course, METRICS, ROW, type Summary, standing, type TrialResult } from './protocol.ts';
+import { type Course, ROW, type Summary, standing, type TrialResult } from './protocol.ts';
 import type { TrialsModule, WasmGround, WasmRunner } from './wasm.ts';
 
 export class Runner {

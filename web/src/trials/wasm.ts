@@ -10,7 +10,7 @@ export interface WasmRunner {
   /** One tick; whether the trial goes on. */
   tick(): boolean;
   outcome(): string;
-  /** Tick, time, pose, metrics: see `RUNNER_STATUS` in runner.ts. */
+  /** Tick, time, pose, metrics: see `ROW` in protocol.ts. */
   status(): Float64Array;
   digest(): string;
 }
