@@ -3,7 +3,7 @@
 use sha2::{Digest, Sha256};
 
 use crate::metrics::Sample;
-use crate::trial::Outcome;
+use crate::outcome::Outcome;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TrajectoryDigest(Sha256);

@@ -6,7 +6,9 @@
 mod digest;
 mod history;
 mod metrics;
+mod outcome;
 pub mod parameters;
+mod patience;
 mod places;
 mod profile_accuracy;
 mod scenario;
@@ -15,9 +17,10 @@ mod trial;
 
 pub use history::History;
 pub use metrics::Metrics;
+pub use outcome::Outcome;
 pub use places::StartPose;
 pub use profile_accuracy::{ColumnKind, ProfileAccuracy, profile_accuracy};
 #[cfg(not(target_arch = "wasm32"))]
 pub use scenario::LoadedScenario;
 pub use scenario::{Preset, Scenario, ScenarioError, ScenarioFault};
-pub use trial::{Outcome, Trial, TrialError};
+pub use trial::{Trial, TrialError};

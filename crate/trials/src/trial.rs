@@ -14,50 +14,13 @@ use mapless_world::{
 
 use crate::digest::TrajectoryDigest;
 use crate::metrics::{Metrics, MetricsRecorder, Sample};
+use crate::outcome::Outcome;
+use crate::patience::Patience;
 use crate::places::StartPose;
 use crate::scenario::{Preset, Scenario};
 
 /// Motion steps in one planning period.
 const MOTION_STEPS: u32 = 10;
-/// A robot that stays within this distance for this long is stuck.
-const STUCK_RADIUS_M: f64 = 0.5;
-const STUCK_AFTER_S: f64 = 30.0;
-/// A trial may last this long plus this many times the straight way at full speed.
-const BASE_TIME_LIMIT_S: f64 = 60.0;
-const STRAIGHT_TIMES: f64 = 4.0;
-
-/// How a trial ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Outcome {
-    /// At the goal, never beyond a tilt limit.
-    Reached,
-    /// Roll or pitch beyond its limit.
-    TiltLimit,
-    /// Half a minute without getting anywhere.
-    Stuck,
-    /// The navigator stopped with a reason.
-    NoSubgoal,
-    /// A wheel would have left the terrain.
-    LeftTerrain,
-    /// Too slow.
-    Timeout,
-}
-
-impl Outcome {
-    /// The name used in files and tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Reached => "reached",
-            Self::TiltLimit => "tilt_limit",
-            Self::Stuck => "stuck",
-            Self::NoSubgoal => "no_subgoal",
-            Self::LeftTerrain => "left_terrain",
-            Self::Timeout => "timeout",
-        }
-    }
-}
-
 /// Why a trial cannot begin or change as asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TrialError {
@@ -95,8 +58,7 @@ pub struct Trial<N = Planner> {
     tick: u64,
     metrics: MetricsRecorder,
     digest: TrajectoryDigest,
-    anchor: (DVec2, u64),
-    time_limit_s: f64,
+    patience: Patience,
     outcome: Option<Outcome>,
 }
 
@@ -204,7 +166,6 @@ impl<N: Navigator> Trial<N> {
             caster: Arc::new(Caster::new(field)),
             sensor,
             scan: Scan::default(),
-            anchor: (scenario.start.position_m, 0),
             husky,
             navigator,
             decision: Decision { status: Status::Looking, command: Command::STOP },
@@ -215,10 +176,10 @@ impl<N: Navigator> Trial<N> {
             seed,
             tick: 0,
             digest: TrajectoryDigest::default(),
-            time_limit_s: 0.0,
+            patience: Patience::default(),
             outcome: None,
         };
-        trial.allow_time();
+        trial.be_patient();
         Ok(trial)
     }
 
@@ -270,8 +231,7 @@ impl<N: Navigator> Trial<N> {
         self.outcome = match status {
             Status::Arrived if self.passed < self.waypoints_m.len() => {
                 self.passed += 1;
-                self.anchor = (self.husky.state().position, self.tick);
-                self.allow_time();
+                self.be_patient();
                 self.drive(command)
             }
             Status::Arrived => Some(Outcome::Reached),
@@ -279,7 +239,8 @@ impl<N: Navigator> Trial<N> {
             Status::Driving | Status::Looking => self.drive(command),
         };
         self.tick += 1;
-        self.outcome = self.outcome.or_else(|| self.lost_patience());
+        let (here_m, time_s) = (self.husky.state().position, self.time_s());
+        self.outcome = self.outcome.or_else(|| self.patience.lost(here_m, time_s));
         self.outcome
     }
 
@@ -306,22 +267,12 @@ impl<N: Navigator> Trial<N> {
         None
     }
 
-    fn lost_patience(&mut self) -> Option<Outcome> {
-        let (place, since) = self.anchor;
-        let here = self.husky.state().position;
-        let period_s = self.navigator.period_s();
-        if (here - place).length() > STUCK_RADIUS_M {
-            self.anchor = (here, self.tick);
-        } else if (self.tick - since) as f64 * period_s > STUCK_AFTER_S {
-            return Some(Outcome::Stuck);
-        }
-        (self.time_s() > self.time_limit_s).then_some(Outcome::Timeout)
-    }
-
-    fn allow_time(&mut self) {
-        let straight = (self.target_m() - self.husky.state().position).length();
-        let speed = self.navigator.max_speed_m_s().min(self.husky.config().max_speed_m_s);
-        self.time_limit_s = self.time_s() + BASE_TIME_LIMIT_S + STRAIGHT_TIMES * straight / speed;
+    /// Allows anew the time to the target.
+    fn be_patient(&mut self) {
+        let here_m = self.husky.state().position;
+        let speed_m_s = self.navigator.max_speed_m_s().min(self.husky.config().max_speed_m_s);
+        let straight_s = (self.target_m() - here_m).length() / speed_m_s;
+        self.patience = Patience::new(here_m, self.time_s(), straight_s);
     }
 
     /// Sets a new goal and drives on; the metrics go on too.
@@ -362,8 +313,7 @@ impl<N: Navigator> Trial<N> {
     /// Lets an ended trial go on, after a change.
     fn resume(&mut self) {
         self.outcome = None;
-        self.anchor = (self.husky.state().position, self.tick);
-        self.allow_time();
+        self.be_patient();
     }
 
     /// How the trial ended; `None` while it runs.

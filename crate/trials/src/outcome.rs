@@ -1,0 +1,33 @@
+//! The ways in which a trial ends.
+
+/// How a trial ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// At the goal, never beyond a tilt limit.
+    Reached,
+    /// Roll or pitch beyond its limit.
+    TiltLimit,
+    /// Half a minute without getting anywhere.
+    Stuck,
+    /// The navigator stopped with a reason.
+    NoSubgoal,
+    /// A wheel would have left the terrain.
+    LeftTerrain,
+    /// Too slow.
+    Timeout,
+}
+
+impl Outcome {
+    /// The name used in files and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reached => "reached",
+            Self::TiltLimit => "tilt_limit",
+            Self::Stuck => "stuck",
+            Self::NoSubgoal => "no_subgoal",
+            Self::LeftTerrain => "left_terrain",
+            Self::Timeout => "timeout",
+        }
+    }
+}
