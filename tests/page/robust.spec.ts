@@ -85,9 +85,13 @@ plain('without WebGL the view stays empty, and all else works', async ({ page })
   await expect(page.locator('#notice-text')).toContainText('view.png could not be made: there is no 3D view');
 });
 
-plain('an error in drawing is explained, and all else works', async ({ page }) => {
+plain('an error in drawing is explained, ends a film with what it has, and all else works', async ({ page }) => {
   await page.goto('/');
   await loaded(page);
+  await page.locator('#save-film').click();
+  const started = await state(page);
+  await until(page, (now) => now.tick > started.tick + 10);
+  const film = page.waitForEvent('download');
   const painter = await painterOf(page);
   await painter.evaluate(() => {
     WebGL2RenderingContext.prototype.clear = () => {
@@ -95,6 +99,8 @@ plain('an error in drawing is explained, and all else works', async ({ page }) =
     };
   });
   await expect(page.locator('#notice-text')).toContainText('no more paint');
+  expect((await film).suggestedFilename()).toMatch(/film\.webm$/);
+  await expect(page.locator('#save-film')).toHaveText('Film (WebM)');
   const { tick } = await state(page);
   await until(page, (now) => now.tick > tick);
 });

@@ -1,8 +1,8 @@
 /** Pictures and films of the 3D view. The view's canvas is see-through: here it stands before the page's sky. */
 
-/** What gives its pictures away while somebody wants them, beginning with the present one. */
+/** What gives its pictures away while somebody wants them, beginning with the present one; `undefined` when there will be no more. */
 export interface Filmed {
-  film(film: ((picture: ImageBitmap) => void) | undefined): void;
+  film(film: ((picture: ImageBitmap | undefined) => void) | undefined): void;
 }
 
 const FRAME_RATE_HZ = 30;
@@ -24,7 +24,7 @@ export class Camera {
   readonly #plate = document.createElement('canvas');
   #recorder: MediaRecorder | undefined;
   #filming = false;
-  #onFilmed: (() => void) | undefined;
+  #waiting: { resolve: () => void; reject: (error: Error) => void } | undefined;
 
   constructor(source: Filmed) {
     this.#source = source;
@@ -45,7 +45,7 @@ export class Camera {
     });
   }
 
-  /** Films until `stop`; resolves with the WebM. */
+  /** Films until `stop`, or until there is no view any more; resolves with the WebM. */
   async film(): Promise<Blob> {
     const mimeType = kind();
     if (!mimeType) throw new Error('This browser records no WebM video.');
@@ -79,16 +79,16 @@ export class Camera {
 
   /** Waits for the next drawing. */
   #next(): Promise<void> {
-    return new Promise((resolve) => {
-      this.#onFilmed = resolve;
+    return new Promise((resolve, reject) => {
+      this.#waiting = { resolve, reject };
       this.#watch();
     });
   }
 
   /** Reads the view while anybody needs it. */
   #watch(): void {
-    const needed = this.#recorder !== undefined || this.#onFilmed !== undefined;
-    this.#source.film(needed ? (picture) => this.#take(picture) : undefined);
+    const needed = this.#recorder !== undefined || this.#waiting !== undefined;
+    this.#source.film(needed ? (picture) => (picture ? this.#take(picture) : this.#end()) : undefined);
   }
 
   #take(picture: ImageBitmap): void {
@@ -108,10 +108,17 @@ export class Camera {
     context.fillRect(0, 0, plate.width, plate.height);
     context.drawImage(picture, 0, 0, plate.width, plate.height);
     picture.close();
-    const done = this.#onFilmed;
-    if (!done) return;
-    this.#onFilmed = undefined;
+    const waiting = this.#waiting;
+    if (!waiting) return;
+    this.#waiting = undefined;
     this.#watch();
-    done();
+    waiting.resolve();
+  }
+
+  /** What is filmed so far is kept. */
+  #end(): void {
+    this.#waiting?.reject(new Error('there is no 3D view any more'));
+    this.#waiting = undefined;
+    this.stop();
   }
 }

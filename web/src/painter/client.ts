@@ -20,8 +20,8 @@ export class PainterClient {
   readonly #graphics: Graphics;
   #available = true;
   #nextId = 0;
-  /** Hears of each picture while somebody films; the picture is its to close. */
-  #film: ((picture: ImageBitmap) => void) | undefined;
+  /** Hears of each picture while somebody films, and of there being no more; the picture is its to close. */
+  #film: ((picture: ImageBitmap | undefined) => void) | undefined;
 
   /** Draws on `canvas` from now on. Throws where the browser cannot hand it over. */
   constructor(canvas: HTMLCanvasElement, theme: Theme, graphics: Graphics) {
@@ -52,7 +52,7 @@ export class PainterClient {
   }
 
   /** Gives each picture to `film` from now on, or to nobody. */
-  film(film: ((picture: ImageBitmap) => void) | undefined): void {
+  film(film: ((picture: ImageBitmap | undefined) => void) | undefined): void {
     if (film && !this.#available) throw new Error('there is no 3D view');
     this.#film = film;
     this.send({ type: 'film', wanted: film !== undefined });
@@ -87,5 +87,6 @@ export class PainterClient {
     this.#worker.terminate();
     for (const rested of this.#resting.values()) rested();
     this.#resting.clear();
+    this.#film?.(undefined);
   }
 }

@@ -67,8 +67,8 @@ export class Stage {
     return new Promise((resolve) => this.#patient.push(resolve));
   }
 
-  /** Gives every picture, from the present one on, to `film`, which closes it; or no more of them. */
-  film(film: ((picture: ImageBitmap) => void) | undefined): void {
+  /** Gives every picture, from the present one on, to `film`, which closes it, and `undefined` when there will be no more; or to nobody. */
+  film(film: ((picture: ImageBitmap | undefined) => void) | undefined): void {
     this.#painter.film(film);
   }
 
