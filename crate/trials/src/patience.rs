@@ -16,28 +16,27 @@ const STRAIGHT_TIMES: f64 = 4.0;
 pub(crate) struct Patience {
     /// Where it was when it last got on, and when.
     anchor_m: DVec2,
-    since_s: f64,
+    since_tick: u64,
+    period_s: f64,
     limit_s: f64,
 }
 
 impl Patience {
-    /// With a robot that starts here and now towards a place that it could reach in `straight_s` at full speed.
-    pub(crate) fn new(here_m: DVec2, time_s: f64, straight_s: f64) -> Self {
-        Self {
-            anchor_m: here_m,
-            since_s: time_s,
-            limit_s: time_s + BASE_TIME_LIMIT_S + STRAIGHT_TIMES * straight_s,
-        }
+    /// With a robot that starts here and now towards a place that it could reach in `straight_s` at full speed; a tick takes
+    /// `period_s`.
+    pub(crate) fn new(here_m: DVec2, tick: u64, period_s: f64, straight_s: f64) -> Self {
+        let limit_s = tick as f64 * period_s + BASE_TIME_LIMIT_S + STRAIGHT_TIMES * straight_s;
+        Self { anchor_m: here_m, since_tick: tick, period_s, limit_s }
     }
 
     /// Whether it is lost, with the robot here and now, and why.
-    pub(crate) fn lost(&mut self, here_m: DVec2, time_s: f64) -> Option<Outcome> {
+    pub(crate) fn lost(&mut self, here_m: DVec2, tick: u64) -> Option<Outcome> {
         if (here_m - self.anchor_m).length() > STUCK_RADIUS_M {
-            (self.anchor_m, self.since_s) = (here_m, time_s);
-        } else if time_s - self.since_s > STUCK_AFTER_S {
+            (self.anchor_m, self.since_tick) = (here_m, tick);
+        } else if (tick - self.since_tick) as f64 * self.period_s > STUCK_AFTER_S {
             return Some(Outcome::Stuck);
         }
-        (time_s > self.limit_s).then_some(Outcome::Timeout)
+        (tick as f64 * self.period_s > self.limit_s).then_some(Outcome::Timeout)
     }
 }
 
@@ -51,17 +50,17 @@ mod tests {
 
     #[test]
     fn a_robot_that_gets_nowhere_is_stuck() {
-        let mut patience = Patience::new(at(0.0), 100.0, 1000.0);
-        assert_eq!(patience.lost(at(0.5), 130.0), None);
-        assert_eq!(patience.lost(at(0.6), 130.1), None);
-        assert_eq!(patience.lost(at(0.2), 160.0), None);
-        assert_eq!(patience.lost(at(0.2), 160.2), Some(Outcome::Stuck));
+        let mut patience = Patience::new(at(0.0), 1000, 0.1, 1000.0);
+        assert_eq!(patience.lost(at(0.5), 1300), None);
+        assert_eq!(patience.lost(at(0.6), 1307), None);
+        assert_eq!(patience.lost(at(0.2), 1607), None);
+        assert_eq!(patience.lost(at(0.2), 1608), Some(Outcome::Stuck));
     }
 
     #[test]
     fn time_ends_after_four_times_the_straight_way_and_a_minute() {
-        let mut patience = Patience::new(at(0.0), 100.0, 20.0);
-        assert!((0..=240).all(|second| patience.lost(at(f64::from(second)), f64::from(second)).is_none()));
-        assert_eq!(patience.lost(at(241.0), 240.1), Some(Outcome::Timeout));
+        let mut patience = Patience::new(at(0.0), 100, 1.0, 20.0);
+        assert!((100..=240_u32).all(|second| patience.lost(at(f64::from(second)), second.into()).is_none()));
+        assert_eq!(patience.lost(at(241.0), 241), Some(Outcome::Timeout));
     }
 }

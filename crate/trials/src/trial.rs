@@ -21,6 +21,7 @@ use crate::scenario::{Preset, Scenario};
 
 /// Motion steps in one planning period.
 const MOTION_STEPS: u32 = 10;
+
 /// Why a trial cannot begin or change as asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TrialError {
@@ -239,8 +240,8 @@ impl<N: Navigator> Trial<N> {
             Status::Driving | Status::Looking => self.drive(command),
         };
         self.tick += 1;
-        let (here_m, time_s) = (self.husky.state().position, self.time_s());
-        self.outcome = self.outcome.or_else(|| self.patience.lost(here_m, time_s));
+        let here_m = self.husky.state().position;
+        self.outcome = self.outcome.or_else(|| self.patience.lost(here_m, self.tick));
         self.outcome
     }
 
@@ -272,7 +273,7 @@ impl<N: Navigator> Trial<N> {
         let here_m = self.husky.state().position;
         let speed_m_s = self.navigator.max_speed_m_s().min(self.husky.config().max_speed_m_s);
         let straight_s = (self.target_m() - here_m).length() / speed_m_s;
-        self.patience = Patience::new(here_m, self.time_s(), straight_s);
+        self.patience = Patience::new(here_m, self.tick, self.navigator.period_s(), straight_s);
     }
 
     /// Sets a new goal and drives on; the metrics go on too.
