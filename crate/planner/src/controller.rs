@@ -3,6 +3,9 @@
 use crate::angle::wrap_rad;
 use crate::config::{ControllerConfig, PidGains};
 
+/// A turn in place is never slowed to less than this share.
+const LEAST_TURN_SHARE: f64 = 0.4;
+
 /// A velocity command for a differential-drive robot: the paper's u = (v, ω).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Command {
@@ -69,11 +72,14 @@ impl Controller {
         Command { linear_m_s: forward.max(0.0) * ahead, angular_rad_s: turning }
     }
 
-    /// The command as slow as a robot should drive that takes up `share` of a tilt limit.
+    /// The command as slow as a robot should drive that takes up `share` of a tilt limit. A turn in place leaves its wheels where they
+    /// are, by and large, and is not slowed as much.
     pub(crate) fn slowed(&self, command: Command, share: f64) -> Command {
         let ControllerConfig { slow_from_share, least_speed_share, .. } = self.config;
         let left = (1.0 - share) / (1.0 - slow_from_share);
-        let speed = left.clamp(least_speed_share, 1.0);
+        let in_place = command.linear_m_s == 0.0;
+        let least = if in_place { least_speed_share.max(LEAST_TURN_SHARE) } else { least_speed_share };
+        let speed = left.clamp(least, 1.0);
         Command { linear_m_s: speed * command.linear_m_s, angular_rad_s: speed * command.angular_rad_s }
     }
 
@@ -81,5 +87,24 @@ impl Controller {
     pub fn look_around(&mut self) -> Command {
         self.reset();
         Command { linear_m_s: 0.0, angular_rad_s: self.config.look_turn_rate_rad_s }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_the_limits_a_drive_is_slowed_more_than_a_turn_in_place() {
+        let controller = Controller::new(ControllerConfig::default());
+        let ControllerConfig { slow_from_share, least_speed_share, .. } = controller.config;
+        let drive = Command { linear_m_s: 0.8, angular_rad_s: 0.5 };
+        let turn = Command { linear_m_s: 0.0, angular_rad_s: 1.0 };
+        for (command, least_share) in [(drive, least_speed_share), (turn, LEAST_TURN_SHARE)] {
+            assert_eq!(controller.slowed(command, slow_from_share), command);
+            let slowest = controller.slowed(command, 1.5);
+            assert!((slowest.linear_m_s - least_share * command.linear_m_s).abs() < 1e-12);
+            assert!((slowest.angular_rad_s - least_share * command.angular_rad_s).abs() < 1e-12);
+        }
     }
 }

@@ -68,6 +68,13 @@ impl DeadEnds {
         }
     }
 
+    /// Takes a share of every detour.
+    pub(crate) fn scale(&mut self, share: f64) {
+        for known in self.known.iter_mut().flatten() {
+            known.detour_m *= share;
+        }
+    }
+
     fn index_of(&self, point_m: DVec2) -> IVec2 {
         let steps = point_m / self.step_m;
         IVec2::new(floor(steps.x + 0.5), floor(steps.y + 0.5))
@@ -112,6 +119,8 @@ mod tests {
             assert!((memory.detour_m(HERE_M + DVec2::splat(1.0)) - 7.0 * f64::from(times)).abs() < 1e-12);
             assert!(memory.detour_m(HERE_M + DVec2::X * 1.5) < 1e-12);
         }
+        memory.scale(0.25);
+        assert!((memory.detour_m(HERE_M) - 6.0).abs() < 1e-12);
     }
 
     #[test]

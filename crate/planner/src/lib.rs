@@ -61,6 +61,7 @@ mod linalg;
 mod navigator;
 pub mod occupancy;
 mod panels;
+mod patience;
 pub mod perception;
 pub mod plane;
 mod planner;

@@ -13,6 +13,7 @@ use crate::dead_ends::DeadEnds;
 use crate::error::ConfigError;
 use crate::ground::Ground;
 use crate::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad};
+use crate::patience::Patience;
 use crate::perception::{Effort, Perception, PredictedSurface};
 use crate::plane::Plane;
 use crate::pose::Pose;
@@ -95,6 +96,8 @@ const FARTHEST_M: f64 = 1e6;
 const MOST_WAY_POINTS: usize = 256;
 /// What is known of dead ends is brought up to date when the robot has driven this far.
 const LEARN_SPACING_M: f64 = 0.5;
+/// A robot that has lost its patience minds steep ground by this share.
+const IMPATIENT_SHARE: f64 = 0.25;
 /// What the robot cannot get to lies this much farther from the goal than it seemed, with the places around it.
 const IN_VAIN_M: f64 = 7.0;
 const IN_VAIN_HALF_SIDE_M: f64 = 1.0;
@@ -113,7 +116,10 @@ pub struct Planner {
     controller: Controller,
     ways: Ways,
     way: Vec<WayPoint>,
+    /// As configured, less what patience lost takes off.
+    decision: DecisionConfig,
     dead_ends: DeadEnds,
+    patience: Option<Patience>,
     pursuit: Pursuit,
     learned_at_m: Option<DVec2>,
     ends: Vec<(Reached, f64)>,
@@ -142,7 +148,9 @@ impl Planner {
             ground: Ground::new(&config),
             controller: Controller::new(config.controller),
             way: Vec::with_capacity(MOST_WAY_POINTS),
+            decision: config.decision,
             dead_ends: DeadEnds::new(config.forecast.step_m),
+            patience: None,
             pursuit: Pursuit::default(),
             learned_at_m: None,
             ends: Vec::with_capacity(ways.count() + 1),
@@ -193,6 +201,8 @@ impl Planner {
         if self.goal_m != Some(goal_m) {
             self.goal_m = Some(goal_m);
             self.dead_ends.clear();
+            self.patience = None;
+            self.mind_steepness(1.0);
             self.ways.stand();
             self.pursuit.stand();
             self.learned_at_m = None;
@@ -256,6 +266,11 @@ impl Planner {
         let chosen = match self.config.decision.cost_model {
             CostModel::Paper => self.choose(pose, goal_m),
             CostModel::Forecast => {
+                let here_m = pose.plan_m();
+                if self.patience.get_or_insert_with(|| Patience::new(here_m, goal_m)).lost(here_m) {
+                    self.mind_steepness(IMPATIENT_SHARE);
+                    self.dead_ends.scale(IMPATIENT_SHARE);
+                }
                 match insight.ground {
                     Some(told) => self.ways.search(&told, pose),
                     None => self.ways.search(&self.ground, pose),
@@ -292,6 +307,14 @@ impl Planner {
             }
         };
         Status::Driving
+    }
+
+    /// Minds steep ground by this share of what is configured, on ways and in the choice.
+    fn mind_steepness(&mut self, share: f64) {
+        self.ways.mind_steepness(share);
+        let DecisionConfig { steepness_weight, climb_weight, .. } = self.config.decision;
+        self.decision.steepness_weight = share * steepness_weight;
+        self.decision.climb_weight = share * climb_weight;
     }
 
     /// Whether turning on the spot stays within the tilt limits, as far as this planner minds.
@@ -335,7 +358,7 @@ impl Planner {
         let goal = self.ways.to_within(goal_m, self.config.goal_tolerance_m);
         self.ends.clear();
         self.ends.extend(frontier.chain(goal.map(|(reached, _)| (reached, 0.0))));
-        let DecisionConfig { distance_weight, steepness_weight, climb_weight, .. } = self.config.decision;
+        let DecisionConfig { distance_weight, steepness_weight, climb_weight, .. } = self.decision;
         // The prices of the subgoals' cost: a risk counts for the way to r_oc there, and 2 r_oc of distance for one.
         let tilt_price = if distance_weight > 0.0 { 2.0 * steepness_weight / distance_weight } else { 0.0 };
         for (place_m, to_goal_m) in self.ways.remaining(&self.ends, tilt_price, climb_weight) {
@@ -369,7 +392,7 @@ impl Planner {
             last_bearing_rad: self.last_bearing_rad,
             dead_ends: &self.dead_ends,
         };
-        cost::choose(&mut self.subgoals, &self.config.decision, &situation)
+        cost::choose(&mut self.subgoals, &self.decision, &situation)
     }
 
     fn perceive(&mut self, points_m: &[Vec3], insight: Insight<'_>) -> Result<(), GpError> {

@@ -33,7 +33,9 @@ use queue::BucketQueue;
 const FIRST_DIRECTIONS: usize = 64;
 /// A way joins the lattice at the places within this distance.
 const JOIN_M: f64 = 1.6;
-/// A retreat ends at this share of the slope that a way may use; what lies this far ahead of where it begins is mistrusted.
+/// A retreat ends this far from where it began, at this share of the slope that a way may use; what lies this far ahead of where it
+/// begins is mistrusted.
+const RETREAT_M: f64 = 1.0;
 const CALM_SHARE: f64 = 0.8;
 /// Turning back on ground at least this steep says that what lies ahead is steeper than it had looked.
 const STEEP_SHARE: f64 = 0.6;
@@ -56,6 +58,7 @@ const BEGIN: u32 = u32::MAX - FIRST_DIRECTIONS as u32;
 #[derive(Clone, Debug)]
 pub(crate) struct Ways {
     config: ForecastConfig,
+    prices: Prices,
     footing: Footing,
     first_directions: Vec<DVec2>,
     costs_mm: Vec<u32>,
@@ -77,6 +80,9 @@ pub(crate) struct Ways {
     changes: i32,
     /// Whether the robot goes back the way it came, and then whether in reverse.
     retreat: Option<bool>,
+    turned_back_at_m: DVec2,
+    /// Whether it last drove with less caution, to get away.
+    escapes: bool,
     /// The first direction that the robot faces, and how many it may turn to the left and to the right.
     facing: i32,
     turns: [i32; 2],
@@ -88,6 +94,17 @@ pub(crate) struct Prices {
     pub(crate) tilt: f64,
     pub(crate) climb: f64,
     pub(crate) reverse: f64,
+}
+
+impl Prices {
+    /// As configured, with `steepness_share` of what steep ground costs.
+    fn of(config: &ForecastConfig, steepness_share: f64) -> Self {
+        Self {
+            tilt: steepness_share * config.tilt_price,
+            climb: steepness_share * config.climb_price,
+            reverse: config.reverse_price,
+        }
+    }
 }
 
 /// How a way begins.
@@ -127,6 +144,7 @@ impl Ways {
             DVec2::new(cos, sin)
         };
         Self {
+            prices: Prices::of(&config, 1.0),
             config,
             footing,
             first_directions: (0..FIRST_DIRECTIONS).map(direction).collect(),
@@ -148,6 +166,8 @@ impl Ways {
             changed_at_m: DVec2::ZERO,
             changes: 0,
             retreat: None,
+            turned_back_at_m: DVec2::ZERO,
+            escapes: false,
             facing: 0,
             turns: [0; 2],
         }
@@ -161,6 +181,7 @@ impl Ways {
     /// Finds the ways from `pose` over the ground that was seen.
     pub(crate) fn search(&mut self, ground: &dyn SeenGround, pose: &Pose) {
         let before = self.standing_slopes().share_of(self.footing.limits());
+        let moved_m = pose.plan_m() - self.here_m;
         self.here_m = pose.plan_m();
         self.standing_height_m = pose.position_m.z;
         self.facing = (wrap_rad(pose.yaw_rad) / TAU * FIRST_DIRECTIONS as f64).round() as i32;
@@ -171,17 +192,28 @@ impl Ways {
             self.changes = 0;
         }
         self.footing.look(ground, self.here_m);
-        self.mind_standing();
+        self.mind_standing(moved_m);
         self.search_with(Caution::Usual);
     }
 
     /// Where the robot stands steeper than even an escape may be, what it was told of the ground ahead is not true: it goes back the
-    /// way it came, and what lay ahead costs more from now on.
-    fn mind_standing(&mut self) {
+    /// way it came, and what lay ahead costs more from now on. So it does when it gets steeper on the way back.
+    fn mind_standing(&mut self, moved_m: DVec2) {
         if self.standing_share() < CALM_SHARE {
-            self.retreat = None;
-        } else if self.retreat.is_none() && !self.standing_slopes().within(self.footing.most(), 0.0) {
-            self.turn_back();
+            if (self.turned_back_at_m - self.here_m).length() > RETREAT_M {
+                self.retreat = None;
+            }
+        } else if !self.standing_slopes().within(self.footing.most(), 0.0) {
+            let ahead_m = moved_m.dot(self.first_direction(self.facing));
+            match self.retreat {
+                None => self.turn_back(),
+                Some(in_reverse) => {
+                    let goes_back = if in_reverse { ahead_m < 0.0 } else { ahead_m > 0.0 };
+                    if goes_back && self.steeper_share > 0.0 {
+                        self.turn_back_from(in_reverse);
+                    }
+                }
+            }
         }
     }
 
@@ -195,8 +227,15 @@ impl Ways {
     }
 
     fn turn_back(&mut self) {
-        let Some(in_reverse) = self.came_in_reverse else { return };
+        if let Some(in_reverse) = self.came_in_reverse {
+            self.turn_back_from(in_reverse);
+        }
+    }
+
+    /// Goes back after a drive that was in reverse or not.
+    fn turn_back_from(&mut self, in_reverse: bool) {
         self.retreat = Some(!in_reverse);
+        self.turned_back_at_m = self.here_m;
         let facing = self.first_direction(self.facing);
         let travel = if in_reverse { -facing } else { facing };
         self.footing.mistrust(self.here_m + travel * MISTRUSTED_AHEAD_M);
@@ -204,6 +243,9 @@ impl Ways {
 
     /// Searches the same ground anew, with less caution near the robot.
     pub(crate) fn search_escape(&mut self) {
+        if self.standing_share() < CALM_SHARE {
+            self.retreat = None;
+        }
         self.search_with(Caution::Escape);
     }
 
@@ -231,11 +273,13 @@ impl Ways {
             self.changes = MOST_CHANGES.min(self.changes + 1);
         }
         let turns_back = self.last.is_some_and(|last| last.reverse != next.reverse);
-        if self.caution == Caution::Escape {
+        let escapes = self.caution == Caution::Escape;
+        if escapes && !self.escapes {
             self.footing.mistrust(self.here_m);
-        } else if turns_back && self.standing_share() > STEEP_SHARE {
+        } else if !escapes && turns_back && self.standing_share() > STEEP_SHARE {
             self.turn_back();
         }
+        self.escapes = escapes;
         self.last = Some(next);
         self.came_in_reverse = Some(next.reverse);
     }
@@ -247,11 +291,7 @@ impl Ways {
 
     /// Dijkstra's search from the states that [`begin`](Self::begin) reached.
     fn expand(&mut self) {
-        let prices = Prices {
-            tilt: self.config.tilt_price,
-            climb: self.config.climb_price,
-            reverse: self.config.reverse_price,
-        };
+        let prices = self.prices;
         while let Some((state, cost_mm)) = self.queue.pop() {
             if self.costs_mm[state as usize] != cost_mm {
                 continue;
@@ -299,11 +339,17 @@ impl Ways {
         }
     }
 
+    /// Minds steep ground by this share of what is configured; what is not safe stays so.
+    pub(crate) fn mind_steepness(&mut self, share: f64) {
+        self.prices = Prices::of(&self.config, share);
+    }
+
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
         self.footing.clear();
         self.last = None;
         self.came_in_reverse = None;
         self.retreat = None;
+        self.escapes = false;
     }
 }

@@ -8,7 +8,7 @@ pub enum Outcome {
     Reached,
     /// Roll or pitch beyond its limit.
     TiltLimit,
-    /// Half a minute without getting anywhere.
+    /// A minute without getting anywhere.
     Stuck,
     /// The navigator stopped with a reason.
     NoSubgoal,

@@ -6,10 +6,10 @@ use crate::outcome::Outcome;
 
 /// A robot that stays within this distance for this long is stuck.
 const STUCK_RADIUS_M: f64 = 0.5;
-const STUCK_AFTER_S: f64 = 30.0;
+const STUCK_AFTER_S: f64 = 60.0;
 /// A trial may last this long plus this many times the straight way at full speed.
 const BASE_TIME_LIMIT_S: f64 = 60.0;
-const STRAIGHT_TIMES: f64 = 4.0;
+const STRAIGHT_TIMES: f64 = 12.0;
 
 /// How long the robot may still take.
 #[derive(Clone, Copy, Debug, Default)]
@@ -51,16 +51,16 @@ mod tests {
     #[test]
     fn a_robot_that_gets_nowhere_is_stuck() {
         let mut patience = Patience::new(at(0.0), 1000, 0.1, 1000.0);
-        assert_eq!(patience.lost(at(0.5), 1300), None);
-        assert_eq!(patience.lost(at(0.6), 1307), None);
-        assert_eq!(patience.lost(at(0.2), 1607), None);
-        assert_eq!(patience.lost(at(0.2), 1608), Some(Outcome::Stuck));
+        assert_eq!(patience.lost(at(0.5), 1600), None);
+        assert_eq!(patience.lost(at(0.6), 1607), None);
+        assert_eq!(patience.lost(at(0.2), 2207), None);
+        assert_eq!(patience.lost(at(0.2), 2208), Some(Outcome::Stuck));
     }
 
     #[test]
-    fn time_ends_after_four_times_the_straight_way_and_a_minute() {
+    fn time_ends_after_twelve_times_the_straight_way_and_a_minute() {
         let mut patience = Patience::new(at(0.0), 100, 1.0, 20.0);
-        assert!((100..=240_u32).all(|second| patience.lost(at(f64::from(second)), second.into()).is_none()));
-        assert_eq!(patience.lost(at(241.0), 241), Some(Outcome::Timeout));
+        assert!((100..=400_u32).all(|second| patience.lost(at(f64::from(second)), second.into()).is_none()));
+        assert_eq!(patience.lost(at(401.0), 401), Some(Outcome::Timeout));
     }
 }

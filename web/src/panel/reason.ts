@@ -16,13 +16,13 @@ export function reason(frame: Frame, info: SessionInfo): string {
         ? `Roll came to ${degrees(metrics.max_abs_roll_rad, 1)}; the limit is ${degrees(info.limits.roll_rad, 1)}.`
         : `Pitch came to ${degrees(metrics.max_abs_pitch_rad, 1)}; the limit is ${degrees(info.limits.pitch_rad, 1)}.`;
     case 'stuck':
-      return 'It stayed within half a metre for half a minute.';
+      return 'It stayed within half a metre for a minute.';
     case 'no_subgoal':
       return stopReason ? sentence(stopReason) : 'It found no subgoal.';
     case 'left_terrain':
       return 'A wheel would have left the terrain.';
     case 'timeout':
-      return 'It took more than four times the straight way’s time and a minute.';
+      return 'It took more than twelve times the straight way’s time and a minute.';
   }
 }
 

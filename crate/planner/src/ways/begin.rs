@@ -113,15 +113,15 @@ impl Ways {
         let start =
             Station { distance_m: 0.0, height_m: self.standing_height_m, gradient: self.standing_gradient };
         let end = Station { distance_m, height_m: plane.height_m, gradient: plane.gradient };
-        let risk = self.risk_between(&start, &end, way / distance_m);
+        let risk = self.risk_between(&start, &end, way / distance_m, 0.0);
         let risk = risk.max(self.footing.risk(offset, heading)).max(passed_risk);
         if !risk.is_finite() {
             return false;
         }
-        let price = if first.reverse { self.config.reverse_price } else { 1.0 };
+        let price = if first.reverse { self.prices.reverse } else { 1.0 };
         let cost_m = cost_m
-            + price * distance_m * (1.0 + self.config.tilt_price * risk)
-            + self.config.climb_price * (end.height_m - start.height_m).abs();
+            + price * distance_m * (1.0 + self.prices.tilt * risk)
+            + self.prices.climb * (end.height_m - start.height_m).abs();
         let state = self.footing.index(offset) * HEADINGS + heading;
         let from = BEGIN + index.rem_euclid(FIRST_DIRECTIONS as i32) as u32;
         self.reach(state, from, (cost_m * MILLIMETRES) as u32);

@@ -46,10 +46,12 @@ pub(crate) struct Footing {
     mistrusted_m: Vec<DVec2>,
 }
 
-/// Mistrusted places that are remembered, how much around each is meant, and the risk that each time adds; ground at the tilt limit has 1.
+/// Mistrusted places that are remembered, how much around each is meant, and the risk that the first time adds; ground at the tilt limit
+/// has 1. Each further time adds twice as much as the one before, up to so many.
 const MOST_MISTRUSTED: usize = 128;
 const MISTRUSTED_RADIUS_M: f64 = 0.6;
 const MISTRUST_RISK: f32 = 2.0;
+const MOST_TIMES: usize = 3;
 /// Places this near the border of the lattice are its horizon; those beside them lie on it, too.
 const HORIZON: i32 = 2;
 /// Ground that keeps no more than the margin for an escape, with this share of the deviations, is the last choice: it counts as this much
@@ -101,7 +103,7 @@ impl Footing {
         self.mistrusted_m.clear();
     }
 
-    /// Mistrusts a place, until the ground is forgotten: each time it costs more to drive there.
+    /// Mistrusts a place, until the ground is forgotten: each time it costs more to drive there, so that another way is soon cheaper.
     pub(crate) fn mistrust(&mut self, place_m: DVec2) {
         if self.mistrusted_m.len() == MOST_MISTRUSTED {
             self.mistrusted_m.remove(0);
@@ -112,7 +114,7 @@ impl Footing {
     fn mistrust_risk(&self, place_m: DVec2) -> f32 {
         let squared = MISTRUSTED_RADIUS_M * MISTRUSTED_RADIUS_M;
         let near = self.mistrusted_m.iter().filter(|other| (**other - place_m).length_squared() < squared);
-        MISTRUST_RISK * near.count() as f32
+        MISTRUST_RISK * (libm::exp2f(near.count().min(MOST_TIMES) as f32) - 1.0)
     }
 
     /// Looks at the ground around the robot.
@@ -153,7 +155,8 @@ impl Footing {
                     let away_m = (place_m - here_m).length();
                     let mistrust = match caution {
                         Caution::Usual => self.mistrust_risk(place_m),
-                        Caution::Escape => 0.0,
+                        // It has to get away, but rather not that way.
+                        Caution::Escape => self.mistrust_risk(place_m).min(MISTRUST_RISK),
                     };
                     let risk = self.risk_of(&plane, &known.on_wheels, caution, away_m);
                     Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust) }

@@ -3,17 +3,13 @@
 use glam::DVec2;
 
 use super::headings::{DIRECTIONS, HEADINGS, STEPS, nearest};
-use super::{BEGIN, JOIN_M, MILLIMETRES, Reached, UNREACHED, WayPoint, Ways};
+use super::{BEGIN, MILLIMETRES, Reached, UNREACHED, WayPoint, Ways};
 use crate::forecast::{Forecast, ReachEnd};
 use crate::slopes::Slopes;
 
-/// The longest step of the lattice, √5 places, and some.
-const LONGEST_STEP: f64 = 2.3;
-/// The robot minds what lies this far ahead; ground that was not seen counts as this share of the tilt limits, unless the robot
-/// stands on less than that.
+/// The robot minds what lies this far ahead; ground that was not seen, or is not safe, counts as this share of the tilt limits.
 const AHEAD_M: f64 = 1.0;
 const BLIND_SHARE: f64 = 0.75;
-const LEVEL_SHARE: f64 = 0.2;
 /// How many steps of the same change of its attitude the robot is ready for.
 const GETS_STEEPER_TICKS: f64 = 5.0;
 
@@ -152,8 +148,8 @@ impl Ways {
             }
             risk += at.map_or(f64::INFINITY, |at| self.footing.risk(at, heading));
         }
-        let price = if point.reverse { self.config.reverse_price } else { 1.0 };
-        price * length_m * (1.0 + self.config.tilt_price * risk / count) + self.config.climb_price * climb_m
+        let price = if point.reverse { self.prices.reverse } else { 1.0 };
+        price * length_m * (1.0 + self.prices.tilt * risk / count) + self.prices.climb * climb_m
     }
 
     /// The share of the tilt limits that the robot takes up or soon will on a way, in slope.
@@ -162,19 +158,16 @@ impl Ways {
         // Ground that gets steeper fast may go on to do so.
         let mut share = standing + GETS_STEEPER_TICKS * self.steeper_share.max(0.0);
         for leg in way.windows(2) {
-            let (from_m, to_m) = (leg[0].position_m, leg[1].position_m);
-            if (from_m - self.here_m).length() > AHEAD_M {
-                break;
-            }
-            // On level ground nothing is feared of what no beam reaches.
-            let blind = (to_m - from_m).length() > (LONGEST_STEP * self.config.step_m).max(JOIN_M);
-            if blind && standing > LEVEL_SHARE {
-                share = share.max(BLIND_SHARE);
-            }
-            let risk =
-                self.footing.nearest(to_m).map_or(0.0, |at| self.footing.risk(at, nearest(to_m - from_m)));
-            if risk.is_finite() {
-                share = share.max(risk.sqrt());
+            let (from_m, way_m) = (leg[0].position_m, leg[1].position_m - leg[0].position_m);
+            let steps = (way_m.length() / self.config.step_m).ceil();
+            for step in 1..=steps as usize {
+                let at_m = from_m + way_m * (step as f64 / steps);
+                if (at_m - self.here_m).length() > AHEAD_M {
+                    return share;
+                }
+                let place = self.footing.nearest(at_m);
+                let risk = place.map_or(f64::INFINITY, |place| self.footing.risk(place, nearest(way_m)));
+                share = share.max(if risk.is_finite() { risk.sqrt() } else { BLIND_SHARE });
             }
         }
         share
