@@ -12,9 +12,14 @@ export interface Driven {
 
 /** Drives a trial with `mapless run`; `args` are its file and options. */
 export function driven(...args: string[]): Driven {
-  const run = spawnSync('target/release/mapless', ['run', ...args, '--json'], { encoding: 'utf8' });
+  return JSON.parse(said('run', ...args, '--json'));
+}
+
+/** What the command line says. */
+export function said(...args: string[]): string {
+  const run = spawnSync('target/release/mapless', args, { encoding: 'utf8' });
   if (run.error)
     throw new Error('Build the command line first: cargo build --release --package mapless-cli', { cause: run.error });
   if (!run.stdout) throw new Error(run.stderr);
-  return JSON.parse(run.stdout);
+  return run.stdout;
 }

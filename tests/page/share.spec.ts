@@ -3,7 +3,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { deflateRawSync } from 'node:zlib';
 import { type Page, test as plain } from '@playwright/test';
-import { driven } from './commandLine.ts';
+import { driven, said } from './commandLine.ts';
 import { expect, kept, loaded, state, test, until } from './page.ts';
 
 /** A boulder and a rough patch ahead of the start of `ht`, another goal behind a stop, and another parameter. */
@@ -83,6 +83,7 @@ plain('hostile and broken links say so, and lose nothing', async ({ page }) => {
     [`#e=${bomb}`, 'unpacks to more than 4 MB'],
     [`#e=${deflateRawSync('{"version":7}').toString('base64url')}`, 'version = 7'],
     ['?scenario=atlantis', 'atlantis'],
+    ['?scenario=hard-1-7', 'expected the name of a generated task, such as "hard-1-0007"'],
     ['?scenario=ht&seed=1.5', '?seed = "1.5": expected a whole number'],
   ];
   for (const [link, words] of links) {
@@ -116,4 +117,15 @@ plain('a scenario by name, in another page’s frame', async ({ page }) => {
   await expect(page.locator('.transport')).toBeVisible();
   for (const part of ['.bar', '.panel', '.seen', '.tools', '.timeline']) await expect(page.locator(part)).toBeHidden();
   await expect(page.locator('#open-page')).toHaveAttribute('href', /\?scenario=gsb&seed=7&preset=paper$/);
+});
+
+plain('a generated task by name is driven as by the command line', async ({ page }) => {
+  plain.setTimeout(600_000);
+  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  said('generate', '--seed', '6', '--difficulty', 'easy', '--count', '2', '--out', folder);
+  await page.goto('/?scenario=easy-6-0002&seed=5');
+  await loaded(page);
+  await expect(page.locator('#scene-lesson')).toContainText('there is a safe way');
+  const { outcome, ticks, digest } = driven(join(folder, 'easy-6-0002.toml'), '--seed', '5');
+  expect(await runToEnd(page)).toEqual({ outcome, ticks, digest });
 });

@@ -26,5 +26,5 @@ pub use follower::PathFollower;
 pub use kind::{BuildError, NavigatorKind, UnknownName};
 pub use oracle::{Oracle, OracleConfig, OracleError, OraclePath, PlanPose, shortest_path};
 pub use route::{RouteNavigator, RoutePlanner, Straight};
-pub use tasks::{Task, TaskError};
+pub use tasks::{NoTaskName, Task, TaskError, TaskName};
 pub use true_sight::{TrueSight, Truth};

@@ -10,6 +10,8 @@ use mapless_world::generate::{Difficulty, terrain_recipe};
 use mapless_world::random::{Sequence, key};
 use mapless_world::{HuskyConfig, Terrain, TerrainError, load_terrain_bytes};
 use std::f64::consts::TAU;
+use std::fmt;
+use std::str::FromStr;
 
 /// Distance between start and goal, metres.
 const APART_M: [f64; 2] = [35.0, 75.0];
@@ -22,11 +24,58 @@ const PLACES: u32 = 1000;
 /// Terrains tried before a task is given up.
 const MOST_DRAWN: u32 = 100;
 
+/// Which task: `hard-1-0007` is task 7 of seed 1.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct TaskName {
+    /// How hard its terrain is to cross.
+    pub difficulty: Difficulty,
+    /// Seed of all tasks of a kind.
+    pub seed: u64,
+    /// Its number, from 1 to [`MOST`](Self::MOST).
+    pub index: u32,
+}
+
+/// No task has such a name.
+#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
+#[error("{text:?}: expected the name of a generated task, such as \"hard-1-0007\"")]
+pub struct NoTaskName {
+    text: String,
+}
+
+impl TaskName {
+    /// The largest number of a task: names have four digits for it.
+    pub const MOST: u32 = 9999;
+}
+
+impl fmt::Display for TaskName {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}-{}-{:04}", self.difficulty, self.seed, self.index)
+    }
+}
+
+impl FromStr for TaskName {
+    type Err = NoTaskName;
+
+    fn from_str(text: &str) -> Result<Self, NoTaskName> {
+        let parts: Vec<&str> = text.split('-').collect();
+        let found = match parts[..] {
+            [difficulty, seed, index] => (|| {
+                let (difficulty, seed) = (difficulty.parse().ok()?, seed.parse().ok()?);
+                Some(Self { difficulty, seed, index: index.parse().ok()? })
+            })(),
+            _ => None,
+        };
+        // Every task has one name: a plus sign or further zeros make another.
+        let named = found.filter(|name| (1..=Self::MOST).contains(&name.index) && name.to_string() == text);
+        named.ok_or_else(|| NoTaskName { text: text.to_owned() })
+    }
+}
+
 /// A task that the oracle has solved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Task {
-    /// `hard-1-0007` for task 7 of seed 1.
-    pub name: String,
+    /// Which it is.
+    pub name: TaskName,
     /// Its recipe, as text.
     pub recipe: String,
     /// The terrain of the recipe.
@@ -51,8 +100,8 @@ pub enum TaskError {
     /// The oracle solved none of those drawn.
     #[error("{name}: none of {MOST_DRAWN} tasks drawn has a safe path")]
     Unsolved {
-        /// The task's name.
-        name: String,
+        /// Which task.
+        name: TaskName,
     },
     /// A generated recipe that makes no terrain.
     #[error(transparent)]
@@ -63,17 +112,17 @@ pub enum TaskError {
 }
 
 impl Task {
-    /// Task `index` of `seed`, for a Husky.
+    /// The task of a name, for a Husky.
     ///
     /// # Errors
     /// [`TaskError::Unsolved`] when a hundred draws bring none with a safe path.
-    pub fn generate(difficulty: Difficulty, seed: u64, index: u32) -> Result<Self, TaskError> {
-        let name = format!("{difficulty}-{seed}-{index:04}");
+    pub fn generate(name: TaskName) -> Result<Self, TaskError> {
+        let TaskName { difficulty, seed, index } = name;
         let (robot, config) = (HuskyConfig::default(), OracleConfig::default());
         for drawn in 1..=MOST_DRAWN {
             let place = key(key(seed, difficulty as u64), u64::from(index));
             let terrain_seed = key(place, u64::from(drawn));
-            let recipe = terrain_recipe(&name, difficulty, terrain_seed);
+            let recipe = terrain_recipe(&name.to_string(), difficulty, terrain_seed);
             let no_import = &mut |file: &str| Err(format!("{file}: expected no import"));
             let terrain = load_terrain_bytes(&format!("{name}.toml"), recipe.as_bytes(), no_import)?;
             let standing = Standing::new(&terrain.field, &robot, &config)?;
@@ -153,14 +202,45 @@ fn start_and_goal(standing: &Standing, draw: &mut Sequence) -> Option<(PlanPose,
 mod tests {
     use super::*;
     use crate::shortest_path;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_task_has_one_name(kind in 0..3_usize, seed: u64, index in 1..=TaskName::MOST, changed in ".*") {
+            let name = TaskName { difficulty: Difficulty::ALL[kind], seed, index };
+            prop_assert_eq!(name.to_string().parse(), Ok(name));
+            prop_assert!(changed.parse::<TaskName>().is_err());
+        }
+    }
+
+    #[test]
+    fn what_names_no_task_is_refused_with_an_example() {
+        for text in [
+            "",
+            "hard-1",
+            "hard-1-7",
+            "hard-01-0007",
+            "hard-+1-0007",
+            "hard-1-0000",
+            "hard-1-10000",
+            "odd-1-0001",
+            "hard-1-0007-",
+        ] {
+            let error = text.parse::<TaskName>().unwrap_err().to_string();
+            assert_eq!(
+                error,
+                format!("{text:?}: expected the name of a generated task, such as \"hard-1-0007\"")
+            );
+        }
+    }
 
     #[test]
     fn a_task_is_the_same_twice_and_its_path_is_safe() {
         for difficulty in Difficulty::ALL {
-            let task = Task::generate(difficulty, 3, 2).unwrap();
-            assert_eq!(task, Task::generate(difficulty, 3, 2).unwrap());
-            assert_ne!(task.recipe, Task::generate(difficulty, 3, 1).unwrap().recipe);
-            assert_eq!(task.name, format!("{difficulty}-3-0002"));
+            let name = TaskName { difficulty, seed: 3, index: 2 };
+            let task = Task::generate(name).unwrap();
+            assert_eq!(task, Task::generate(name).unwrap());
+            assert_ne!(task.recipe, Task::generate(TaskName { index: 1, ..name }).unwrap().recipe);
             assert!((APART_M[0]..=APART_M[1]).contains(&task.straight_m()));
             let (robot, config) = (HuskyConfig::default(), OracleConfig::default());
             let path = shortest_path(&task.terrain.field, &robot, task.start, task.goal_m, &config);
@@ -170,7 +250,7 @@ mod tests {
 
     #[test]
     fn a_scenario_has_the_task_s_numbers() {
-        let task = Task::generate(Difficulty::Easy, 1, 1).unwrap();
+        let task = Task::generate("easy-1-0001".parse().unwrap()).unwrap();
         let text = task.scenario("terrain/a.toml");
         let numbers = |key: &str| -> Vec<f64> {
             let line = text.lines().find_map(|line| line.strip_prefix(key)).unwrap();

@@ -1,10 +1,10 @@
-//! Whole trials of every navigator, for the page's ghosts and batches. A module of its own: the page opens without it.
+//! Whole trials of every navigator, for the page's ghosts and batches, and generated tasks. A module of its own: the page opens without it.
 
 #[path = "../../wasm/src/panic.rs"]
 mod panic;
 
 use mapless::Navigator;
-use mapless_baselines::NavigatorKind;
+use mapless_baselines::{NavigatorKind, Task};
 use mapless_trials::{Scenario, Trial, statistics};
 use mapless_world::HeightField;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -19,6 +19,16 @@ pub fn start() {
 #[wasm_bindgen]
 pub fn planners() -> Vec<String> {
     NavigatorKind::ALL.iter().map(|kind| kind.name().to_owned()).collect()
+}
+
+/// The generated task of a name such as `hard-1-0007`: its scenario file, whose terrain is at `terrain.toml`, and the recipe of that.
+///
+/// # Errors
+/// What names no task; a task that the oracle cannot solve however often it is drawn.
+#[wasm_bindgen]
+pub fn generated_task(name: &str) -> Result<Vec<String>, JsError> {
+    let task = Task::generate(name.parse()?)?;
+    Ok(vec![task.scenario("terrain.toml"), task.recipe])
 }
 
 /// Wilson's 95 % interval of the rate behind `successes` of `trials`.

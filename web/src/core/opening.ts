@@ -1,6 +1,7 @@
 /** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
 
-import { terrainFile } from './catalogue.ts';
+import { loadTrials } from '../trials/wasm.ts';
+import { TASK, terrainFile } from './catalogue.ts';
 import {
   type Experiment,
   MAX_FILE_BYTES,
@@ -76,10 +77,20 @@ export async function experimentFrom(core: CoreModule, source: Source): Promise<
   if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setup);
   if ('files' in source) return fromFiles(core, source.files, source.setup);
   const { scenario, setup, seed } = source;
+  const { read, terrain } = TASK.test(scenario) ? await task(core, scenario) : await catalogued(core, scenario);
+  return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setup);
+}
+
+async function catalogued(core: CoreModule, scenario: string): Promise<{ read: ScenarioRead; terrain: Terrain }> {
   const file = `scenarios/${scenario}.toml`;
   const read = core.read_scenario(file, await terrainFile(file)) as ScenarioRead;
-  const terrain = { catalogue: stem(read.terrain) };
-  return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setup);
+  return { read, terrain: { catalogue: stem(read.terrain) } };
+}
+
+/** A generated task, as `mapless generate` writes it. What the oracle cannot solve is drawn anew, so this needs the oracle. */
+async function task(core: CoreModule, name: string): Promise<{ read: ScenarioRead; terrain: Terrain }> {
+  const [scenario = '', recipe = ''] = (await loadTrials()).generated_task(name);
+  return { read: core.read_scenario(`${name}.toml`, scenario) as ScenarioRead, terrain: { recipe } };
 }
 
 function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, setup: Setup): Experiment {
@@ -119,7 +130,7 @@ async function fromFiles(core: CoreModule, files: readonly NamedFile[], setup: S
   if (scenario) {
     const read = core.read_scenario(scenario.name, scenario.text) as ScenarioRead;
     const own = terrainOf(recipe, grid);
-    const terrain = own ?? (await catalogued(scenario.name, read.terrain));
+    const terrain = own ?? (await cataloguedTerrain(scenario.name, read.terrain));
     return fromScenario(read, shortName(scenario.name), terrain, { ...setup, overrides: {} });
   }
   const terrain = terrainOf(recipe, grid);
@@ -144,7 +155,7 @@ function terrainOf(
 }
 
 /** A terrain of the catalogue that a scenario names without its file being there. */
-async function catalogued(scenario: string, path: string): Promise<Terrain> {
+async function cataloguedTerrain(scenario: string, path: string): Promise<Terrain> {
   try {
     await terrainFile(`${stem(path)}.toml`);
   } catch (cause) {

@@ -1,4 +1,4 @@
-/** The face of the wasm module with all planners (`crate/wasm-baselines`). Loaded in a worker, when it is wanted. */
+/** The face of the wasm module with all planners and generated tasks (`crate/wasm-baselines`). Loaded in a worker, when it is wanted. */
 
 export interface WasmGround {
   free(): void;
@@ -25,6 +25,8 @@ export interface TrialsModule {
     planner: string,
     seed: bigint,
   ) => WasmRunner;
+  /** The scenario file of a generated task, and the recipe that it names `terrain.toml`. */
+  generated_task(name: string): string[];
   wilson(successes: number, trials: number): Float64Array;
   mean_and_deviation(values: Float64Array): Float64Array;
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{RouteNavigator, Task};
+use crate::{RouteNavigator, Task, TaskName};
 use glam::DVec3;
 use mapless::pose::Pose;
 use mapless::{Navigator as _, PlannerConfig};
@@ -186,7 +186,7 @@ fn its_path_can_be_driven() {
     assert!(worst < 1.0, "{worst}");
     for index in 1..=2 {
         for difficulty in Difficulty::ALL {
-            let task = Task::generate(difficulty, 9, index).unwrap();
+            let task = Task::generate(TaskName { difficulty, seed: 9, index }).unwrap();
             let (end_m, worst) = drive(&task.terrain.field, task.start, task.goal_m);
             println!("{}: at most {worst:.2} of a limit", task.name);
             assert!(

@@ -3,6 +3,8 @@
 use std::fmt::{self, Write as _};
 use std::path::Path;
 
+use mapless_baselines::TaskName;
+
 use super::Results;
 use crate::results::TrialRow;
 
@@ -54,9 +56,10 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
 /// How the page's address ends that shows a trial; nothing where the page has not its route, or does not drive its planner.
 fn address(results: &Results, row: &TrialRow) -> String {
     let TrialRow { planner, route, parameters, truth, seed, .. } = row;
-    let has_route = results.manifest.routes.iter().any(|found| {
-        found.name == *route && Path::new(&found.file).ends_with(format!("terrains/scenarios/{route}.toml"))
-    });
+    let is_task = route.parse::<TaskName>().is_ok();
+    let file = if is_task { format!("{route}.toml") } else { format!("terrains/scenarios/{route}.toml") };
+    let mut routes = results.manifest.routes.iter();
+    let has_route = routes.any(|found| found.name == *route && Path::new(&found.file).ends_with(&file));
     let is_driven = matches!(planner.as_str(), "default" | "paper");
     if !(has_route && is_driven && parameters.is_empty() && truth == "none") {
         return String::new();
@@ -85,14 +88,17 @@ mod tests {
             row("default", "gsb", "profile", 8, "stuck"),
             row("oracle", "gsb", "none", 9, "stuck"),
             row("paper", "easy-1-0001", "none", 10, "stuck"),
+            row("paper", "ml", "none", 11, "stuck"),
         ];
-        let mut results = results(&["default", "oracle", "paper"], &["gsb", "easy-1-0001"], rows);
-        for (route, folder) in results.manifest.routes.iter_mut().zip(["terrains/scenarios", "target"]) {
+        let mut results = results(&["default", "oracle", "paper"], &["gsb", "easy-1-0001", "ml"], rows);
+        for (route, folder) in results.manifest.routes.iter_mut().zip(["terrains/scenarios", "target", "own"])
+        {
             route.file = format!("{folder}/{}.toml", route.name);
         }
         let mut text = String::new();
         section(&mut text, &results).unwrap();
         assert!(text.contains("| `?scenario=gsb&seed=7&preset=default` |"), "{text}");
-        assert_eq!(text.matches("?scenario=").count(), 1, "{text}");
+        assert!(text.contains("| `?scenario=easy-1-0001&seed=10&preset=paper` |"), "{text}");
+        assert_eq!(text.matches("?scenario=").count(), 2, "{text}");
     }
 }
