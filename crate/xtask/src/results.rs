@@ -12,8 +12,9 @@ const FOLDER: &str = "terrains/campaigns";
 pub(crate) const QUICK: [&str; 2] = ["quick", "quick-generated"];
 /// The full form.
 const ALL: [&str; 4] = ["paper", "generated", "faults", "ablation"];
-/// Generated tasks: their folder under `target/`, by which campaign files name them, and how many there are of each difficulty.
-const TASKS: [(&str, u32); 2] = [("generated/quick", 10), ("generated/all", 40)];
+/// Generated tasks: their folder under `target/`, by which campaign files name them, their seed, and how many there are of each difficulty.
+const TASKS: [(&str, u32, u32); 3] =
+    [("generated/quick", 1, 10), ("generated/all", 1, 40), ("generated/thousand", 100, 334)];
 const DIFFICULTIES: [&str; 3] = ["easy", "moderate", "hard"];
 
 /// Runs the named campaigns, or all of the full form where none is named, or what is left of them after an interruption; then writes the report.
@@ -34,11 +35,17 @@ pub(crate) fn run(sh: &Shell, names: &[String]) -> anyhow::Result<()> {
     cmd!(sh, "cargo build --release --package mapless-cli").run()?;
     let target = setup::target_dir(sh);
     let program = target.join("release/mapless").with_extension(EXE_EXTENSION);
-    for (folder, count) in TASKS.iter().filter(|(folder, _)| texts.iter().any(|text| text.contains(folder))) {
+    for (folder, seed, count) in
+        TASKS.iter().filter(|(folder, ..)| texts.iter().any(|text| text.contains(folder)))
+    {
         for difficulty in DIFFICULTIES {
-            let (folder, count) = (target.join(folder).join(difficulty), count.to_string());
-            cmd!(sh, "{program} generate --seed 1 --difficulty {difficulty} --count {count} --out {folder}")
-                .run()?;
+            let (folder, seed, count) =
+                (target.join(folder).join(difficulty), seed.to_string(), count.to_string());
+            cmd!(
+                sh,
+                "{program} generate --seed {seed} --difficulty {difficulty} --count {count} --out {folder}"
+            )
+            .run()?;
         }
     }
     let mut folders = Vec::new();
