@@ -191,6 +191,7 @@ impl Ways {
         if (self.changed_at_m - self.here_m).length() > SAME_PLACE_M {
             self.changes = 0;
         }
+        self.footing.drive_on(moved_m.length());
         self.footing.look(ground, self.here_m);
         self.mind_standing(moved_m);
         self.search_with(Caution::Usual);
@@ -238,7 +239,7 @@ impl Ways {
         self.turned_back_at_m = self.here_m;
         let facing = self.first_direction(self.facing);
         let travel = if in_reverse { -facing } else { facing };
-        self.footing.mistrust(self.here_m + travel * MISTRUSTED_AHEAD_M);
+        self.footing.surprise(self.here_m + travel * MISTRUSTED_AHEAD_M);
     }
 
     /// Searches the same ground anew, with less caution near the robot.

@@ -44,6 +44,8 @@ pub(crate) struct Footing {
     looks: i32,
     /// Places that turned out steeper than they had looked, the newest last.
     mistrusted_m: Vec<DVec2>,
+    /// Deviations of slopes are larger than they look by this share.
+    doubt: f64,
 }
 
 /// Mistrusted places that are remembered, how much around each is meant, and the risk that the first time adds; ground at the tilt limit
@@ -52,6 +54,10 @@ const MOST_MISTRUSTED: usize = 128;
 const MISTRUSTED_RADIUS_M: f64 = 0.6;
 const MISTRUST_RISK: f32 = 2.0;
 const MOST_TIMES: usize = 3;
+/// Each surprise adds this much doubt, up to a most; driving this far takes it down to e⁻¹.
+const SURPRISE: f64 = 1.0;
+const MOST_DOUBT: f64 = 2.0;
+const DOUBT_FADES_M: f64 = 20.0;
 /// Places this near the border of the lattice are its horizon; those beside them lie on it, too.
 const HORIZON: i32 = 2;
 /// Ground that keeps no more than the margin for an escape, with this share of the deviations, is the last choice: it counts as this much
@@ -93,6 +99,7 @@ impl Footing {
             planes: vec![Known::NOTHING; side * side],
             looks: 0,
             mistrusted_m: Vec::with_capacity(MOST_MISTRUSTED),
+            doubt: 0.0,
         }
     }
 
@@ -101,6 +108,18 @@ impl Footing {
         self.planes.fill(Known::NOTHING);
         self.looks = 0;
         self.mistrusted_m.clear();
+        self.doubt = 0.0;
+    }
+
+    /// The robot met steeper ground than it was told of, and `place_m` is where: what looks alike nearby may deceive it as much.
+    pub(crate) fn surprise(&mut self, place_m: DVec2) {
+        self.mistrust(place_m);
+        self.doubt = MOST_DOUBT.min(self.doubt + SURPRISE);
+    }
+
+    /// The robot has driven on.
+    pub(crate) fn drive_on(&mut self, distance_m: f64) {
+        self.doubt *= libm::exp(-distance_m / DOUBT_FADES_M);
     }
 
     /// Mistrusts a place, until the ground is forgotten: each time it costs more to drive there, so that another way is soon cheaper.
@@ -185,8 +204,8 @@ impl Footing {
     /// The risk of standing on slopes with a standard deviation at a distance from the robot; infinite where that is not safe.
     pub(crate) fn risk_on(&self, slopes: &Slopes, deviation: f64, caution: Caution, away_m: f64) -> f64 {
         let escapes = caution == Caution::Escape && away_m < self.config.escape_m;
-        let (allowed, deviations) =
-            if escapes { (&self.most, 0.0) } else { (&self.allowed, self.config.deviations) };
+        let deviations = (1.0 + self.doubt) * self.config.deviations;
+        let (allowed, deviations) = if escapes { (&self.most, 0.0) } else { (&self.allowed, deviations) };
         let share = slopes.share_of(&self.limits);
         if slopes.within(allowed, deviations * deviation) {
             share * share

@@ -242,6 +242,28 @@ fn a_robot_that_stands_steeper_than_told_goes_back_and_leaves_the_place_aside() 
 }
 
 #[test]
+fn after_a_surprise_ground_that_looks_alike_is_left_aside_for_a_while() {
+    // Ground that keeps its margin with its deviation, and not with twice that.
+    let rough = |_: DVec2| Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.25 });
+    let crosses = |ways: &mut Ways, x_m: f64| {
+        ways.search(&rough, &Pose { position_m: DVec3::new(x_m, 0.0, 0.0), ..pose(0.0, 0.0) });
+        ways.to(DVec2::new(x_m + 5.0, 0.0))
+            .is_some_and(|reached| ways.follow(reached, &mut Vec::new()).mean_risk < 0.1)
+    };
+    let mut ways = ways();
+    assert!(crosses(&mut ways, 0.0));
+    set_out(&mut ways, DVec2::new(5.0, 0.0), &mut Vec::new());
+    for _ in 0..2 {
+        ways.search(&rough, &pose(0.0, 0.76));
+        ways.drive(&WayPoint { position_m: DVec2::X, cost_m: 0.0, reverse: false });
+        ways.retreat = None;
+    }
+    assert!(!crosses(&mut ways, -2.0));
+    let after_m = (1..).map(f64::from).find(|&x_m| crosses(&mut ways, x_m)).unwrap();
+    assert!((5.0..40.0).contains(&after_m), "{after_m} m");
+}
+
+#[test]
 fn a_way_back_goes_on_for_a_metre_where_one_leads_there() {
     let mut ways = ways();
     let mut way = Vec::new();
