@@ -38,8 +38,16 @@ pub struct Route {
     pub file: String,
     /// Scenario and terrain.
     pub loaded: LoadedScenario,
-    /// Length of the shortest safe path that is known.
-    pub oracle_length_m: Option<f64>,
+}
+
+impl Route {
+    /// Length of the shortest safe path; none where the oracle has none. It takes a while.
+    pub(crate) fn oracle_length_m(&self) -> Option<f64> {
+        let LoadedScenario { scenario: Scenario { start, goal_m, robot, .. }, terrain } = &self.loaded;
+        let start = PlanPose { position_m: start.position_m, yaw_rad: start.heading_rad };
+        let path = shortest_path(&terrain.field, robot, start, *goal_m, &OracleConfig::default());
+        path.ok().map(|path| path.length_m)
+    }
 }
 
 /// One trial to run.
@@ -107,12 +115,10 @@ impl Plan {
         for file in &campaign.routes {
             let loaded = LoadedScenario::read(file)
                 .map_err(|error| CampaignError::new(path, CampaignFault::Route(error)))?;
-            let oracle_length_m = oracle_length_m(&loaded);
             routes.push(Route {
                 name: file.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
                 file: file.to_string_lossy().into_owned(),
                 loaded,
-                oracle_length_m,
             });
         }
         routes.sort_by(|a, b| a.name.cmp(&b.name));
@@ -120,14 +126,6 @@ impl Plan {
         let hash = identity(&campaign, &routes, &trials);
         Ok(Self { file: tidy(path).to_string_lossy().into_owned(), campaign, hash, routes, trials })
     }
-}
-
-/// Length of the shortest safe path; none where the oracle has none.
-fn oracle_length_m(loaded: &LoadedScenario) -> Option<f64> {
-    let Scenario { start, goal_m, robot, .. } = &loaded.scenario;
-    let start = PlanPose { position_m: start.position_m, yaw_rad: start.heading_rad };
-    let path = shortest_path(&loaded.terrain.field, robot, start, *goal_m, &OracleConfig::default());
-    path.ok().map(|path| path.length_m)
 }
 
 fn expand(campaign: &Campaign, routes: &[Route]) -> Vec<TrialSpec> {
@@ -185,10 +183,10 @@ fn expand(campaign: &Campaign, routes: &[Route]) -> Vec<TrialSpec> {
 fn identity(campaign: &Campaign, routes: &[Route], trials: &[TrialSpec]) -> String {
     let mut hash = Hash::default();
     hash.add(campaign.name.as_bytes());
-    for Route { name, loaded, oracle_length_m, .. } in routes {
+    for Route { name, loaded, .. } in routes {
         hash.add(name.as_bytes());
         // Numbers print with all their digits.
-        hash.add(format!("{:?} {oracle_length_m:?}", loaded.scenario).as_bytes());
+        hash.add(format!("{:?}", loaded.scenario).as_bytes());
         let field = &loaded.terrain.field;
         hash.add(format!("{} {} {}", field.columns(), field.rows(), field.cell_m()).as_bytes());
         let heights: Vec<u8> = field.heights_m().iter().flat_map(|height| height.to_le_bytes()).collect();

@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use mapless_trials::Metrics;
+use rayon::prelude::*;
 
 use crate::columns;
 use crate::error::CampaignError;
 use crate::files::{remove_unfinished, write_atomically};
 use crate::journal::{Entries, Timing, TrialResult};
-use crate::plan::{Plan, TrialSpec};
+use crate::plan::{Plan, Route, TrialSpec};
 
 /// One row of `trials.csv` and `trials.parquet`.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -98,10 +99,16 @@ struct TimingRow<'a> {
     planner_max_ms: f64,
 }
 
-/// Writes the final files; `entries` must hold every trial of the plan.
-pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path) -> Result<(), CampaignError> {
+/// Writes the final files; `entries` must hold every trial of the plan. The oracle looks for `jobs` paths at a time.
+pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path, jobs: usize) -> Result<(), CampaignError> {
     let done = plan.trials.iter().filter_map(|spec| Some((spec, entries.get(&spec.id)?)));
-    let rows: Vec<TrialRow> = done.clone().map(|(spec, entry)| row(plan, spec, &entry.result)).collect();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
+    let pool = pool.map_err(|error| CampaignError::write(folder, error))?;
+    let oracle_lengths_m: Vec<Option<f64>> =
+        pool.install(|| plan.routes.par_iter().map(Route::oracle_length_m).collect());
+    let rows: Vec<TrialRow> = (done.clone())
+        .map(|(spec, entry)| row(plan, spec, oracle_lengths_m[spec.route], &entry.result))
+        .collect();
     let timings: Vec<TimingRow<'_>> = done.map(|(spec, entry)| timing_row(&spec.id, entry.timing)).collect();
     // Every trial has run, so nobody writes trajectories any more.
     remove_unfinished(&folder.join("trajectories"))?;
@@ -136,7 +143,7 @@ fn csv<T: serde::Serialize>(path: &Path, rows: &[T]) -> Result<Vec<u8>, Campaign
     writer.into_inner().map_err(|error| CampaignError::write(path, error))
 }
 
-fn row(plan: &Plan, spec: &TrialSpec, result: &TrialResult) -> TrialRow {
+fn row(plan: &Plan, spec: &TrialSpec, oracle_length_m: Option<f64>, result: &TrialResult) -> TrialRow {
     let route = &plan.routes[spec.route];
     let scenario = &route.loaded.scenario;
     let metric = |value: fn(&Metrics) -> f64| result.metrics.as_ref().map(value);
@@ -161,7 +168,7 @@ fn row(plan: &Plan, spec: &TrialSpec, result: &TrialResult) -> TrialRow {
         sim_time_s: result.sim_time_s,
         ticks: result.ticks,
         straight_m: (scenario.goal_m - scenario.start.position_m).length(),
-        oracle_length_m: route.oracle_length_m,
+        oracle_length_m,
         digest: result.digest.clone(),
         configuration: json.unwrap_or_default(),
     }

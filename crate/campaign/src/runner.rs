@@ -64,7 +64,7 @@ pub fn run(
     let header = Header { campaign: plan.hash.clone(), build: this_build()? };
     // What is there must fit before anything is added to it.
     journal::read_all(folder, &header)?;
-    let journal = Journal::open(folder, options.shard, &header, tell)?;
+    let journal = Journal::open(folder, options.shard, &header, &tell)?;
     let before = journal::read_all(folder, &header)?;
 
     let mine: Vec<&TrialSpec> = (plan.trials.iter().enumerate())
@@ -94,7 +94,11 @@ pub fn run(
     drop(queue);
     let entries = journal::read_all(folder, &header)?;
     if entries.len() == plan.trials.len() {
-        results::write(plan, &entries, folder)?;
+        tell(&format!(
+            "every trial has run; looking for the shortest safe path of {} routes",
+            plan.routes.len()
+        ));
+        results::write(plan, &entries, folder, options.jobs)?;
     }
     let errors = entries.values().filter(|entry| entry.result.error.is_some()).count();
     Ok(Done { trials: plan.trials.len(), done: entries.len(), errors })
