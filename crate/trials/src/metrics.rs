@@ -22,6 +22,28 @@ pub struct Metrics {
     pub curvature_change_rad_m: f64,
 }
 
+impl Metrics {
+    /// All six, in the order of the fields.
+    pub fn values(&self) -> [f64; 6] {
+        let Self {
+            distance_m,
+            max_abs_roll_rad,
+            max_abs_pitch_rad,
+            mean_vibration_rad_s,
+            mean_elevation_rate_cm_s,
+            curvature_change_rad_m,
+        } = *self;
+        [
+            distance_m,
+            max_abs_roll_rad,
+            max_abs_pitch_rad,
+            mean_vibration_rad_s,
+            mean_elevation_rate_cm_s,
+            curvature_change_rad_m,
+        ]
+    }
+}
+
 /// Collects the metrics from evenly spaced samples of the motion.
 #[derive(Clone, Debug)]
 pub(crate) struct MetricsRecorder {

@@ -106,17 +106,9 @@ impl Runner {
 
     /// Tick, time; x, y, z, roll, pitch, yaw; then the six metrics in the order of [`mapless_trials::Metrics`].
     pub fn status(&self) -> Vec<f64> {
-        let metrics = self.trial.metrics();
         let mut values = vec![self.trial.ticks() as f64, self.trial.time_s()];
         values.extend(&self.trial.motion()[..6]);
-        values.extend([
-            metrics.distance_m,
-            metrics.max_abs_roll_rad,
-            metrics.max_abs_pitch_rad,
-            metrics.mean_vibration_rad_s,
-            metrics.mean_elevation_rate_cm_s,
-            metrics.curvature_change_rad_m,
-        ]);
+        values.extend(self.trial.metrics().values());
         values
     }
 

@@ -43,21 +43,16 @@ impl Session {
     /// six metrics in the order of [`mapless_trials::Metrics`]; how many waypoints the robot has been to.
     pub fn status(&self) -> Vec<f64> {
         let trial = &self.now.trial;
-        let (command, metrics) = (trial.step().command, trial.metrics());
+        let command = trial.step().command;
         let mut values = vec![trial.ticks() as f64, trial.time_s()];
         values.extend(trial.motion());
         values.extend([
             command.linear_m_s,
             command.angular_rad_s,
             trial.planner_config().perception.variance_threshold,
-            metrics.distance_m,
-            metrics.max_abs_roll_rad,
-            metrics.max_abs_pitch_rad,
-            metrics.mean_vibration_rad_s,
-            metrics.mean_elevation_rate_cm_s,
-            metrics.curvature_change_rad_m,
-            trial.waypoints_passed() as f64,
         ]);
+        values.extend(trial.metrics().values());
+        values.push(trial.waypoints_passed() as f64);
         values
     }
 
