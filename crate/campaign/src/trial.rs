@@ -93,23 +93,7 @@ fn write_state<N: mapless::Navigator>(text: &mut String, trial: &Trial<N>) {
 
 /// A journal has no word for what is no number.
 fn finite(metrics: &Metrics) -> Result<(), String> {
-    let Metrics {
-        distance_m,
-        max_abs_roll_rad,
-        max_abs_pitch_rad,
-        mean_vibration_rad_s,
-        mean_elevation_rate_cm_s,
-        curvature_change_rad_m,
-    } = *metrics;
-    let all = [
-        distance_m,
-        max_abs_roll_rad,
-        max_abs_pitch_rad,
-        mean_vibration_rad_s,
-        mean_elevation_rate_cm_s,
-        curvature_change_rad_m,
-    ];
-    if all.iter().all(|value| value.is_finite()) {
+    if metrics.values().iter().all(|value| value.is_finite()) {
         Ok(())
     } else {
         Err(format!("metrics that are no numbers: {metrics:?}"))
