@@ -196,6 +196,12 @@ fn rows_say_what_ran_and_each_can_be_run_again() {
     let first = &reader[0];
     assert_eq!((first["route"].as_str(), first["seed"].as_str()), (Some("east"), Some("1")));
     assert_eq!(first["straight_m"], "6.0");
+    // The ground is gentle: the oracle drives straight, up to where it counts as there.
+    for row in &reader {
+        let metres = |name: &str| row[name].as_str().unwrap().parse::<f64>().unwrap();
+        let (straight_m, oracle_m) = (metres("straight_m"), metres("oracle_length_m"));
+        assert!((oracle_m - straight_m).abs() < 0.03, "{oracle_m} m for {straight_m} m");
+    }
     // Each route and seed is another drive.
     let digests: BTreeSet<&str> = reader.iter().map(|row| row["digest"].as_str().unwrap()).collect();
     assert!(digests.len() >= 2 * 6, "{digests:?}");

@@ -43,8 +43,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let jobs = args.jobs.map_or_else(cores, NonZero::get);
     let options = Options { folder, jobs, shard: args.shard };
     let shown = Shown::new();
-    let done =
-        mapless_campaign::run(&plan, &options, |progress| shown.show(&progress), |word| eprintln!("{word}"))?;
+    let tell = |word: &str| shown.bar.suspend(|| eprintln!("{word}"));
+    let done = mapless_campaign::run(&plan, &options, |progress| shown.show(&progress), tell)?;
     shown.bar.finish_and_clear();
     writeln!(std::io::stdout(), "{}", summary(&plan, &options.folder, done)).context("standard output")
 }

@@ -25,21 +25,13 @@ pub struct Metrics {
 impl Metrics {
     /// All six, in the order of the fields.
     pub fn values(&self) -> [f64; 6] {
-        let Self {
-            distance_m,
-            max_abs_roll_rad,
-            max_abs_pitch_rad,
-            mean_vibration_rad_s,
-            mean_elevation_rate_cm_s,
-            curvature_change_rad_m,
-        } = *self;
         [
-            distance_m,
-            max_abs_roll_rad,
-            max_abs_pitch_rad,
-            mean_vibration_rad_s,
-            mean_elevation_rate_cm_s,
-            curvature_change_rad_m,
+            self.distance_m,
+            self.max_abs_roll_rad,
+            self.max_abs_pitch_rad,
+            self.mean_vibration_rad_s,
+            self.mean_elevation_rate_cm_s,
+            self.curvature_change_rad_m,
         ]
     }
 }
