@@ -37,3 +37,10 @@ test('passes on why the planner stopped', () => {
   const stopped = frame({ outcome: 'no_subgoal', stopReason: 'no subgoal found after looking around' });
   assert.equal(reason(stopped, info), 'No subgoal found after looking around.');
 });
+
+test('says what it does without a candidate', () => {
+  const does = (activity: Frame['activity']) => reason(frame({ activity }), info);
+  assert.match(does('retreating'), /goes back the way it came/);
+  assert.match(does('looking'), /turns on the spot/);
+  assert.equal(does('stopped'), 'Stands still.');
+});

@@ -54,6 +54,7 @@ impl Log {
         let status = match status {
             Status::Driving => "driving",
             Status::Arrived => "arrived",
+            Status::Retreating => "retreating",
             Status::Looking => "looking",
             Status::Stopped(_) => "stopped",
         };

@@ -121,6 +121,8 @@ pub struct ForecastConfig {
     pub tilt_margin_rad: f64,
     /// The least margin, radians: for ground that is the last choice, for turns on the spot, and for a robot that has to get away.
     pub escape_margin_rad: f64,
+    /// What takes the place of the least margin once the robot has lost its patience, radians.
+    pub impatient_margin_rad: f64,
     /// How far from a robot that finds no way at all the least margin suffices, without what is uncertain, metres.
     pub escape_m: f64,
     /// Standard deviations of the predicted slope added to it before it is compared.

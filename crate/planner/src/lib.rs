@@ -70,6 +70,7 @@ pub mod profile;
 mod projection;
 mod pursuit;
 mod reduction;
+mod retreat;
 mod sectors;
 pub mod segments;
 mod slopes;

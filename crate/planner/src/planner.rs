@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3, Vec3};
 
 use crate::angle::wrap_rad;
 use crate::candidates::Candidates;
-use crate::config::{CostModel, DecisionConfig, PlannerConfig};
+use crate::config::{CostModel, DecisionConfig, ForecastConfig, PlannerConfig};
 use crate::controller::{Command, Controller};
 use crate::cost::{self, Situation};
 use crate::dead_ends::DeadEnds;
@@ -19,10 +19,11 @@ use crate::plane::Plane;
 use crate::pose::Pose;
 use crate::profile::{Column, ElevationProfile};
 use crate::pursuit::Pursuit;
+use crate::retreat::{Back, Retreat};
 use crate::segments::{Segment, cut_segments};
 use crate::sparse_gp::GpError;
 use crate::subgoals::{Subgoal, bearing_rad};
-use crate::ways::{Reached, WayPoint, Ways};
+use crate::ways::{Reached, WayPoint, Ways, length_m};
 
 /// Why the planner stands still for good.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -51,6 +52,8 @@ pub enum Status {
     Driving,
     /// The goal is within its tolerance.
     Arrived,
+    /// Going back the way it came, from ground that is steeper than it had looked or from where nothing leads on.
+    Retreating,
     /// No candidate: turning in place to look.
     Looking,
     /// Standing still, for this reason.
@@ -76,7 +79,7 @@ pub struct Step<'a> {
     pub subgoals: &'a [Subgoal],
     /// Index of the chosen subgoal.
     pub chosen: Option<usize>,
-    /// The way to it, from where the robot stands; empty where subgoals are judged by the paper's height alone.
+    /// The way to it, or the way back, from where the robot stands; empty where subgoals are judged by the paper's height alone.
     pub way: &'a [WayPoint],
 }
 
@@ -121,6 +124,7 @@ pub struct Planner {
     dead_ends: DeadEnds,
     patience: Option<Patience>,
     pursuit: Pursuit,
+    retreat: Retreat,
     learned_at_m: Option<DVec2>,
     ends: Vec<(Reached, f64)>,
     goal_m: Option<DVec2>,
@@ -152,6 +156,7 @@ impl Planner {
             dead_ends: DeadEnds::new(config.forecast.step_m),
             patience: None,
             pursuit: Pursuit::default(),
+            retreat: Retreat::new(),
             learned_at_m: None,
             ends: Vec::with_capacity(ways.count() + 1),
             ways,
@@ -175,6 +180,7 @@ impl Planner {
         self.perception.reset(self.config.perception);
         self.ground.clear();
         self.ways.clear();
+        self.retreat.clear();
         self.goal_m = None;
     }
 
@@ -202,9 +208,10 @@ impl Planner {
             self.goal_m = Some(goal_m);
             self.dead_ends.clear();
             self.patience = None;
-            self.mind_steepness(1.0);
+            self.mind_steepness(true);
             self.ways.stand();
             self.pursuit.stand();
+            self.retreat.end();
             self.learned_at_m = None;
             self.last_bearing_rad = None;
             self.looked_ticks = 0;
@@ -212,7 +219,7 @@ impl Planner {
         }
         self.status = self.decide(points_m, pose, goal_m, insight);
         self.command = match self.status {
-            Status::Driving => self.command,
+            Status::Driving | Status::Retreating => self.command,
             Status::Looking if self.may_look_around() => self.controller.look_around(),
             Status::Looking => Command::STOP,
             Status::Arrived | Status::Stopped(_) => {
@@ -268,7 +275,7 @@ impl Planner {
             CostModel::Forecast => {
                 let here_m = pose.plan_m();
                 if self.patience.get_or_insert_with(|| Patience::new(here_m, goal_m)).lost(here_m) {
-                    self.mind_steepness(IMPATIENT_SHARE);
+                    self.mind_steepness(false);
                     self.dead_ends.scale(IMPATIENT_SHARE);
                 }
                 match insight.ground {
@@ -281,6 +288,9 @@ impl Planner {
                 })
             }
         };
+        if self.config.decision.cost_model == CostModel::Forecast && self.goes_back(chosen, pose) {
+            return Status::Retreating;
+        }
         let Some(chosen) = chosen else {
             self.looked_ticks += 1;
             self.last_bearing_rad = None;
@@ -301,6 +311,9 @@ impl Planner {
             CostModel::Forecast => {
                 if let Some(place_m) = self.pursuit.head_for(&subgoal, pose) {
                     self.dead_ends.raise(place_m, IN_VAIN_HALF_SIDE_M, IN_VAIN_M);
+                    if self.ways.stands_steep() {
+                        self.turn_back(pose.plan_m());
+                    }
                 }
                 self.learn(pose, goal_m);
                 self.follow(&subgoal, pose)
@@ -309,9 +322,13 @@ impl Planner {
         Status::Driving
     }
 
-    /// Minds steep ground by this share of what is configured, on ways and in the choice.
-    fn mind_steepness(&mut self, share: f64) {
+    /// Minds steep ground as configured or, without patience, less: on ways and in the choice.
+    fn mind_steepness(&mut self, patient: bool) {
+        let ForecastConfig { escape_margin_rad, impatient_margin_rad, .. } = self.config.forecast;
+        let (share, least_margin_rad) =
+            if patient { (1.0, escape_margin_rad) } else { (IMPATIENT_SHARE, impatient_margin_rad) };
         self.ways.mind_steepness(share);
+        self.ways.keep_margin(least_margin_rad);
         let DecisionConfig { steepness_weight, climb_weight, .. } = self.config.decision;
         self.decision.steepness_weight = share * steepness_weight;
         self.decision.climb_weight = share * climb_weight;
@@ -320,6 +337,61 @@ impl Planner {
     /// Whether turning on the spot stays within the tilt limits, as far as this planner minds.
     fn may_look_around(&self) -> bool {
         self.config.decision.cost_model == CostModel::Paper || self.ways.may_turn_around()
+    }
+
+    /// Goes back the way it came, from where nothing leads on or the robot stands too steep, until it stands on calm ground some way back
+    /// and something leads on again. Whether it does.
+    fn goes_back(&mut self, chosen: Option<usize>, pose: &Pose) -> bool {
+        let here_m = pose.plan_m();
+        self.retreat.be_at(pose);
+        if !self.retreat.is_on() {
+            if chosen.is_none() || self.ways.stands_too_steep() {
+                self.turn_back(here_m);
+            }
+        } else if chosen.is_some() && self.ways.is_calm() && self.retreat.has_gone_far(here_m) {
+            self.retreat.end();
+        }
+        if !self.retreat.is_on() {
+            return false;
+        }
+        let Some(back) = self.retreat.next(pose) else { return false };
+        self.looked_ticks = 0;
+        self.last_bearing_rad = None;
+        self.ways.stand();
+        self.pursuit.stand();
+        let reverse = matches!(back, Back::Drive { reverse: true, .. });
+        let point = |position_m| WayPoint { position_m, cost_m: 0.0, reverse };
+        self.way.clear();
+        self.way.push(point(here_m));
+        self.way.extend(self.retreat.way_back_m().map(point));
+        let share = self.ways.share_here();
+        self.command = match back {
+            Back::Turn { by_rad } => {
+                let turning = self.controller.drive(0.0, by_rad, self.config.period_s);
+                self.controller.slowed(Command { linear_m_s: 0.0, ..turning }, share)
+            }
+            Back::Drive { bearing_rad, reverse } => {
+                self.drive_along(length_m(&self.way), bearing_rad, reverse, share)
+            }
+        };
+        true
+    }
+
+    /// Turns back from ground that turned out steeper than it had looked.
+    fn turn_back(&mut self, here_m: DVec2) {
+        if let Some(travel) = self.retreat.begin(here_m) {
+            self.ways.turn_back(travel);
+        }
+    }
+
+    /// Drives a distance at a bearing, as slow as ground asks for that takes up `share` of the tilt limits.
+    fn drive_along(&mut self, distance_m: f64, bearing: f64, reverse: bool, share: f64) -> Command {
+        let facing = if reverse { wrap_rad(bearing + PI) } else { bearing };
+        let mut command = self.controller.drive(distance_m, facing, self.config.period_s);
+        if reverse {
+            command.linear_m_s = -command.linear_m_s;
+        }
+        self.controller.slowed(command, share)
     }
 
     /// Drives along the way to a subgoal.
@@ -333,16 +405,12 @@ impl Planner {
             // The subgoal lies up to half a step from the last place.
             last.position_m = end_m;
         }
-        let ahead = self.ways.shortcut(&self.way);
-        self.ways.drive(&ahead);
+        let next = self.ways.shortcut(&self.way);
+        let ahead = self.ways.drive(&next);
         let bearing = bearing_rad(pose, ahead.position_m);
         let way_m = subgoal.forecast.map_or(0.0, |f| f.way_m);
-        let facing = if ahead.reverse { wrap_rad(bearing + PI) } else { bearing };
-        let mut command = self.controller.drive(way_m, facing, self.config.period_s);
-        if ahead.reverse {
-            command.linear_m_s = -command.linear_m_s;
-        }
-        self.controller.slowed(command, self.ways.share_ahead(&self.way))
+        let share = self.ways.share_ahead(&self.way);
+        self.drive_along(way_m, bearing, ahead.reverse, share)
     }
 
     /// Learns how far the goal is from the places around by the best of the ways on: to the goal itself or to where what was seen ends,

@@ -28,22 +28,26 @@ use crate::slopes::Slopes;
 use footing::{Caution, Footing};
 use headings::{HEADINGS, STEPS};
 use queue::BucketQueue;
+pub(crate) use route::length_m;
 
 /// Directions in which the way begins.
 const FIRST_DIRECTIONS: usize = 64;
 /// A way joins the lattice at the places within this distance.
 const JOIN_M: f64 = 1.6;
-/// A retreat ends this far from where it began, at this share of the slope that a way may use; what lies this far ahead of where it
-/// begins is mistrusted.
-const RETREAT_M: f64 = 1.0;
+/// Ground is calm up to this share of the slope that a way may use at most, and steep from this one.
 const CALM_SHARE: f64 = 0.8;
-/// Turning back on ground at least this steep says that what lies ahead is steeper than it had looked.
 const STEEP_SHARE: f64 = 0.6;
+/// Turning back on steep ground says that what lies this far ahead is steeper than it had looked.
 const MISTRUSTED_AHEAD_M: f64 = 0.5;
 /// Each change within this distance makes the next one dearer, up to so many: where a way is refused and allowed by turns, the robot
 /// would drive to and fro.
 const SAME_PLACE_M: f64 = 1.0;
 const MOST_CHANGES: i32 = 5;
+/// The robot means to drive this far at most before it changes its mind; with this much left it has.
+const LEG_M: f64 = 1.0;
+const LEG_DONE_M: f64 = 0.15;
+/// A way begins at a place at least this far from the robot; nearer ones are where it stands.
+const FIRST_STEP_M: f64 = 0.3;
 /// Costs are whole millimetres of level ground.
 const MILLIMETRES: f64 = 1000.0;
 /// Longest way that is looked for, in metres of level ground.
@@ -69,18 +73,14 @@ pub(crate) struct Ways {
     standing_height_m: f64,
     standing_gradient: DVec2,
     caution: Caution,
-    /// How the way that was last driven began.
+    /// How the way that was last driven began, and what the robot headed for on it.
     last: Option<First>,
-    /// Whether it was last driven in reverse, also if the robot has stood since.
-    came_in_reverse: Option<bool>,
+    leg: Option<WayPoint>,
     /// How much steeper it stands than at the search before, as a share of the tilt limits.
     steeper_share: f64,
     /// Where it last began to change its mind, and how often it did so there.
     changed_at_m: DVec2,
     changes: i32,
-    /// Whether the robot goes back the way it came, and then whether in reverse.
-    retreat: Option<bool>,
-    turned_back_at_m: DVec2,
     /// Whether it last drove with less caution, to get away.
     escapes: bool,
     /// The first direction that the robot faces, and how many it may turn to the left and to the right.
@@ -161,12 +161,10 @@ impl Ways {
             standing_gradient: DVec2::ZERO,
             caution: Caution::Usual,
             last: None,
-            came_in_reverse: None,
+            leg: None,
             steeper_share: 0.0,
             changed_at_m: DVec2::ZERO,
             changes: 0,
-            retreat: None,
-            turned_back_at_m: DVec2::ZERO,
             escapes: false,
             facing: 0,
             turns: [0; 2],
@@ -193,29 +191,27 @@ impl Ways {
         }
         self.footing.drive_on(moved_m.length());
         self.footing.look(ground, self.here_m);
-        self.mind_standing(moved_m);
         self.search_with(Caution::Usual);
     }
 
-    /// Where the robot stands steeper than even an escape may be, what it was told of the ground ahead is not true: it goes back the
-    /// way it came, and what lay ahead costs more from now on. So it does when it gets steeper on the way back.
-    fn mind_standing(&mut self, moved_m: DVec2) {
-        if self.standing_share() < CALM_SHARE {
-            if (self.turned_back_at_m - self.here_m).length() > RETREAT_M {
-                self.retreat = None;
-            }
-        } else if !self.standing_slopes().within(self.footing.most(), 0.0) {
-            let ahead_m = moved_m.dot(self.first_direction(self.facing));
-            match self.retreat {
-                None => self.turn_back(),
-                Some(in_reverse) => {
-                    let goes_back = if in_reverse { ahead_m < 0.0 } else { ahead_m > 0.0 };
-                    if goes_back && self.steeper_share > 0.0 {
-                        self.turn_back_from(in_reverse);
-                    }
-                }
-            }
-        }
+    /// Whether the robot stands steeper than even an escape may lead it: what it was told of the ground is not true.
+    pub(crate) fn stands_too_steep(&self) -> bool {
+        !self.standing_slopes().within(self.footing.most(), 0.0)
+    }
+
+    /// Whether it stands on ground that is a good part of that steep.
+    pub(crate) fn stands_steep(&self) -> bool {
+        self.standing_share() > STEEP_SHARE
+    }
+
+    /// Whether it stands where a way may begin, and the last search found its ways with the usual caution.
+    pub(crate) fn is_calm(&self) -> bool {
+        self.standing_share() < CALM_SHARE && self.caution == Caution::Usual
+    }
+
+    /// Ground ahead turned out steeper than it had looked, with the robot driving along the unit vector `travel`.
+    pub(crate) fn turn_back(&mut self, travel: DVec2) {
+        self.footing.surprise(self.here_m + travel * MISTRUSTED_AHEAD_M);
     }
 
     /// How much of the slope that a way may have at most the robot stands on.
@@ -227,26 +223,8 @@ impl Ways {
         Slopes::facing(self.standing_gradient, self.first_direction(self.facing))
     }
 
-    fn turn_back(&mut self) {
-        if let Some(in_reverse) = self.came_in_reverse {
-            self.turn_back_from(in_reverse);
-        }
-    }
-
-    /// Goes back after a drive that was in reverse or not.
-    fn turn_back_from(&mut self, in_reverse: bool) {
-        self.retreat = Some(!in_reverse);
-        self.turned_back_at_m = self.here_m;
-        let facing = self.first_direction(self.facing);
-        let travel = if in_reverse { -facing } else { facing };
-        self.footing.surprise(self.here_m + travel * MISTRUSTED_AHEAD_M);
-    }
-
     /// Searches the same ground anew, with less caution near the robot.
     pub(crate) fn search_escape(&mut self) {
-        if self.standing_share() < CALM_SHARE {
-            self.retreat = None;
-        }
         self.search_with(Caution::Escape);
     }
 
@@ -259,35 +237,49 @@ impl Ways {
         self.expand();
     }
 
-    /// Remembers how the way begins on which the robot heads for `point`. Where it turns back on steep ground, what lay
-    /// ahead costs more from now on.
-    pub(crate) fn drive(&mut self, point: &WayPoint) {
-        let next = {
-            let way = point.position_m - self.here_m;
-            let facing = if point.reverse { -way } else { way };
-            First { facing: facing.normalize_or_zero(), reverse: point.reverse }
-        };
+    /// Heads for the next point of a way or, where that leads elsewhere than the robot is about to drive, for what it headed for before as
+    /// long as that is ahead and safe: with each metre it changes its mind once at most. Gives what it heads for. Where it turns back on
+    /// steep ground, what lay ahead costs more from now on.
+    pub(crate) fn drive(&mut self, point: &WayPoint) -> WayPoint {
+        let way = point.position_m - self.here_m;
+        let facing = if point.reverse { -way } else { way };
+        let next = First { facing: facing.normalize_or_zero(), reverse: point.reverse };
         if !self.continues(&next) {
+            if let Some(leg) = self.unfinished_leg() {
+                return leg;
+            }
             if self.changes == 0 {
                 self.changed_at_m = self.here_m;
             }
             self.changes = MOST_CHANGES.min(self.changes + 1);
         }
-        let turns_back = self.last.is_some_and(|last| last.reverse != next.reverse);
+        let turned_back = self.last.filter(|last| last.reverse != next.reverse);
         let escapes = self.caution == Caution::Escape;
         if escapes && !self.escapes {
             self.footing.mistrust(self.here_m);
-        } else if !escapes && turns_back && self.standing_share() > STEEP_SHARE {
-            self.turn_back();
+        } else if !escapes && let Some(last) = turned_back.filter(|_| self.stands_steep()) {
+            let facing = self.first_direction(self.facing);
+            self.turn_back(if last.reverse { -facing } else { facing });
         }
         self.escapes = escapes;
         self.last = Some(next);
-        self.came_in_reverse = Some(next.reverse);
+        self.leg = Some(WayPoint { position_m: self.here_m + way.clamp_length_max(LEG_M), ..*point });
+        *point
+    }
+
+    /// What the robot headed for, if that is still ahead and the straight way there safe.
+    fn unfinished_leg(&self) -> Option<WayPoint> {
+        let (leg, last) = self.leg.zip(self.last)?;
+        let travel = if last.reverse { -last.facing } else { last.facing };
+        let way = leg.position_m - self.here_m;
+        let ahead = way.dot(travel) > LEG_DONE_M && way.length() < LEG_M + LEG_DONE_M;
+        (ahead && self.straight_cost_m(&leg, FIRST_STEP_M).is_finite()).then_some(leg)
     }
 
     /// Forgets what was driven last.
     pub(crate) fn stand(&mut self) {
         self.last = None;
+        self.leg = None;
     }
 
     /// Dijkstra's search from the states that [`begin`](Self::begin) reached.
@@ -345,12 +337,15 @@ impl Ways {
         self.prices = Prices::of(&self.config, share);
     }
 
+    /// Keeps this margin inside the tilt limits where there is nothing better.
+    pub(crate) fn keep_margin(&mut self, least_margin_rad: f64) {
+        self.footing.keep_margin(least_margin_rad);
+    }
+
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
         self.footing.clear();
-        self.last = None;
-        self.came_in_reverse = None;
-        self.retreat = None;
+        self.stand();
         self.escapes = false;
     }
 }

@@ -237,7 +237,7 @@ impl<N: Navigator> Trial<N> {
             }
             Status::Arrived => Some(Outcome::Reached),
             Status::Stopped(_) => Some(Outcome::NoSubgoal),
-            Status::Driving | Status::Looking => self.drive(command),
+            Status::Driving | Status::Retreating | Status::Looking => self.drive(command),
         };
         self.tick += 1;
         let here_m = self.husky.state().position;
@@ -326,7 +326,7 @@ impl<N: Navigator> Trial<N> {
     pub fn stop_reason(&self) -> Option<StopReason> {
         match self.decision.status {
             Status::Stopped(reason) => Some(reason),
-            Status::Driving | Status::Arrived | Status::Looking => None,
+            Status::Driving | Status::Arrived | Status::Retreating | Status::Looking => None,
         }
     }
 

@@ -156,7 +156,7 @@ export interface Subgoal {
 export const TERMS = ['direction', 'distance', 'steepness', 'commitment', 'dead end'] as const;
 
 /** What the planner does at present. */
-export type Activity = 'driving' | 'arrived' | 'looking' | 'stopped';
+export type Activity = 'driving' | 'arrived' | 'retreating' | 'looking' | 'stopped';
 
 /** The paper's six metrics, with the names that the command line prints. */
 export interface Metrics {

@@ -33,7 +33,7 @@ export function trajectoryCsv({ frame, record }: Run): string {
 }
 
 /** In the order of the record's codes. */
-const ACTIVITIES = ['driving', 'arrived', 'looking', 'stopped'];
+const ACTIVITIES = ['driving', 'arrived', 'looking', 'stopped', 'retreating'];
 
 /** Six decimals, with the sign of a negative zero, as the command line writes them. */
 function decimals(value: number): string {

@@ -28,6 +28,8 @@ export function reason(frame: Frame, info: SessionInfo): string {
 
 function activity({ activity, tick, subgoals, stopReason }: Frame): string {
   if (tick === 0) return 'Looks around from the start.';
+  if (activity === 'retreating')
+    return 'The ground is steeper than it looked, or nothing leads on: goes back the way it came.';
   if (activity === 'looking') return 'No way is safe enough: turns on the spot to look around.';
   if (activity === 'stopped') return stopReason ? sentence(stopReason) : 'Stands still.';
   const chosen = subgoals.find((one) => one.chosen);

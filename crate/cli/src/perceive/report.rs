@@ -41,6 +41,7 @@ impl PerceptionReport {
         let (status, reason) = match step.status {
             Status::Driving => ("driving", None),
             Status::Arrived => ("arrived", None),
+            Status::Retreating => ("retreating", None),
             Status::Looking => ("looking", None),
             Status::Stopped(reason) => ("stopped", Some(reason.to_string())),
         };

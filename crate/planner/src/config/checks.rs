@@ -37,9 +37,12 @@ impl PlannerConfig {
             step_m,
             "at least 0.2 m and a fortieth of planner.perception.surface_radius_m",
         )?;
-        let ForecastConfig { tilt_margin_rad, escape_margin_rad, .. } = self.forecast;
-        for (name, margin) in [("tilt_margin_rad", tilt_margin_rad), ("escape_margin_rad", escape_margin_rad)]
-        {
+        let ForecastConfig { tilt_margin_rad, escape_margin_rad, impatient_margin_rad, .. } = self.forecast;
+        for (name, margin) in [
+            ("tilt_margin_rad", tilt_margin_rad),
+            ("escape_margin_rad", escape_margin_rad),
+            ("impatient_margin_rad", impatient_margin_rad),
+        ] {
             let least = self.limits.roll_rad.min(self.limits.pitch_rad);
             require(margin < least, "planner.forecast", name, margin, "less than both tilt limits")?;
         }
@@ -118,6 +121,7 @@ impl ForecastConfig {
         positive(self.step_m, place, "step_m")?;
         not_negative(self.tilt_margin_rad, place, "tilt_margin_rad")?;
         not_negative(self.escape_margin_rad, place, "escape_margin_rad")?;
+        not_negative(self.impatient_margin_rad, place, "impatient_margin_rad")?;
         not_negative(self.change_cost_m, place, "change_cost_m")?;
         let reverse = self.reverse_price;
         require(reverse >= 1.0 && reverse.is_finite(), place, "reverse_price", reverse, "at least 1")?;

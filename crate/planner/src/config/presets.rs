@@ -72,6 +72,7 @@ impl Default for ForecastConfig {
             step_m: 0.5,
             tilt_margin_rad: 0.09,
             escape_margin_rad: 0.06,
+            impatient_margin_rad: 0.03,
             escape_m: 2.5,
             deviations: 1.0,
             blind_radius_m: 7.5,

@@ -6,11 +6,9 @@ use glam::{DVec2, IVec2};
 
 use super::bridge::Station;
 use super::headings::{HEADINGS, nearest};
-use super::{BEGIN, FIRST_DIRECTIONS, First, JOIN_M, MILLIMETRES, Ways};
+use super::{BEGIN, FIRST_DIRECTIONS, FIRST_STEP_M, First, JOIN_M, MILLIMETRES, Ways};
 use crate::slopes::Slopes;
 
-/// A way begins at a place at least this far from the robot.
-const FIRST_STEP_M: f64 = 0.3;
 /// Ground known no farther than this from the robot may be that under its wheels alone.
 const WHEELS_M: f64 = 1.25;
 /// Beginnings within an eighth of a circle of each other are the same.
@@ -37,11 +35,11 @@ impl Ways {
                 }
                 let turn_m = self.config.turn_cost_m * f64::from(turn) * HEADINGS as f64 / f64::from(count);
                 for reverse in [false, true] {
-                    if self.retreat.is_some_and(|back| back != reverse) {
-                        continue;
-                    }
                     let first = First { facing, reverse };
                     let change_m = if self.continues(&first) { 0.0 } else { most_change_m };
+                    if !reverse {
+                        self.begin_here(self.facing + sign * turn, &first, turn_m + change_m);
+                    }
                     self.begin_along(self.facing + sign * turn, &first, turn_m + change_m);
                 }
             }
@@ -66,6 +64,23 @@ impl Ways {
         self.first_directions[index.rem_euclid(FIRST_DIRECTIONS as i32) as usize]
     }
 
+    /// At the place nearest to the robot, when that is too near to drive to.
+    fn begin_here(&mut self, index: i32, first: &First, cost_m: f64) {
+        let Some(offset) = self.footing.nearest(self.here_m) else { return };
+        let away_m = (self.footing.position_m(offset) - self.here_m).length();
+        let heading = nearest(first.facing);
+        if away_m < FIRST_STEP_M && self.footing.risk(offset, heading).is_finite() {
+            self.begin_with(offset, heading, index, cost_m + away_m);
+        }
+    }
+
+    /// With a first state, in which the robot is once it faces the direction with an index.
+    fn begin_with(&mut self, offset: IVec2, heading: usize, index: i32, cost_m: f64) {
+        let state = self.footing.index(offset) * HEADINGS + heading;
+        let from = BEGIN + index.rem_euclid(FIRST_DIRECTIONS as i32) as u32;
+        self.reach(state, from, (cost_m * MILLIMETRES) as u32);
+    }
+
     /// Straight ahead or in reverse to the next known place and, where no beam reaches the ground at the wheels, to the first
     /// one beyond; `index` is that of the facing.
     fn begin_along(&mut self, index: i32, first: &First, cost_m: f64) {
@@ -77,7 +92,7 @@ impl Ways {
         for step in 1..=steps {
             let along_m = self.config.step_m * step as f64;
             let Some(offset) = self.footing.nearest(self.here_m + travel * along_m) else { return };
-            if self.footing.plane(offset).is_none() {
+            if self.footing.is_hidden(offset, heading) {
                 if seen_m > WHEELS_M {
                     return;
                 }
@@ -122,9 +137,7 @@ impl Ways {
         let cost_m = cost_m
             + price * distance_m * (1.0 + self.prices.tilt * risk)
             + self.prices.climb * (end.height_m - start.height_m).abs();
-        let state = self.footing.index(offset) * HEADINGS + heading;
-        let from = BEGIN + index.rem_euclid(FIRST_DIRECTIONS as i32) as u32;
-        self.reach(state, from, (cost_m * MILLIMETRES) as u32);
+        self.begin_with(offset, heading, index, cost_m);
         true
     }
 

@@ -20,19 +20,21 @@ impl Ways {
         let distance_m = way.length();
         let start = Station { distance_m: 0.0, height_m: begin.height_m, gradient: begin.gradient };
         let end = Station { distance_m, height_m: end.height_m, gradient: end.gradient };
-        let risk = self.risk_between(&start, &end, way / distance_m, GAP_DEVIATION_PER_M * distance_m);
+        let uncertain =
+            GAP_DEVIATION_PER_M * distance_m * self.footing.deviations_at(self.footing.position_m(to));
+        let risk = self.risk_between(&start, &end, way / distance_m, uncertain);
         let climb_m = (end.height_m - start.height_m).abs();
         let price_m = GAP_PRICE * distance_m * (1.0 + prices.tilt * risk);
         risk.is_finite().then_some((to, price_m + prices.climb * climb_m))
     }
 
     /// Mean risk along a straight line over ground that was not seen, a cubic through both heights and slopes; infinite where
-    /// it is not safe with this standard deviation of its slopes.
-    pub(super) fn risk_between(&self, from: &Station, to: &Station, direction: DVec2, deviation: f64) -> f64 {
+    /// it is not safe with what is `uncertain` of its slopes.
+    pub(super) fn risk_between(&self, from: &Station, to: &Station, direction: DVec2, uncertain: f64) -> f64 {
         let count = (to.distance_m / self.config.step_m).ceil().max(1.0) as usize;
         let risk_at = |k: usize| {
             let slopes = from.slopes_towards(to, direction, k as f64 / count as f64);
-            self.footing.risk_on(&slopes, deviation, self.caution, to.distance_m)
+            self.footing.risk_on(&slopes, uncertain, self.caution, to.distance_m)
         };
         (1..=count).map(risk_at).sum::<f64>() / count as f64
     }

@@ -32,6 +32,7 @@ const UNKNOWN: Place = Place { plane: None, risk: [f32::INFINITY; HEADINGS / 2] 
 #[derive(Clone, Debug)]
 pub(crate) struct Footing {
     config: ForecastConfig,
+    tilt_limits: TiltLimits,
     /// The tilt limits, what of them may be used, and the most that may be where there is nothing better.
     limits: Slopes,
     allowed: Slopes,
@@ -43,8 +44,13 @@ pub(crate) struct Footing {
     planes: Vec<Known>,
     looks: i32,
     /// Places that turned out steeper than they had looked, the newest last.
-    mistrusted_m: Vec<DVec2>,
-    /// Deviations of slopes are larger than they look by this share.
+    mistrusted: Vec<Mistrusted>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Mistrusted {
+    place_m: DVec2,
+    /// Deviations of slopes around are larger than they look by this share.
     doubt: f64,
 }
 
@@ -54,16 +60,21 @@ const MOST_MISTRUSTED: usize = 128;
 const MISTRUSTED_RADIUS_M: f64 = 0.6;
 const MISTRUST_RISK: f32 = 2.0;
 const MOST_TIMES: usize = 3;
-/// Each surprise adds this much doubt, up to a most; driving this far takes it down to e⁻¹.
+/// Each surprise adds this much doubt around it, with this standard deviation of a Gaussian, up to a most; driving this far takes it
+/// down to e⁻¹. What is left of it below the least counts no more.
 const SURPRISE: f64 = 1.0;
+const DOUBT_RADIUS_M: f64 = 1.5;
 const MOST_DOUBT: f64 = 2.0;
 const DOUBT_FADES_M: f64 = 20.0;
+const LEAST_DOUBT: f64 = 0.05;
 /// Places this near the border of the lattice are its horizon; those beside them lie on it, too.
 const HORIZON: i32 = 2;
 /// Ground that keeps no more than the margin for an escape, with this share of the deviations, is the last choice: it counts as this much
 /// more risk.
 const TIGHT_SHARE: f64 = 0.5;
 const TIGHT_RISK: f64 = 2.0;
+/// A slope with a larger standard deviation is a guess.
+const GUESS_DEVIATION: f64 = 0.15;
 /// Standard deviation of a slope between wheels under which returns were averaged.
 const WHEELS_DEVIATION: f64 = 0.05;
 
@@ -90,6 +101,7 @@ impl Footing {
         let side = (2 * half + 1) as usize;
         Self {
             config,
+            tilt_limits: *limits,
             limits: Slopes::of_limits(limits, 0.0),
             allowed: Slopes::of_limits(limits, config.tilt_margin_rad),
             most: Slopes::of_limits(limits, config.escape_margin_rad),
@@ -98,42 +110,62 @@ impl Footing {
             places: vec![UNKNOWN; side * side],
             planes: vec![Known::NOTHING; side * side],
             looks: 0,
-            mistrusted_m: Vec::with_capacity(MOST_MISTRUSTED),
-            doubt: 0.0,
+            mistrusted: Vec::with_capacity(MOST_MISTRUSTED),
         }
+    }
+
+    /// Uses the limits up to this margin where there is nothing better.
+    pub(crate) fn keep_margin(&mut self, least_margin_rad: f64) {
+        self.most = Slopes::of_limits(&self.tilt_limits, least_margin_rad);
     }
 
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
         self.planes.fill(Known::NOTHING);
         self.looks = 0;
-        self.mistrusted_m.clear();
-        self.doubt = 0.0;
+        self.mistrusted.clear();
     }
 
-    /// The robot met steeper ground than it was told of, and `place_m` is where: what looks alike nearby may deceive it as much.
+    /// The robot met steeper ground than it was told of, and `place_m` is where: what looks alike around it may deceive as much.
     pub(crate) fn surprise(&mut self, place_m: DVec2) {
-        self.mistrust(place_m);
-        self.doubt = MOST_DOUBT.min(self.doubt + SURPRISE);
-    }
-
-    /// The robot has driven on.
-    pub(crate) fn drive_on(&mut self, distance_m: f64) {
-        self.doubt *= libm::exp(-distance_m / DOUBT_FADES_M);
+        self.remember(Mistrusted { place_m, doubt: SURPRISE });
     }
 
     /// Mistrusts a place, until the ground is forgotten: each time it costs more to drive there, so that another way is soon cheaper.
     pub(crate) fn mistrust(&mut self, place_m: DVec2) {
-        if self.mistrusted_m.len() == MOST_MISTRUSTED {
-            self.mistrusted_m.remove(0);
+        self.remember(Mistrusted { place_m, doubt: 0.0 });
+    }
+
+    fn remember(&mut self, mistrusted: Mistrusted) {
+        if self.mistrusted.len() == MOST_MISTRUSTED {
+            self.mistrusted.remove(0);
         }
-        self.mistrusted_m.push(place_m);
+        self.mistrusted.push(mistrusted);
+    }
+
+    /// The robot has driven on.
+    pub(crate) fn drive_on(&mut self, distance_m: f64) {
+        let left = libm::exp(-distance_m / DOUBT_FADES_M);
+        for mistrusted in &mut self.mistrusted {
+            mistrusted.doubt *= left;
+        }
     }
 
     fn mistrust_risk(&self, place_m: DVec2) -> f32 {
         let squared = MISTRUSTED_RADIUS_M * MISTRUSTED_RADIUS_M;
-        let near = self.mistrusted_m.iter().filter(|other| (**other - place_m).length_squared() < squared);
+        let near =
+            self.mistrusted.iter().filter(|other| (other.place_m - place_m).length_squared() < squared);
         MISTRUST_RISK * (libm::exp2f(near.count().min(MOST_TIMES) as f32) - 1.0)
+    }
+
+    /// Deviations of slopes at a place are larger than they look by this share.
+    fn doubt_at(&self, place_m: DVec2) -> f64 {
+        let here = |surprise: &Mistrusted| {
+            let away = (surprise.place_m - place_m) / DOUBT_RADIUS_M;
+            surprise.doubt * libm::exp(-0.5 * away.length_squared())
+        };
+        let doubted = self.mistrusted.iter().filter(|mistrusted| mistrusted.doubt > LEAST_DOUBT);
+        doubted.map(here).sum::<f64>().min(MOST_DOUBT)
     }
 
     /// Looks at the ground around the robot.
@@ -177,7 +209,8 @@ impl Footing {
                         // It has to get away, but rather not that way.
                         Caution::Escape => self.mistrust_risk(place_m).min(MISTRUST_RISK),
                     };
-                    let risk = self.risk_of(&plane, &known.on_wheels, caution, away_m);
+                    let deviations = self.deviations_at(place_m);
+                    let risk = self.risk_of(&plane, &known.on_wheels, caution, away_m, deviations);
                     Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust) }
                 }
                 _ => UNKNOWN,
@@ -191,25 +224,31 @@ impl Footing {
         on_wheels: &[Option<Slopes>; HEADINGS / 2],
         caution: Caution,
         away_m: f64,
+        deviations: f64,
     ) -> [f32; HEADINGS / 2] {
         core::array::from_fn(|axis| {
             let (slopes, deviation) = match on_wheels[axis] {
                 Some(slopes) => (slopes, WHEELS_DEVIATION),
                 None => (Slopes::facing(plane.gradient, DIRECTIONS[axis]), plane.gradient_deviation),
             };
-            self.risk_on(&slopes, deviation, caution, away_m) as f32
+            self.risk_on(&slopes, deviations * deviation, caution, away_m) as f32
         })
     }
 
-    /// The risk of standing on slopes with a standard deviation at a distance from the robot; infinite where that is not safe.
-    pub(crate) fn risk_on(&self, slopes: &Slopes, deviation: f64, caution: Caution, away_m: f64) -> f64 {
+    /// How many standard deviations of slopes are allowed for at a place.
+    pub(crate) fn deviations_at(&self, place_m: DVec2) -> f64 {
+        (1.0 + self.doubt_at(place_m)) * self.config.deviations
+    }
+
+    /// The risk of standing on slopes, with what is allowed for what is uncertain of them, at a distance from the robot; infinite where
+    /// that is not safe.
+    pub(crate) fn risk_on(&self, slopes: &Slopes, uncertain: f64, caution: Caution, away_m: f64) -> f64 {
         let escapes = caution == Caution::Escape && away_m < self.config.escape_m;
-        let deviations = (1.0 + self.doubt) * self.config.deviations;
-        let (allowed, deviations) = if escapes { (&self.most, 0.0) } else { (&self.allowed, deviations) };
+        let (allowed, uncertain) = if escapes { (&self.most, 0.0) } else { (&self.allowed, uncertain) };
         let share = slopes.share_of(&self.limits);
-        if slopes.within(allowed, deviations * deviation) {
+        if slopes.within(allowed, uncertain) {
             share * share
-        } else if slopes.within(&self.most, TIGHT_SHARE * deviations * deviation) {
+        } else if slopes.within(&self.most, TIGHT_SHARE * uncertain) {
             share * share + TIGHT_RISK
         } else {
             f64::INFINITY
@@ -282,6 +321,16 @@ impl Footing {
         self.places[self.index(offset)].plane.as_ref()
     }
 
+    /// Whether nothing can be said of a place for a heading: it was not seen, or is not safe only as it was guessed from afar.
+    pub(crate) fn is_hidden(&self, offset: IVec2, heading: usize) -> bool {
+        self.plane(offset).is_none_or(|plane| {
+            let known = &self.planes[self.slot(self.centre + offset)];
+            plane.gradient_deviation > GUESS_DEVIATION
+                && known.on_wheels[heading % (HEADINGS / 2)].is_none()
+                && self.risk(offset, heading).is_infinite()
+        })
+    }
+
     /// The risk of standing at a place with a heading; infinite where that is not safe.
     pub(crate) fn risk(&self, offset: IVec2, heading: usize) -> f64 {
         f64::from(self.places[self.index(offset)].risk[heading % (HEADINGS / 2)])
@@ -310,7 +359,7 @@ impl Footing {
         self.plane(from).zip(self.plane(to)).map_or(0.0, |(from, to)| (to.height_m - from.height_m).abs())
     }
 
-    /// The next known place along a heading, beyond ground that was not seen; `None` where the ground goes on, or none is known
+    /// The next known place along a heading, beyond hidden ground; `None` where the ground goes on, or none is known
     /// within `gap_m`.
     pub(crate) fn beyond_gap(&self, from: IVec2, heading: usize, gap_m: f64) -> Option<IVec2> {
         let step = STEPS[heading];
@@ -320,7 +369,7 @@ impl Footing {
             if !self.holds(to) {
                 return None;
             }
-            if self.plane(to).is_some() {
+            if !self.is_hidden(to, heading) {
                 return (k > 1 && self.risk(to, heading).is_finite()).then_some(to);
             }
         }

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::headings::{DIRECTIONS, HEADINGS, STEPS, nearest};
-use super::{BEGIN, MILLIMETRES, Reached, UNREACHED, WayPoint, Ways};
+use super::{BEGIN, FIRST_STEP_M, MILLIMETRES, Reached, UNREACHED, WayPoint, Ways};
 use crate::forecast::{Forecast, ReachEnd};
 use crate::slopes::Slopes;
 
@@ -12,6 +12,11 @@ const AHEAD_M: f64 = 1.0;
 const BLIND_SHARE: f64 = 0.75;
 /// How many steps of the same change of its attitude the robot is ready for.
 const GETS_STEEPER_TICKS: f64 = 5.0;
+
+/// How long a way is.
+pub(crate) fn length_m(way: &[WayPoint]) -> f64 {
+    way.windows(2).map(|leg| (leg[1].position_m - leg[0].position_m).length()).sum()
+}
 
 impl Ways {
     /// The cheapest way to the place nearest to a point; `None` when there is none.
@@ -91,8 +96,12 @@ impl Ways {
         }
         way.push(WayPoint { position_m: self.here_m, cost_m: 0.0, reverse: false });
         way.reverse();
+        let stands_there = |point: &WayPoint| (point.position_m - self.here_m).length() < FIRST_STEP_M;
+        if way.len() > 2 && stands_there(&way[1]) {
+            way.remove(1);
+        }
         Forecast {
-            way_m: way.windows(2).map(|pair| (pair[1].position_m - pair[0].position_m).length()).sum(),
+            way_m: length_m(way),
             climb_m,
             mean_risk: if count > 0.0 { risk_sum / count } else { 0.0 },
             max_roll_rad: libm::atan(across),
@@ -125,7 +134,7 @@ impl Ways {
 
     /// What the straight line to a place on a way costs, given that its first part is fine; infinite where the robot may not turn
     /// to it.
-    fn straight_cost_m(&self, point: &WayPoint, blind_m: f64) -> f64 {
+    pub(super) fn straight_cost_m(&self, point: &WayPoint, blind_m: f64) -> f64 {
         let way = point.position_m - self.here_m;
         let facing = if point.reverse { -way } else { way };
         if !self.may_turn_to(facing) {
@@ -152,11 +161,16 @@ impl Ways {
         price * length_m * (1.0 + self.prices.tilt * risk / count) + self.prices.climb * climb_m
     }
 
-    /// The share of the tilt limits that the robot takes up or soon will on a way, in slope.
-    pub(crate) fn share_ahead(&self, way: &[WayPoint]) -> f64 {
+    /// The share of the tilt limits that the robot takes up or soon will where it is, in slope.
+    pub(crate) fn share_here(&self) -> f64 {
         let standing = self.standing_slopes().share_of(self.footing.limits());
         // Ground that gets steeper fast may go on to do so.
-        let mut share = standing + GETS_STEEPER_TICKS * self.steeper_share.max(0.0);
+        standing + GETS_STEEPER_TICKS * self.steeper_share.max(0.0)
+    }
+
+    /// The share of the tilt limits that the robot takes up or soon will on a way, in slope.
+    pub(crate) fn share_ahead(&self, way: &[WayPoint]) -> f64 {
+        let mut share = self.share_here();
         for leg in way.windows(2) {
             let (from_m, way_m) = (leg[0].position_m, leg[1].position_m - leg[0].position_m);
             let steps = (way_m.length() / self.config.step_m).ceil();

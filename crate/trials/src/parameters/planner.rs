@@ -217,6 +217,12 @@ pub(super) const GROUPS: &[Group] = &[
                 "The least margin: for ground that is the last choice, for turns on the spot, and to get away.",
             ),
             open(
+                "impatient_margin_rad",
+                "rad",
+                Number(0.0, 0.4),
+                "What takes the place of the least margin once the robot has driven twice the straight way.",
+            ),
+            open(
                 "escape_m",
                 "m",
                 Number(0.0, 10.0),

@@ -14,7 +14,7 @@ use crate::encode;
 impl Session {
     /// What the record of a run keeps of a tick, read between [`Session::plan`] and [`Session::act`]: tick, time; x, y, z,
     /// roll, pitch, yaw; speed, turn rate; the commanded speed and turn rate; the subgoal's x and y, NaN without one; what
-    /// the planner does (0 driving, 1 arrived, 2 looking, 3 stopped); mean vibration and mean elevation rate so far.
+    /// the planner does (0 driving, 1 arrived, 2 looking, 3 stopped, 4 going back); mean vibration and mean elevation rate so far.
     pub fn row(&self) -> Vec<f64> {
         let (trial, step) = (&self.now.trial, self.now.trial.step());
         let metrics = trial.metrics();
@@ -24,6 +24,7 @@ impl Session {
             Status::Arrived => 1.0,
             Status::Looking => 2.0,
             Status::Stopped(_) => 3.0,
+            Status::Retreating => 4.0,
         };
         let mut values = vec![trial.ticks() as f64, trial.time_s()];
         values.extend(trial.motion());
@@ -61,11 +62,12 @@ impl Session {
         self.now.trial.outcome().map_or("running", |outcome| outcome.name()).to_owned()
     }
 
-    /// What the planner does: `driving`, `arrived`, `looking` or `stopped`.
+    /// What the planner does: `driving`, `arrived`, `retreating`, `looking` or `stopped`.
     pub fn activity(&self) -> String {
         match self.now.trial.step().status {
             Status::Driving => "driving",
             Status::Arrived => "arrived",
+            Status::Retreating => "retreating",
             Status::Looking => "looking",
             Status::Stopped(_) => "stopped",
         }

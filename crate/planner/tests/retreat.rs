@@ -1,0 +1,60 @@
+//! When the planner turns back.
+
+use glam::{DVec2, DVec3};
+use mapless::plane::Plane;
+use mapless::pose::Pose;
+use mapless::profile::Column;
+use mapless::{Insight, Planner, PlannerConfig, Status};
+
+const GOAL_M: DVec2 = DVec2::new(20.0, 0.0);
+
+/// Steps over level ground, as it is told, however steep the robot stands; gives what it does and its speed.
+fn step(planner: &mut Planner, x_m: f64, pitch_rad: f64) -> (Status, f64) {
+    let pose = Pose { position_m: DVec3::new(x_m, 0.0, 0.0), roll_rad: 0.0, pitch_rad, yaw_rad: 0.0 };
+    let profile = |_: f64| Column::Ground { elevation_rad: 0.0 };
+    let ground = |_: DVec2| Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 });
+    let insight = Insight { profile: Some(&profile), ground: Some(&ground) };
+    let step = planner.step_with(&[], &pose, GOAL_M, insight);
+    (step.status, step.command.linear_m_s)
+}
+
+fn drive(planner: &mut Planner, to_x_m: f64) {
+    for k in 0..=(10.0 * to_x_m) as i32 {
+        assert_eq!(step(planner, 0.1 * f64::from(k), 0.0).0, Status::Driving);
+    }
+}
+
+#[test]
+fn it_goes_back_from_where_it_stands_steeper_than_it_was_told_and_on_again_a_metre_back() {
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    drive(&mut planner, 3.0);
+    let steep_rad = 0.75;
+    let (status, speed_m_s) = step(&mut planner, 3.1, steep_rad);
+    assert!(status == Status::Retreating && speed_m_s < 0.0, "{status:?}, {speed_m_s} m/s");
+    assert_eq!(step(&mut planner, 2.5, 0.0).0, Status::Retreating, "not yet a metre back");
+    assert_eq!(step(&mut planner, 2.0, 0.0).0, Status::Driving);
+}
+
+#[test]
+fn a_robot_that_has_not_driven_has_no_way_back() {
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    assert_ne!(step(&mut planner, 0.0, 0.75).0, Status::Retreating);
+}
+
+#[test]
+fn without_patience_it_goes_on_where_it_would_have_turned_back() {
+    let PlannerConfig { limits, forecast, .. } = PlannerConfig::default();
+    let steep_rad = limits.pitch_rad - 0.5 * (forecast.escape_margin_rad + forecast.impatient_margin_rad);
+    // 3 m and 45 m; patience lasts for 40 m.
+    for (laps, turns_back) in [(1, true), (15, false)] {
+        let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+        for lap in 0..laps {
+            for k in 0..=30 {
+                let x_m = 0.1 * f64::from(if lap % 2 == 0 { k } else { 30 - k });
+                step(&mut planner, x_m, 0.0);
+            }
+        }
+        let status = step(&mut planner, 3.0, steep_rad).0;
+        assert_eq!(status == Status::Retreating, turns_back, "{laps} laps: {status:?}");
+    }
+}
