@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Frame, SessionInfo, Subgoal } from '../src/core/protocol.ts';
 import { reason } from '../src/panel/reason.ts';
+import { standing } from '../src/panel/status.ts';
 
 const info = { limits: { roll_rad: 0.524, pitch_rad: 0.785 } } as SessionInfo;
 const candidate = (azimuth_rad: number, chosen: boolean): Subgoal => ({
@@ -43,4 +44,12 @@ test('says what it does without a candidate', () => {
   assert.match(does('retreating'), /goes back the way it came/);
   assert.match(does('looking'), /turns on the spot/);
   assert.equal(does('stopped'), 'Stands still.');
+});
+
+test('the chip says what the robot does while it runs, and how the trial ended', () => {
+  assert.equal(standing(frame({ activity: 'driving' }), true), 'Driving');
+  assert.equal(standing(frame({ activity: 'retreating' }), true), 'Going back');
+  assert.equal(standing(frame({ activity: 'looking' }), true), 'Looking around');
+  assert.equal(standing(frame({ activity: 'looking' }), false), 'Paused');
+  assert.equal(standing(frame({ outcome: 'stuck', activity: 'stopped' }), true), 'Stuck');
 });

@@ -1,6 +1,6 @@
 /** How the trial stands: outcome, clock, decision in words, and what the machine did. */
 
-import type { Frame, Outcome, SessionInfo } from '../core/protocol.ts';
+import type { Activity, Frame, Outcome, SessionInfo } from '../core/protocol.ts';
 import { setText } from '../ui/dom.ts';
 import { clock, fixed, grouped } from '../ui/format.ts';
 import { reason } from './reason.ts';
@@ -14,6 +14,21 @@ export const OUTCOME_WORDS: Record<Outcome, string> = {
   left_terrain: 'Left the terrain',
   timeout: 'Out of time',
 };
+
+const ACTIVITY_WORDS: Record<Activity, string> = {
+  driving: 'Driving',
+  arrived: 'Driving',
+  retreating: 'Going back',
+  looking: 'Looking around',
+  stopped: 'Standing',
+};
+
+/** How the trial stands, in two or three words. */
+export function standing({ outcome, activity, tick }: Frame, playing: boolean): string {
+  if (outcome !== 'running') return OUTCOME_WORDS[outcome];
+  if (!playing) return 'Paused';
+  return tick === 0 ? OUTCOME_WORDS.running : ACTIVITY_WORDS[activity];
+}
 
 export interface StatusElements {
   readonly outcome: HTMLElement;
@@ -41,7 +56,7 @@ export class StatusPanel {
 
   show(frame: Frame, playing: boolean): void {
     const { outcome, time, speed, returns, digest, announcement } = this.#elements;
-    const words = frame.outcome === 'running' && !playing ? 'Paused' : OUTCOME_WORDS[frame.outcome];
+    const words = standing(frame, playing);
     setText(outcome, words);
     outcome.dataset.outcome = frame.outcome === 'running' && !playing ? 'paused' : frame.outcome;
     setText(time, clock(frame.time_s));
