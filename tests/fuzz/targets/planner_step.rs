@@ -16,10 +16,25 @@ struct Input {
 
 #[derive(Arbitrary, Debug)]
 struct Step {
-    pose: [f64; 6],
-    goal_m: [f64; 2],
+    place: Place,
+    goal: Goal,
     beams: Vec<Beam>,
     loose_points_m: Vec<[f32; 3]>,
+}
+
+/// Where the robot is: somewhat on from where it was, as robots drive, or anywhere.
+#[derive(Arbitrary, Debug)]
+enum Place {
+    /// Centimetres, then hundredths of a radian of roll, pitch and turn.
+    Near([i8; 6]),
+    Any([f64; 6]),
+}
+
+#[derive(Arbitrary, Debug)]
+enum Goal {
+    Same,
+    Near([i8; 2]),
+    Any([f64; 2]),
 }
 
 /// A stretch of one ring with a range in quarters of a decimetre, so that few bytes make a scan.
@@ -31,18 +46,34 @@ struct Beam {
     range: u8,
 }
 
-const STEPS: usize = 4;
+const STEPS: usize = 12;
 
 fuzz_target!(|input: Input| {
     let config = if input.paper { PlannerConfig::paper() } else { PlannerConfig::default() };
     let limits = config.controller;
     let mut planner = Planner::new(config).expect("presets are valid");
+    let mut pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
+    let mut goal_m = DVec2::new(20.0, 0.0);
     for step in input.steps.iter().take(STEPS) {
-        let [x, y, z, roll_rad, pitch_rad, yaw_rad] = step.pose;
-        let pose = Pose { position_m: DVec3::new(x, y, z), roll_rad, pitch_rad, yaw_rad };
+        match step.place {
+            Place::Near(hundredths) => {
+                let [x, y, z, roll_rad, pitch_rad, turn_rad] =
+                    hundredths.map(|value| 0.01 * f64::from(value));
+                let position_m = pose.position_m + DVec3::new(x, y, z);
+                pose = Pose { position_m, roll_rad, pitch_rad, yaw_rad: pose.yaw_rad + turn_rad };
+            }
+            Place::Any([x, y, z, roll_rad, pitch_rad, yaw_rad]) => {
+                pose = Pose { position_m: DVec3::new(x, y, z), roll_rad, pitch_rad, yaw_rad };
+            }
+        }
+        match step.goal {
+            Goal::Same => {}
+            Goal::Near(metres) => goal_m = DVec2::from_array(metres.map(f64::from)),
+            Goal::Any(anywhere_m) => goal_m = DVec2::from_array(anywhere_m),
+        }
         let mut points_m: Vec<Vec3> = step.beams.iter().flat_map(returns_m).collect();
         points_m.extend(step.loose_points_m.iter().copied().map(Vec3::from_array));
-        let decided = planner.step(&points_m, &pose, DVec2::from_array(step.goal_m));
+        let decided = planner.step(&points_m, &pose, goal_m);
         let Command { linear_m_s, angular_rad_s } = decided.command;
         assert!(linear_m_s.abs() <= limits.max_speed_m_s, "{linear_m_s} m/s");
         assert!(angular_rad_s.abs() <= limits.max_turn_rate_rad_s, "{angular_rad_s} rad/s");
