@@ -37,7 +37,8 @@ pub(super) fn sentences(text: &mut String, results: &Results, published: &[Publi
     writeln!(text, "\n### Where it wins, where it loses\n")?;
     let planners = &results.manifest.planners;
     let groups = results.groups();
-    for planner in planners {
+    let are_published = published.iter().any(|row| groups.contains(&row.route.as_str()));
+    for planner in planners.iter().filter(|_| are_published) {
         for (method, name) in [
             ("paper", "the published numbers of the paper's method"),
             ("VGF", "the published numbers of VGF"),
@@ -59,7 +60,7 @@ pub(super) fn sentences(text: &mut String, results: &Results, published: &[Publi
         writeln!(text, "{}", successes([first, other], [&all(first), &all(other)]))?;
     }
     for planner in planners {
-        writeln!(text, "{}", why(planner, &all(planner)))?;
+        writeln!(text, "{}", why(results, planner, &all(planner)))?;
     }
     Ok(())
 }
@@ -126,16 +127,17 @@ fn successes([one, other]: [&str; 2], [ones, others]: [&[&TrialRow]; 2]) -> Stri
 }
 
 /// How the planner fails, and where most.
-fn why(planner: &str, rows: &[&TrialRow]) -> String {
+fn why(results: &Results, planner: &str, rows: &[&TrialRow]) -> String {
     let failed: Vec<&&TrialRow> = rows.iter().filter(|row| !row.has_reached()).collect();
     if failed.is_empty() {
         return format!("- `{planner}` fails nowhere here.");
     }
     let mut routes: Vec<(&str, usize)> = Vec::new();
     for row in &failed {
-        match routes.iter_mut().find(|(route, _)| *route == row.route) {
+        let group = results.group(&row.route);
+        match routes.iter_mut().find(|(route, _)| *route == group) {
             Some((_, count)) => *count += 1,
-            None => routes.push((&row.route, 1)),
+            None => routes.push((group, 1)),
         }
     }
     routes.sort_by_key(|&(_, count)| std::cmp::Reverse(count));

@@ -19,9 +19,12 @@ use crate::error::CampaignError;
 use crate::files::write_atomically;
 use crate::results::{Manifest, TrialRow};
 use mapless_trials::statistics as stats;
+use mapless_world::generate::Difficulty;
 
 /// The figures stand in a folder of this name beside the report.
 const FIGURES: &str = "results";
+/// A rate of at least so many trials has a decimal.
+const MANY_TRIALS: usize = 200;
 /// With more routes than this, a table has one row for all routes whose names begin alike.
 const MOST_ROUTES: usize = 20;
 
@@ -69,19 +72,26 @@ impl Results {
 
     /// The route itself, or what its name begins with where there are many routes.
     fn group<'a>(&self, route: &'a str) -> &'a str {
-        if self.manifest.routes.len() <= MOST_ROUTES {
+        if !self.has_groups() {
             return route;
         }
         route.split_once('-').map_or(route, |(begin, _)| begin)
     }
 
-    /// Every group once, in the order of their names.
+    /// Every group once, in the order of their names; difficulties begin with the easiest.
     fn groups(&self) -> Vec<&str> {
         let mut groups: Vec<&str> =
             self.manifest.routes.iter().map(|route| self.group(&route.name)).collect();
-        groups.sort_unstable();
+        groups.sort_unstable_by_key(|group| {
+            (Difficulty::ALL.iter().position(|difficulty| difficulty.name() == *group), *group)
+        });
         groups.dedup();
         groups
+    }
+
+    /// Whether groups stand for several routes each.
+    fn has_groups(&self) -> bool {
+        self.manifest.routes.len() > MOST_ROUTES
     }
 
     /// The command that runs a trial again.
@@ -217,7 +227,8 @@ fn failures(rows: &[&TrialRow]) -> String {
 fn rate(rows: &[&TrialRow]) -> String {
     let reached = rows.iter().filter(|row| row.has_reached()).count();
     let (low, high) = stats::wilson(reached, rows.len());
-    format!("{reached} of {} ({:.0}–{:.0} %)", rows.len(), 100.0 * low, 100.0 * high)
+    let decimals = usize::from(rows.len() >= MANY_TRIALS);
+    format!("{reached} of {} ({:.decimals$}–{:.decimals$} %)", rows.len(), 100.0 * low, 100.0 * high)
 }
 
 /// The metric's values of the trials that reached.
@@ -232,15 +243,16 @@ mod tests {
 
     #[test]
     fn many_routes_are_told_by_what_their_names_begin_with() {
-        let names: Vec<String> =
-            (0..30).map(|index| format!("{}-1-{index:04}", ["easy", "hard"][index % 2])).collect();
+        let names: Vec<String> = (0..30)
+            .map(|index| format!("{}-1-{index:04}", ["hard", "moderate", "easy"][index % 3]))
+            .collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let rows = names.iter().map(|name| row("default", name, "none", 1, "reached")).collect();
         let many = results(&["default"], &names, rows);
-        assert_eq!(many.groups(), ["easy", "hard"]);
-        assert_eq!(many.of("default", "easy").len(), 15);
+        assert_eq!(many.groups(), ["easy", "moderate", "hard"]);
+        assert_eq!(many.of("default", "easy").len(), 10);
         let few = results(&["default"], &names[..3], Vec::new());
-        assert_eq!(few.groups(), ["easy-1-0000", "easy-1-0002", "hard-1-0001"]);
+        assert_eq!(few.groups(), ["easy-1-0002", "hard-1-0000", "moderate-1-0001"]);
     }
 
     #[test]
@@ -266,6 +278,7 @@ mod tests {
         let rows: Vec<&TrialRow> = rows.iter().collect();
         assert_eq!(failures(&rows), "2 timeout, 1 stuck");
         assert_eq!(rate(&rows), "1 of 4 (5–70 %)");
+        assert_eq!(rate(&rows.repeat(50)), "50 of 200 (19.5–31.4 %)");
     }
 
     #[test]
@@ -282,6 +295,6 @@ mod tests {
         ];
         let mut text = String::new();
         oracle::section(&mut text, &results(&["default"], &["a", "b", "c"], rows)).unwrap();
-        assert!(text.ends_with("| `default` | 1 of 2 (9–91 %) | 0.250 | 2.000 |\n"), "{text}");
+        assert!(text.ends_with("| `default` | all | 1 of 2 (9–91 %) | 0.250 | 2.000 |\n"), "{text}");
     }
 }

@@ -18,22 +18,31 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         text,
         "SPL is success weighted by path length (Anderson et al. 2018) over the trials whose shortest path is known.\n"
     )?;
-    writeln!(text, "| planner | reached | SPL | median of driven / shortest |\n|---|---|---:|---:|")?;
+    writeln!(
+        text,
+        "| planner | routes | reached | SPL | median of driven / shortest |\n|---|---|---|---:|---:|"
+    )?;
     for planner in &results.manifest.planners {
-        let known: Vec<&TrialRow> =
-            results.plain().filter(|row| row.planner == *planner && row.oracle_length_m.is_some()).collect();
-        let lengths = known.iter().filter_map(|row| {
-            let driven_m = row.distance_m.filter(|_| row.has_reached());
-            Some((driven_m, row.oracle_length_m?))
-        });
-        let lengths: Vec<(Option<f64>, f64)> = lengths.collect();
-        let ratios = lengths
-            .iter()
-            .filter_map(|(driven_m, shortest_m)| Some(driven_m.as_ref()? / shortest_m))
-            .collect();
-        let shown = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.3}"));
-        let (spl, ratio) = (shown(stats::spl(&lengths)), shown(stats::median(ratios)));
-        writeln!(text, "| `{planner}` | {} | {spl} | {ratio} |", rate(&known))?;
+        let all: Vec<&TrialRow> = results.plain().filter(|row| row.planner == *planner).collect();
+        line(text, planner, "all", &all)?;
+        for group in results.groups().into_iter().filter(|_| results.has_groups()) {
+            line(text, planner, group, &results.of(planner, group))?;
+        }
     }
     Ok(())
+}
+
+/// A line of the table, of those trials whose shortest path is known.
+fn line(text: &mut String, planner: &str, routes: &str, rows: &[&TrialRow]) -> fmt::Result {
+    let known: Vec<&TrialRow> = rows.iter().copied().filter(|row| row.oracle_length_m.is_some()).collect();
+    let lengths = known.iter().filter_map(|row| {
+        let driven_m = row.distance_m.filter(|_| row.has_reached());
+        Some((driven_m, row.oracle_length_m?))
+    });
+    let lengths: Vec<(Option<f64>, f64)> = lengths.collect();
+    let ratios =
+        lengths.iter().filter_map(|(driven_m, shortest_m)| Some(driven_m.as_ref()? / shortest_m)).collect();
+    let shown = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.3}"));
+    let (spl, ratio) = (shown(stats::spl(&lengths)), shown(stats::median(ratios)));
+    writeln!(text, "| `{planner}` | {routes} | {} | {spl} | {ratio} |", rate(&known))
 }

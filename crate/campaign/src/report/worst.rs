@@ -8,8 +8,9 @@ use mapless_baselines::TaskName;
 use super::Results;
 use crate::results::TrialRow;
 
-/// How many are shown.
-const SHOWN: usize = 10;
+/// At least so many are shown and, if that is more, every failure up to so many.
+const LEAST_SHOWN: usize = 10;
+const MOST_SHOWN: usize = 100;
 
 /// Failures first, then what came nearest to a tilt limit.
 pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
@@ -19,6 +20,7 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
             .then(b_share.total_cmp(a_share))
             .then_with(|| (&a.planner, &a.route, a.seed, &a.id).cmp(&(&b.planner, &b.route, b.seed, &b.id)))
     });
+    let failed = rows.iter().filter(|(row, _)| !row.has_reached()).count();
     writeln!(text, "\n### The worst trials\n")?;
     writeln!(
         text,
@@ -29,7 +31,7 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         text,
         "| planner | route | seed | outcome | of the tilt limit | command | page |\n|---|---|---:|---|---:|---|---|"
     )?;
-    for (row, share) in rows.into_iter().take(SHOWN) {
+    for (row, share) in rows.into_iter().take(failed.clamp(LEAST_SHOWN, MOST_SHOWN)) {
         let TrialRow { planner, route, parameters, truth, seed, outcome, .. } = row;
         let mut planner = format!("`{planner}`");
         if truth != "none" {
@@ -100,5 +102,20 @@ mod tests {
         assert!(text.contains("| `?scenario=gsb&seed=7&preset=default` |"), "{text}");
         assert!(text.contains("| `?scenario=easy-1-0001&seed=10&preset=paper` |"), "{text}");
         assert_eq!(text.matches("?scenario=").count(), 2, "{text}");
+    }
+
+    #[test]
+    fn every_failure_is_shown_and_what_came_near() {
+        let shown = |failures: usize, reached: usize| {
+            let outcomes =
+                std::iter::repeat_n("stuck", failures).chain(std::iter::repeat_n("reached", reached));
+            let rows = (0..).zip(outcomes).map(|(seed, outcome)| row("default", "a", "none", seed, outcome));
+            let mut text = String::new();
+            section(&mut text, &results(&["default"], &["a"], rows.collect())).unwrap();
+            (text.matches("| stuck |").count(), text.matches("| reached |").count())
+        };
+        assert_eq!(shown(3, 20), (3, LEAST_SHOWN - 3));
+        assert_eq!(shown(30, 20), (30, 0));
+        assert_eq!(shown(MOST_SHOWN + 1, 0), (MOST_SHOWN, 0));
     }
 }
