@@ -25,8 +25,10 @@ const TURN_M: f64 = 0.08;
 const MOST_STEERING_RAD: f64 = 0.4;
 /// A robot that is farther from where it last was did not drive there.
 const JUMP_M: f64 = 1.0;
-/// The direction in which it came is that from a place at least this far back.
+/// The direction in which it came is that from a place this far back or, where it came less far, from where it began, if that is no nearer than
+/// the least.
 const CAME_M: f64 = 0.3;
+const LEAST_CAME_M: f64 = 0.1;
 /// It goes back at least this far.
 const LEAST_M: f64 = 1.0;
 
@@ -116,23 +118,27 @@ impl Retreat {
 
     /// Turns back. Gives the unit vector along which the robot came; `None`, and no turning back, when it came from nowhere.
     pub(crate) fn begin(&mut self, here_m: DVec2) -> Option<DVec2> {
-        let back_m = self.way_back_m().find(|place_m| (here_m - *place_m).length() > CAME_M)?;
+        let far = self.way_back_m().find(|place_m| (here_m - *place_m).length() > CAME_M);
+        let came = here_m - far.or_else(|| self.way_back_m().last())?;
+        if came.length() < LEAST_CAME_M {
+            return None;
+        }
         self.began_at_m = Some(here_m);
-        Some((here_m - back_m).normalize())
+        Some(came.normalize())
     }
 
-    /// The next move on the way back; `None`, and the end of it, when there is none left.
+    /// The next move on the way back; `None`, and the end of it, when there is none left. Where the trail begins stays known.
     pub(crate) fn next(&mut self, pose: &Pose) -> Option<Back> {
         let here = Stance::of(pose);
-        while let Some(last) = self.trail.back() {
+        while let Some((last, before)) = self.trail.back().zip(self.trail.iter().nth_back(1)) {
             let away_m = here.away_m(last);
-            let passed = self.trail.iter().nth_back(1).is_some_and(|before| here.away_m(before) <= away_m);
-            if away_m > SAME_M && !passed {
+            if away_m > SAME_M && here.away_m(before) > away_m {
                 break;
             }
             self.trail.pop_back();
         }
-        let Some(&Stance { place_m, yaw_rad }) = self.trail.back() else {
+        let left = self.trail.back().filter(|last| here.away_m(last) > SAME_M);
+        let Some(&Stance { place_m, yaw_rad }) = left else {
             self.end();
             return None;
         };
@@ -250,6 +256,25 @@ mod tests {
         retreat.end();
         assert!((3.8..4.0).contains(&robot.position_m.x), "{robot:?}");
         assert!(retreat.way_back_m().all(|place_m| place_m.x < 4.1));
+    }
+
+    #[test]
+    fn having_gone_all_the_way_back_it_still_knows_that_place() {
+        let (mut retreat, mut robot) = driven(10);
+        for _ in 0..5 {
+            go_back(&mut retreat, &mut robot);
+            for _ in 0..4 {
+                advance(&mut retreat, &mut robot, 0.5, 0.0);
+            }
+        }
+        assert!(robot.position_m.length() < 0.5, "{robot:?}");
+    }
+
+    #[test]
+    fn it_goes_back_a_little_where_it_came_but_a_little() {
+        let (mut retreat, mut robot) = driven(4);
+        go_back(&mut retreat, &mut robot);
+        assert!(robot.position_m.length() < 0.15, "{robot:?}");
     }
 
     #[test]

@@ -37,6 +37,9 @@ const JOIN_M: f64 = 1.6;
 /// Ground is calm up to this share of the slope that a way may use at most, and steep from this one.
 const CALM_SHARE: f64 = 0.8;
 const STEEP_SHARE: f64 = 0.6;
+/// A robot stands still after so many steps at the slow speed of steep ground; with no more than this share of the limits it is within them.
+const BRAKING_TICKS: f64 = 3.0;
+const MOST_SHARE: f64 = 0.98;
 /// Turning back on steep ground says that what lies this far ahead is steeper than it had looked.
 const MISTRUSTED_AHEAD_M: f64 = 0.5;
 /// Each change within this distance makes the next one dearer, up to so many: where a way is refused and allowed by turns, the robot
@@ -194,9 +197,12 @@ impl Ways {
         self.search_with(Caution::Usual);
     }
 
-    /// Whether the robot stands steeper than even an escape may lead it: what it was told of the ground is not true.
+    /// Whether the robot stands steeper than even an escape may lead it, or would exceed a limit before it stands still: what it was told
+    /// of the ground is not true.
     pub(crate) fn stands_too_steep(&self) -> bool {
-        !self.standing_slopes().within(self.footing.most(), 0.0)
+        let standing = self.standing_slopes();
+        let stopped = standing.share_of(self.footing.limits()) + BRAKING_TICKS * self.steeper_share;
+        !standing.within(self.footing.most(), 0.0) || stopped > MOST_SHARE
     }
 
     /// Whether it stands on ground that is a good part of that steep.

@@ -35,6 +35,25 @@ fn it_goes_back_from_where_it_stands_steeper_than_it_was_told_and_on_again_a_met
     assert_eq!(step(&mut planner, 2.0, 0.0).0, Status::Driving);
 }
 
+/// Steps at one place that gets steeper with each; gives what it does in the end.
+fn steepen(planner: &mut Planner, x_m: f64, to_pitch_rad: f64, step_rad: f64) -> Status {
+    let steps = (to_pitch_rad / step_rad) as i32;
+    let pitches_rad = (0..=steps).rev().map(|k| to_pitch_rad - step_rad * f64::from(k));
+    pitches_rad.map(|pitch_rad| step(planner, x_m, pitch_rad).0).last().unwrap()
+}
+
+#[test]
+fn it_turns_back_the_sooner_the_faster_the_ground_gets_steeper() {
+    let PlannerConfig { limits, forecast, .. } = PlannerConfig::default();
+    let pitch_rad = limits.pitch_rad - forecast.escape_margin_rad - 0.03;
+    for (step_rad, turns_back) in [(0.01, false), (0.04, true)] {
+        let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+        drive(&mut planner, 3.0);
+        let status = steepen(&mut planner, 3.1, pitch_rad, step_rad);
+        assert_eq!(status == Status::Retreating, turns_back, "{step_rad} rad a step: {status:?}");
+    }
+}
+
 #[test]
 fn a_robot_that_has_not_driven_has_no_way_back() {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
@@ -54,7 +73,7 @@ fn without_patience_it_goes_on_where_it_would_have_turned_back() {
                 step(&mut planner, x_m, 0.0);
             }
         }
-        let status = step(&mut planner, 3.0, steep_rad).0;
+        let status = steepen(&mut planner, 3.0, steep_rad, 0.01);
         assert_eq!(status == Status::Retreating, turns_back, "{laps} laps: {status:?}");
     }
 }
