@@ -39,7 +39,7 @@ fn it_goes_back_from_where_it_stands_steeper_than_it_was_told_and_on_again_a_met
 fn steepen(planner: &mut Planner, x_m: f64, to_pitch_rad: f64, step_rad: f64) -> Status {
     let steps = (to_pitch_rad / step_rad) as i32;
     let pitches_rad = (0..=steps).rev().map(|k| to_pitch_rad - step_rad * f64::from(k));
-    pitches_rad.map(|pitch_rad| step(planner, x_m, pitch_rad).0).last().unwrap()
+    pitches_rad.fold(Status::Looking, |_, pitch_rad| step(planner, x_m, pitch_rad).0)
 }
 
 #[test]
