@@ -24,10 +24,9 @@ const ACTIVITY_WORDS: Record<Activity, string> = {
 };
 
 /** How the trial stands, in two or three words. */
-export function standing({ outcome, activity, tick }: Frame, playing: boolean): string {
+export function standing({ outcome, activity }: Frame, playing: boolean): string {
   if (outcome !== 'running') return OUTCOME_WORDS[outcome];
-  if (!playing) return 'Paused';
-  return tick === 0 ? OUTCOME_WORDS.running : ACTIVITY_WORDS[activity];
+  return playing ? ACTIVITY_WORDS[activity] : 'Paused';
 }
 
 export interface StatusElements {

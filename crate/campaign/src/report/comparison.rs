@@ -155,6 +155,25 @@ fn why(results: &Results, planner: &str, rows: &[&TrialRow]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::published::published;
+    use crate::testing::{results, row};
+
+    #[test]
+    fn ground_that_the_paper_has_not_is_not_compared_with_its_numbers() {
+        let text_of = |route: &str| {
+            let rows =
+                vec![row("default", route, "none", 1, "reached"), row("default", route, "none", 2, "stuck")];
+            let mut text = String::new();
+            sentences(&mut text, &results(&["default"], &[route], rows), &published().unwrap()).unwrap();
+            text
+        };
+        assert!(text_of("ml").contains("the published numbers of the paper's method"));
+        let generated = text_of("hard-1-0001");
+        assert!(
+            !generated.contains("published") && generated.contains("1 stuck; most on hard-1-0001 (1)"),
+            "{generated}"
+        );
+    }
 
     #[test]
     fn sentences_follow_the_numbers() {

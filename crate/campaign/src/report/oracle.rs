@@ -25,8 +25,10 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     for planner in &results.manifest.planners {
         let all: Vec<&TrialRow> = results.plain().filter(|row| row.planner == *planner).collect();
         line(text, planner, "all", &all)?;
-        for group in results.groups().into_iter().filter(|_| results.has_groups()) {
-            line(text, planner, group, &results.of(planner, group))?;
+        if results.has_groups() {
+            for group in results.groups() {
+                line(text, planner, group, &results.of(planner, group))?;
+            }
         }
     }
     Ok(())
