@@ -7,6 +7,15 @@ for (const one of [plain, test]) one.use({ serviceWorkers: 'block' });
 /** The name of the worker that draws the view. */
 const PAINTER = 'mapless painter';
 
+/** Has the painter run this first. */
+async function beforePainting(page: Page, script: string): Promise<void> {
+  await page.route('**/worker-*.js', async (route) => {
+    const response = await route.fetch();
+    const first = `if (self.name === ${JSON.stringify(PAINTER)}) { ${script} }`;
+    await route.fulfill({ response, body: first + (await response.text()) });
+  });
+}
+
 async function painterOf(page: Page): Promise<Worker> {
   for (const worker of page.workers()) {
     if ((await worker.evaluate(() => self.name)) === PAINTER) return worker;
@@ -31,7 +40,9 @@ test('a lost graphics context is explained, and the view comes back', async ({ m
         WebGL2RenderingContext.prototype.clear = function (mask) {
           WebGL2RenderingContext.prototype.clear = clear;
           clear.call(this, mask);
-          resolve(this.getExtension('WEBGL_lose_context'));
+          // The painter's own context refuses extensions.
+          const extend = WebGL2RenderingContext.prototype.getExtension as (name: string) => WEBGL_lose_context | null;
+          resolve(extend.call(this, 'WEBGL_lose_context'));
         };
       }),
   );
@@ -70,15 +81,52 @@ test('while the window changes its size the view is never empty', async ({ maple
   await expect(view).not.toHaveAttribute('data-gaps');
 });
 
-plain('without WebGL the view stays empty, and all else works', async ({ page }) => {
-  await page.route('**/worker-*.js', async (route) => {
-    const response = await route.fetch();
-    const without = `if (self.name === ${JSON.stringify(PAINTER)}) OffscreenCanvas.prototype.getContext = () => null;`;
-    await route.fulfill({ response, body: `${without}${await response.text()}` });
+plain('until its first picture the view says that it is being drawn', async ({ page }) => {
+  await beforePainting(
+    page,
+    'self.draw = self.requestAnimationFrame; self.requestAnimationFrame = (next) => { self.next = next; };',
+  );
+  await page.goto('/');
+  await expect(page.getByRole('status').filter({ hasText: 'Drawing the view…' })).toBeVisible();
+  await until(page, (now) => now.tick > 3);
+  const painter = await painterOf(page);
+  await painter.evaluate(() => {
+    const held = self as unknown as { draw: typeof requestAnimationFrame; next: FrameRequestCallback };
+    self.requestAnimationFrame = held.draw;
+    requestAnimationFrame(held.next);
   });
+  await expect(page.locator('#drawing')).toBeEmpty();
+  await drawnIn(page, '#view', 500);
+});
+
+plain('drawing the view begins with few questions to a busy graphics process', async ({ page }) => {
+  const questions = ['getExtension', 'getProgramInfoLog', 'getShaderInfoLog'];
+  await beforePainting(
+    page,
+    `self.asked = 0;
+    for (const name of ${JSON.stringify(questions)}) {
+      const ask = WebGL2RenderingContext.prototype[name];
+      WebGL2RenderingContext.prototype[name] = function (...about) {
+        self.asked += 1;
+        return ask.apply(this, about);
+      };
+    }`,
+  );
+  await page.goto('/');
+  await loaded(page);
+  await drawnIn(page, '#view', 500);
+  await still(page);
+  const painter = await painterOf(page);
+  // Whether a processor draws.
+  expect(await painter.evaluate(() => (self as unknown as { asked: number }).asked)).toBeLessThanOrEqual(1);
+});
+
+plain('without WebGL the view stays empty, and all else works', async ({ page }) => {
+  await beforePainting(page, 'OffscreenCanvas.prototype.getContext = () => null;');
   await page.goto('/');
   await loaded(page);
   await expect(page.locator('#no-view')).toContainText('WebGL');
+  await expect(page.locator('#drawing')).toBeEmpty();
   await until(page, (now) => now.tick > 3);
   await page.evaluate(() => window.mapless?.still());
   await page.locator('#save-picture').click();

@@ -7,6 +7,8 @@ import type { FromPainter, ToPainter } from './protocol.ts';
 export interface Graphics {
   /** There is no view, as the browser offers no WebGL 2. */
   unavailable(): void;
+  /** The first picture is there. */
+  drawn(): void;
   /** There is no view any more, as drawing it met an error. */
   broken(message: string): void;
   /** The graphics driver took the view away. */
@@ -63,6 +65,9 @@ export class PainterClient {
       case 'unavailable':
         this.#giveUp();
         this.#graphics.unavailable();
+        break;
+      case 'drawn':
+        this.#graphics.drawn();
         break;
       case 'lost':
         this.#graphics.lost();

@@ -44,12 +44,13 @@ export class Pacer {
   }
 }
 
-/** Whether a processor draws in place of a graphics card; nothing where there is no WebGL 2. */
-export function drawsInSoftware(): boolean | undefined {
-  const probe = new OffscreenCanvas(1, 1).getContext('webgl2');
-  if (!probe) return undefined;
+/** Whether a processor draws in place of a graphics card. */
+export function drawsInSoftware(): boolean {
+  // Chromium mostly gives no such context then. A lean one is sooner there: each step waits for the graphics process.
+  const lean = { failIfMajorPerformanceCaveat: true, antialias: false, depth: false };
+  const probe = new OffscreenCanvas(1, 1).getContext('webgl2', lean);
+  if (!probe) return true;
   const info = probe.getExtension('WEBGL_debug_renderer_info');
   const name = info ? String(probe.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
-  probe.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|software/i.test(name);
 }

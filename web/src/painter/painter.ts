@@ -1,6 +1,6 @@
 /** Draws the 3D view as it is told to. Draws only when something changed. */
 
-import { AmbientLight, DirectionalLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { AmbientLight, DirectionalLight, Group, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import type { Ground, GroundPatch, Pose } from '../core/protocol.ts';
 import { HeightField } from '../scene/heightfield.ts';
 import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
@@ -32,6 +32,8 @@ export class Painter {
   readonly #renderer: WebGLRenderer;
   readonly #camera = new PerspectiveCamera(50, 1, DEPTH_M.near, DEPTH_M.far);
   readonly #scene = new Scene();
+  /** All but the ground and the robot: not in the first picture, which is there sooner without their shaders. */
+  readonly #marks = new Group();
   readonly #returns = new Returns();
   readonly #route = new Route();
   readonly #ahead = new Route(PALE);
@@ -51,11 +53,13 @@ export class Painter {
   #robot: Pose | undefined;
   readonly #sensor = new Vector3();
   #dirty = true;
+  #first: 'to come' | 'under way' | 'drawn' = 'to come';
   #filming = false;
   /** Who waits until nothing changes. */
   #resting: number[] = [];
 
   constructor(
+    context: WebGL2RenderingContext,
     canvas: OffscreenCanvas,
     theme: Theme,
     pacer: Pacer,
@@ -65,7 +69,9 @@ export class Painter {
     this.#post = post;
     const { software } = pacer;
     this.#pacer = pacer;
-    this.#renderer = new WebGLRenderer({ canvas, antialias: !software, alpha: true });
+    this.#renderer = new WebGLRenderer({ canvas, context });
+    // Checking waits for the graphics process four times for each shader program.
+    this.#renderer.debug.checkShaderErrors = import.meta.env.DEV;
     canvas.addEventListener('webglcontextlost', () => post({ type: 'lost' }));
     canvas.addEventListener('webglcontextrestored', () => {
       post({ type: 'restored' });
@@ -78,9 +84,9 @@ export class Painter {
     sun.position.set(...SUN);
     this.#overlays = new Overlays(theme, FIRST_LAYERS, this.#height);
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
-    this.#scene.add(this.#relief.mesh, this.#husky.group, this.#ahead.line, this.#waypoints.group, this.#route.line);
-    this.#scene.add(this.#returns.points, this.#subgoals.group, this.#places.group, this.#overlays.group);
-    this.#scene.add(this.#ghosts.group);
+    this.#scene.add(this.#relief.mesh, this.#husky.group);
+    this.#marks.add(this.#ahead.line, this.#waypoints.group, this.#route.line, this.#returns.points);
+    this.#marks.add(this.#subgoals.group, this.#places.group, this.#overlays.group, this.#ghosts.group);
     this.#theme(theme);
     this.#warmUp();
     requestAnimationFrame((now_ms) => this.#loop(now_ms));
@@ -228,6 +234,7 @@ export class Painter {
 
   #loop(now_ms: number): void {
     requestAnimationFrame((next_ms) => this.#loop(next_ms));
+    if (this.#first === 'under way') this.#completeFirst();
     if (!this.#dirty && !this.#relief.relighting) {
       for (const id of this.#resting.splice(0)) this.#post({ type: 'rested', id });
     }
@@ -241,11 +248,20 @@ export class Painter {
     this.#places.face(position);
     this.#waypoints.face(position);
     this.#renderer.render(this.#scene, this.#camera);
+    if (this.#first === 'to come') this.#first = 'under way';
     if (this.#filming) this.#sendPicture();
     if (this.#pacer.drew(now_ms)) {
       this.#fits = false;
       this.#dirty = true;
     }
+  }
+
+  /** There is a first picture: the browser has room for another. */
+  #completeFirst(): void {
+    this.#first = 'drawn';
+    this.#post({ type: 'drawn' });
+    this.#scene.add(this.#marks);
+    this.#dirty = true;
   }
 
   /** Right after the drawing: later its pixels are gone. */

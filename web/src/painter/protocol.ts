@@ -87,6 +87,8 @@ export type ToPainter =
 export type FromPainter =
   /** The view stays empty, for want of WebGL. */
   | { type: 'unavailable' }
+  /** There is a first picture. */
+  | { type: 'drawn' }
   /** The graphics driver took the view away, or gave it back. */
   | { type: 'lost' }
   | { type: 'restored' }

@@ -16,6 +16,12 @@ self.onmessage = ({ data }: MessageEvent<ToPainter>) => {
     return;
   }
   const software = drawsInSoftware();
-  if (software === undefined) post({ type: 'unavailable' });
-  else painter = new Painter(data.canvas, data.theme, new Pacer(software, data.devicePixelRatio), post);
+  const context = data.canvas.getContext('webgl2', { antialias: !software });
+  if (!context) {
+    post({ type: 'unavailable' });
+    return;
+  }
+  // Each extension that three.js asks for waits for the graphics process, and nothing here needs one.
+  context.getExtension = () => null;
+  painter = new Painter(context, data.canvas, data.theme, new Pacer(software, data.devicePixelRatio), post);
 };

@@ -1,7 +1,7 @@
 /** Faults that nobody expected, in words: nothing fails in silence. */
 
 import type { Graphics } from '../painter/client.ts';
-import { byId } from './dom.ts';
+import { byId, setText } from './dom.ts';
 
 const ADVICE = 'If something no longer answers, reload the page.';
 
@@ -15,14 +15,26 @@ export function watchFaults(show: (message: string) => void): void {
 /** How long a view that was taken away may need to come back. */
 const PATIENCE_MS = 12_000;
 
+/** A first picture that takes no longer than this needs no words. */
+const UNNOTICED_MS = 1000;
+
 /** Says what becomes of the view: the graphics driver may take it away, and three.js brings it back with the context. */
 export function watchGraphics(show: (message: string) => void, hide: () => void): Graphics {
   let waiting: ReturnType<typeof setTimeout> | undefined;
+  const drawing = byId('drawing', HTMLElement);
+  const slow = setTimeout(() => setText(drawing, 'Drawing the view…'), UNNOTICED_MS);
+  const drawn = () => {
+    clearTimeout(slow);
+    setText(drawing, '');
+  };
   return {
+    drawn,
     unavailable() {
+      drawn();
       byId('no-view', HTMLElement).hidden = false;
     },
     broken(message) {
+      drawn();
       show(`The 3D view stopped on an error: ${message}. Everything else works; reload the page to get it back.`);
     },
     lost() {
