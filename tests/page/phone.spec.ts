@@ -1,4 +1,4 @@
-import { drawnIn, expect, loaded, moved, state, test, until } from './page.ts';
+import { drawnIn, expect, loaded, moved, state, still, test, until } from './page.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
 
@@ -76,5 +76,24 @@ test('the head of the page fits windows of every width', async ({ mapless: page 
       const box = await page.locator(`#${id}`).boundingBox();
       expect(box && box.x >= 0 && box.x + box.width <= width && box.width >= 36, `#${id} at ${width}`).toBe(true);
     }
+  }
+});
+
+test('the reading under a dial keeps to one line', async ({ mapless: page }) => {
+  await still(page);
+  for (const width of [390, 820, 1100, 1440]) {
+    await page.setViewportSize({ width, height: 900 });
+    const lines = await page.locator('.instrument-reading').evaluateAll((readings) =>
+      readings.map((reading) => {
+        const [value, note] = [...reading.children];
+        if (!value || !note) throw new Error('A reading has no value or no note.');
+        // As wide as readings get.
+        [value.textContent, note.textContent] = ['−26.3°', 'max 26° / 45°'];
+        const { bottom } = value.getBoundingClientRect();
+        const { top, height } = note.getBoundingClientRect();
+        return top < bottom && height < 20;
+      }),
+    );
+    expect(lines, `${width} px`).toEqual([true, true]);
   }
 });
