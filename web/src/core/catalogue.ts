@@ -59,14 +59,19 @@ export const CATALOGUE: readonly CatalogueEntry[] = [
   },
 ];
 
-const texts = import.meta.glob<string>('../../../terrains/**/*.toml', { query: '?raw', import: 'default' });
+/** At hand: fetching two of them, one after the other, would delay the first scenario. */
+const texts = import.meta.glob<string>(['../../../terrains/*.toml', '../../../terrains/scenarios/*.toml'], {
+  query: '?raw',
+  import: 'default',
+  eager: true,
+});
 const prefix = '../../../terrains/';
 
 /** The text of a file under `terrains/`, with the folders `.` and `..` of its path resolved. */
-export async function terrainFile(path: string): Promise<string> {
-  const load = texts[prefix + resolve(path)];
-  if (!load) throw new Error(`There is no file terrains/${resolve(path)} in this page.`);
-  return load();
+export function terrainFile(path: string): string {
+  const text = texts[prefix + resolve(path)];
+  if (text === undefined) throw new Error(`There is no file terrains/${resolve(path)} in this page.`);
+  return text;
 }
 
 function resolve(path: string): string {

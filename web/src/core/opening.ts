@@ -37,36 +37,33 @@ const encoder = new TextEncoder();
 const TERRAIN_FILE = 'terrain.toml';
 
 /** The files of a run: the scenario, the recipe with the strokes and, last, the grid that it imports, if it does. */
-export async function filesOf(
-  core: CoreModule,
-  experiment: Experiment,
-): Promise<[NamedFile, NamedFile, ...NamedFile[]]> {
+export function filesOf(core: CoreModule, experiment: Experiment): [NamedFile, NamedFile, ...NamedFile[]] {
   const { terrain, strokes } = experiment;
   const imported = 'imported' in terrain ? terrain.imported : undefined;
   return [
     { name: 'scenario.toml', bytes: encoder.encode(scenarioFile(experiment, TERRAIN_FILE)) },
-    await terrainRecipe(core, terrain, strokes),
+    terrainRecipe(core, terrain, strokes),
     ...(imported ? [{ name: imported.name, bytes: fromBase64(imported.base64) }] : []),
   ];
 }
 
-async function terrainRecipe(core: CoreModule, terrain: Terrain, strokes: readonly Stroke[]): Promise<NamedFile> {
-  return { name: TERRAIN_FILE, bytes: encoder.encode(recipeFile(await baseRecipe(core, terrain), strokes)) };
+function terrainRecipe(core: CoreModule, terrain: Terrain, strokes: readonly Stroke[]): NamedFile {
+  return { name: TERRAIN_FILE, bytes: encoder.encode(recipeFile(baseRecipe(core, terrain), strokes)) };
 }
 
 function importedBytes(terrain: Terrain): Uint8Array<ArrayBuffer> {
   return fromBase64('imported' in terrain ? (terrain.imported?.base64 ?? '') : '');
 }
 
-async function baseRecipe(core: CoreModule, terrain: Terrain): Promise<string> {
+function baseRecipe(core: CoreModule, terrain: Terrain): string {
   if ('catalogue' in terrain) return terrainFile(`${terrain.catalogue}.toml`);
   if ('recipe' in terrain) return terrain.recipe;
   return core.generated_recipe(terrain.generated.difficulty, terrain.generated.seed);
 }
 
 /** A small picture's worth of a terrain's heights. */
-export async function preview(core: CoreModule, terrain: Terrain): Promise<Ground> {
-  const { name, bytes } = await terrainRecipe(core, terrain, []);
+export function preview(core: CoreModule, terrain: Terrain): Ground {
+  const { name, bytes } = terrainRecipe(core, terrain, []);
   const read = core.terrain_preview(name, bytes, importedBytes(terrain), PREVIEW_SAMPLES);
   const [columns = 0, rows = 0, cell_m = 1, ...heights_m] = read;
   return { columns, rows, cell_m, heights_m: new Float32Array(heights_m) };
@@ -77,13 +74,13 @@ export async function experimentFrom(core: CoreModule, source: Source): Promise<
   if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setup);
   if ('files' in source) return fromFiles(core, source.files, source.setup);
   const { scenario, setup, seed } = source;
-  const { read, terrain } = TASK.test(scenario) ? await task(core, scenario) : await catalogued(core, scenario);
+  const { read, terrain } = TASK.test(scenario) ? await task(core, scenario) : catalogued(core, scenario);
   return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setup);
 }
 
-async function catalogued(core: CoreModule, scenario: string): Promise<{ read: ScenarioRead; terrain: Terrain }> {
+function catalogued(core: CoreModule, scenario: string): { read: ScenarioRead; terrain: Terrain } {
   const file = `scenarios/${scenario}.toml`;
-  const read = core.read_scenario(file, await terrainFile(file)) as ScenarioRead;
+  const read = core.read_scenario(file, terrainFile(file)) as ScenarioRead;
   return { read, terrain: { catalogue: stem(read.terrain) } };
 }
 
@@ -115,7 +112,7 @@ function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, setup:
 }
 
 /** A scenario with the terrain it names, a terrain by itself, or a saved experiment. */
-async function fromFiles(core: CoreModule, files: readonly NamedFile[], setup: Setup): Promise<Experiment> {
+function fromFiles(core: CoreModule, files: readonly NamedFile[], setup: Setup): Experiment {
   for (const { name, bytes } of files) {
     if (bytes.length > MAX_FILE_BYTES) {
       throw new Error(`${name}: ${bytes.length} bytes: expected at most ${MAX_FILE_BYTES}`);
@@ -130,7 +127,7 @@ async function fromFiles(core: CoreModule, files: readonly NamedFile[], setup: S
   if (scenario) {
     const read = core.read_scenario(scenario.name, scenario.text) as ScenarioRead;
     const own = terrainOf(recipe, grid);
-    const terrain = own ?? (await cataloguedTerrain(scenario.name, read.terrain));
+    const terrain = own ?? cataloguedTerrain(scenario.name, read.terrain);
     return fromScenario(read, shortName(scenario.name), terrain, { ...setup, overrides: {} });
   }
   const terrain = terrainOf(recipe, grid);
@@ -155,9 +152,9 @@ function terrainOf(
 }
 
 /** A terrain of the catalogue that a scenario names without its file being there. */
-async function cataloguedTerrain(scenario: string, path: string): Promise<Terrain> {
+function cataloguedTerrain(scenario: string, path: string): Terrain {
   try {
-    await terrainFile(`${stem(path)}.toml`);
+    terrainFile(`${stem(path)}.toml`);
   } catch (cause) {
     const wanted = `${scenario}: terrain = "${path}": choose that file together with the scenario`;
     throw new Error(wanted, { cause });
@@ -166,8 +163,8 @@ async function cataloguedTerrain(scenario: string, path: string): Promise<Terrai
 }
 
 /** A terrain by itself: start and goal where it is level. */
-async function onLevelPlaces(core: CoreModule, terrain: Terrain, name: string, setup: Setup): Promise<Experiment> {
-  const recipe = await terrainRecipe(core, terrain, []);
+function onLevelPlaces(core: CoreModule, terrain: Terrain, name: string, setup: Setup): Experiment {
+  const recipe = terrainRecipe(core, terrain, []);
   const places = core.level_places(recipe.name, recipe.bytes, importedBytes(terrain));
   const [x = 0, y = 0, goal_x = 0, goal_y = 0] = places;
   const heading_rad = Math.round(1000 * Math.atan2(goal_y - y, goal_x - x)) / 1000;

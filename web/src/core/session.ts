@@ -47,10 +47,10 @@ export class Session {
     this.#info = this.#readInfo();
   }
 
-  static async open(core: CoreModule, experiment: Experiment): Promise<Session> {
+  static open(core: CoreModule, experiment: Experiment): Session {
     const { preset, learning, overrides } = experiment;
     // Without the overrides, so that the core knows the defaults, too.
-    const [scenario, terrain, imported] = await filesOf(core, { ...experiment, overrides: {} });
+    const [scenario, terrain, imported] = filesOf(core, { ...experiment, overrides: {} });
     const text = new TextDecoder().decode(scenario.bytes);
     const grid = imported?.bytes ?? new Uint8Array();
     const loaded = new core.Session(scenario.name, text, terrain.name, terrain.bytes, grid, preset, learning);

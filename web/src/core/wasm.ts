@@ -81,8 +81,10 @@ export interface CoreModule {
 /** Compiles and starts the core. */
 export async function loadCore(): Promise<CoreModule> {
   try {
+    // Fetched beside the module that starts it, not after it.
+    const file = fetch(new URL('../wasm/mapless_wasm_bg.wasm', import.meta.url));
     const core = await import('../wasm/mapless_wasm.js');
-    await core.default();
+    await core.default({ module_or_path: file });
     return core;
   } catch (cause) {
     const why = cause instanceof Error ? cause.message : String(cause);

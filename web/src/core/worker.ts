@@ -199,7 +199,7 @@ function showPatch(patch: GroundPatch): void {
 async function load(source: Source, play: boolean): Promise<void> {
   const core = await loading;
   const experiment = await experimentFrom(core, source);
-  const opened = await Session.open(core, experiment);
+  const opened = Session.open(core, experiment);
   session?.free();
   session = opened;
   playing ||= play;
