@@ -1,6 +1,6 @@
 /** Lets the page be checked before the wasm modules are built; where the generated types exist, they win. */
 declare module '*/mapless_wasm.js' {
-  const start: (from: { module_or_path: Promise<Response> }) => Promise<unknown>;
+  const start: (from: { module_or_path: Response }) => Promise<unknown>;
   export default start;
   export const Session: import('./wasm.ts').CoreModule['Session'];
   export const read_scenario: import('./wasm.ts').CoreModule['read_scenario'];

@@ -81,9 +81,11 @@ export interface CoreModule {
 /** Compiles and starts the core. */
 export async function loadCore(): Promise<CoreModule> {
   try {
-    // Fetched beside the module that starts it, not after it.
-    const file = fetch(new URL('../wasm/mapless_wasm_bg.wasm', import.meta.url));
-    const core = await import('../wasm/mapless_wasm.js');
+    // The wasm is fetched beside the module that starts it, not after it.
+    const [core, file] = await Promise.all([
+      import('../wasm/mapless_wasm.js'),
+      fetch(new URL('../wasm/mapless_wasm_bg.wasm', import.meta.url)),
+    ]);
     await core.default({ module_or_path: file });
     return core;
   } catch (cause) {
