@@ -18,6 +18,7 @@ mod trial;
 pub use history::History;
 pub use metrics::Metrics;
 pub use outcome::Outcome;
+pub use patience::{BASE_TIME_LIMIT_S, MOST_STRAIGHT_TIMES};
 pub use places::StartPose;
 pub use profile_accuracy::{ColumnKind, ProfileAccuracy, profile_accuracy};
 #[cfg(not(target_arch = "wasm32"))]

@@ -7,9 +7,11 @@ use crate::outcome::Outcome;
 /// A robot that stays within this distance for this long is stuck.
 const STUCK_RADIUS_M: f64 = 0.5;
 const STUCK_AFTER_S: f64 = 60.0;
-/// A trial may last this long plus this many times the straight way at full speed.
-const BASE_TIME_LIMIT_S: f64 = 60.0;
-const STRAIGHT_TIMES: f64 = 12.0;
+/// A trial may last this long, in seconds, plus [`MOST_STRAIGHT_TIMES`].
+pub const BASE_TIME_LIMIT_S: f64 = 60.0;
+/// A trial may last so many times as long as the straight way takes at full speed, plus [`BASE_TIME_LIMIT_S`]. It ends what would go on for
+/// ever; a robot that is still looking for the way around has not failed.
+pub const MOST_STRAIGHT_TIMES: f64 = 48.0;
 
 /// How long the robot may still take.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,7 +27,7 @@ impl Patience {
     /// With a robot that starts here and now towards a place that it could reach in `straight_s` at full speed; a tick takes
     /// `period_s`.
     pub(crate) fn new(here_m: DVec2, tick: u64, period_s: f64, straight_s: f64) -> Self {
-        let limit_s = tick as f64 * period_s + BASE_TIME_LIMIT_S + STRAIGHT_TIMES * straight_s;
+        let limit_s = tick as f64 * period_s + BASE_TIME_LIMIT_S + MOST_STRAIGHT_TIMES * straight_s;
         Self { anchor_m: here_m, since_tick: tick, period_s, limit_s }
     }
 
@@ -58,9 +60,10 @@ mod tests {
     }
 
     #[test]
-    fn time_ends_after_twelve_times_the_straight_way_and_a_minute() {
+    fn time_ends_after_so_many_times_the_straight_way_and_a_minute() {
         let mut patience = Patience::new(at(0.0), 100, 1.0, 20.0);
-        assert!((100..=400_u32).all(|second| patience.lost(at(f64::from(second)), second.into()).is_none()));
-        assert_eq!(patience.lost(at(401.0), 401), Some(Outcome::Timeout));
+        let last = 100 + 60 + 48 * 20_u32;
+        assert!((100..=last).all(|second| patience.lost(at(f64::from(second)), second.into()).is_none()));
+        assert_eq!(patience.lost(at(f64::from(last + 1)), u64::from(last + 1)), Some(Outcome::Timeout));
     }
 }

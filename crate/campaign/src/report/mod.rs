@@ -2,6 +2,7 @@
 
 mod ablation;
 mod comparison;
+mod duration;
 mod faults;
 mod figures;
 mod oracle;
@@ -197,6 +198,7 @@ fn chapter(
     writeln!(text, "\n## Campaign `{name}`\n")?;
     writeln!(text, "{} trials: {}; identity `{hash}`.", results.rows.len(), results.size())?;
     tables::success(text, results)?;
+    duration::section(text, results)?;
     // One planner that is run again with something changed is compared with itself.
     if planners.len() > 1 || results.question().is_none() {
         comparison::sentences(text, results, published)?;
