@@ -22,7 +22,7 @@ export function reason(frame: Frame, info: SessionInfo): string {
     case 'left_terrain':
       return 'A wheel would have left the terrain.';
     case 'timeout':
-      return 'It took more than 48 times the straight way’s time and a minute.';
+      return 'Its time ran out: many times what the straight way takes at full speed, and a minute.';
   }
 }
 

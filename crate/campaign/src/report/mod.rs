@@ -90,6 +90,14 @@ impl Results {
         groups
     }
 
+    /// The plain trials of one planner: all of them, then those of each group where groups stand for several routes each.
+    fn all_and_groups(&self, planner: &str) -> Vec<(&str, Vec<&TrialRow>)> {
+        let all = self.plain().filter(|row| row.planner == planner).collect();
+        let groups = if self.has_groups() { self.groups() } else { Vec::new() };
+        let of_groups = groups.into_iter().map(|group| (group, self.of(planner, group)));
+        core::iter::once(("all", all)).chain(of_groups).collect()
+    }
+
     /// Whether groups stand for several routes each.
     fn has_groups(&self) -> bool {
         self.manifest.routes.len() > MOST_ROUTES

@@ -23,12 +23,8 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         "| planner | routes | reached | SPL | median of driven / shortest |\n|---|---|---|---:|---:|"
     )?;
     for planner in &results.manifest.planners {
-        let all: Vec<&TrialRow> = results.plain().filter(|row| row.planner == *planner).collect();
-        line(text, planner, "all", &all)?;
-        if results.has_groups() {
-            for group in results.groups() {
-                line(text, planner, group, &results.of(planner, group))?;
-            }
+        for (routes, rows) in results.all_and_groups(planner) {
+            line(text, planner, routes, &rows)?;
         }
     }
     Ok(())
