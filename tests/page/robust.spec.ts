@@ -121,6 +121,24 @@ plain('drawing the view begins with few questions to a busy graphics process', a
   expect(await painter.evaluate(() => (self as unknown as { asked: number }).asked)).toBeLessThanOrEqual(1);
 });
 
+plain('what a graphics driver refuses to draw is told, and the rest is drawn', async ({ page }) => {
+  await beforePainting(
+    page,
+    `const { shaderSource } = WebGL2RenderingContext.prototype;
+    WebGL2RenderingContext.prototype.shaderSource = function (shader, source) {
+      // Of the points of the returns.
+      shaderSource.call(this, shader, source.replace('gl_PointCoord', 'gl_PointCoordinate'));
+    };`,
+  );
+  await page.goto('/');
+  await loaded(page);
+  await expect(page.locator('#notice-text')).toContainText('refused to draw a part of the 3D view');
+  await expect(page.locator('#drawing')).toBeEmpty();
+  await drawnIn(page, '#view', 500);
+  const { tick } = await state(page);
+  await until(page, (now) => now.tick > tick + 3);
+});
+
 plain('without WebGL the view stays empty, and all else works', async ({ page }) => {
   await beforePainting(page, 'OffscreenCanvas.prototype.getContext = () => null;');
   await page.goto('/');

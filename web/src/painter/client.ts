@@ -11,6 +11,8 @@ export interface Graphics {
   drawn(): void;
   /** There is no view any more, as drawing it met an error. */
   broken(message: string): void;
+  /** The graphics driver refused to draw something, which is missing in the view. */
+  refused(why: string): void;
   /** The graphics driver took the view away. */
   lost(): void;
   restored(): void;
@@ -68,6 +70,9 @@ export class PainterClient {
         break;
       case 'drawn':
         this.#graphics.drawn();
+        break;
+      case 'refused':
+        this.#graphics.refused(message.why);
         break;
       case 'lost':
         this.#graphics.lost();

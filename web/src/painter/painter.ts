@@ -13,6 +13,7 @@ import { Overlays } from './overlays.ts';
 import type { Pacer } from './pacer.ts';
 import { Places } from './places.ts';
 import { DEPTH_M, type FromPainter, type Look, type Scenery, type Seen, type ToPainter } from './protocol.ts';
+import { Refusals } from './refusals.ts';
 import { Relief } from './relief.ts';
 import { Returns } from './returns.ts';
 import { Route } from './route.ts';
@@ -30,6 +31,7 @@ export class Painter {
   readonly #post: (message: FromPainter, transfer?: Transferable[]) => void;
   readonly #pacer: Pacer;
   readonly #renderer: WebGLRenderer;
+  readonly #refusals: Refusals;
   readonly #camera = new PerspectiveCamera(50, 1, DEPTH_M.near, DEPTH_M.far);
   readonly #scene = new Scene();
   /** All but the ground and the robot: not in the first picture, which is there sooner without their shaders. */
@@ -70,8 +72,9 @@ export class Painter {
     const { software } = pacer;
     this.#pacer = pacer;
     this.#renderer = new WebGLRenderer({ canvas, context });
-    // Checking waits for the graphics process four times for each shader program.
-    this.#renderer.debug.checkShaderErrors = import.meta.env.DEV;
+    // It waits for the graphics process three times for each shader program; `Refusals` asks only why one was refused.
+    this.#renderer.debug.checkShaderErrors = false;
+    this.#refusals = new Refusals(context);
     canvas.addEventListener('webglcontextlost', () => post({ type: 'lost' }));
     canvas.addEventListener('webglcontextrestored', () => {
       post({ type: 'restored' });
@@ -248,12 +251,17 @@ export class Painter {
     this.#places.face(position);
     this.#waypoints.face(position);
     this.#renderer.render(this.#scene, this.#camera);
+    this.#tellRefusals();
     if (this.#first === 'to come') this.#first = 'under way';
     if (this.#filming) this.#sendPicture();
     if (this.#pacer.drew(now_ms)) {
       this.#fits = false;
       this.#dirty = true;
     }
+  }
+
+  #tellRefusals(): void {
+    for (const why of this.#refusals.among(this.#renderer.info.programs ?? [])) this.#post({ type: 'refused', why });
   }
 
   /** There is a first picture: the browser has room for another. */

@@ -89,6 +89,8 @@ export type FromPainter =
   | { type: 'unavailable' }
   /** There is a first picture. */
   | { type: 'drawn' }
+  /** The graphics driver refused a shader program: something is missing in the view. */
+  | { type: 'refused'; why: string }
   /** The graphics driver took the view away, or gave it back. */
   | { type: 'lost' }
   | { type: 'restored' }

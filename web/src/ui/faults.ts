@@ -37,6 +37,11 @@ export function watchGraphics(show: (message: string) => void, hide: () => void)
       drawn();
       show(`The 3D view stopped on an error: ${message}. Everything else works; reload the page to get it back.`);
     },
+    refused(why) {
+      show(
+        `The graphics driver refused to draw a part of the 3D view, which is missing: ${why}. Everything else works.`,
+      );
+    },
     lost() {
       show('The graphics driver took the 3D view away. It comes back by itself; the simulation goes on.');
       waiting = setTimeout(() => {
