@@ -129,6 +129,9 @@ pub struct ForecastConfig {
     pub deviations: f64,
     /// Unseen ground bridged next to the robot, where no beam reaches, metres.
     pub blind_radius_m: f64,
+    /// Whether ground that would have been seen if it went on, and was not, counts as an edge to keep away from. From above the sensor
+    /// cannot tell an edge from a slope that begins with a corner of more than 15°, and without this tries both.
+    pub avoids_edges: bool,
     /// What a metre at the tilt limit costs beyond itself, in metres of level ground; in between with the square of the slope.
     pub tilt_price: f64,
     /// What a metre up or down costs beyond the way itself, in metres of level ground.

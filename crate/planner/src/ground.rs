@@ -3,7 +3,10 @@
 //! Not a map: a window of cells that moves with the robot, holds returns of the last seconds within r_oc and the ground
 //! under the wheels, and forgets the rest. It answers one question: what would the robot's roll and pitch be there?
 
+mod missing;
 mod wheels;
+
+use std::collections::VecDeque;
 
 use glam::{DVec2, DVec3, IVec2};
 
@@ -11,6 +14,7 @@ use crate::config::{GroundConfig, PlannerConfig};
 use crate::elementary::floor;
 use crate::plane::{Moments, Plane};
 use crate::slopes::Slopes;
+use missing::{MOST_VIEWS, View};
 
 /// Cells per side of the window.
 pub(crate) const SIDE: usize = 96;
@@ -28,6 +32,9 @@ pub(crate) trait SeenGround {
     /// How steep the robot stands on its wheels around a place, where the ground has this plane, facing along a unit vector; `None` where
     /// no more than the plane is known.
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes>;
+
+    /// Whether ground with this plane would have been seen under all wheels at a place near the robot.
+    fn would_be_seen(&self, place_m: DVec2, plane: &Plane) -> bool;
 }
 
 /// Ground of which the planes alone are known.
@@ -38,6 +45,10 @@ impl<F: Fn(DVec2) -> Option<Plane>> SeenGround for F {
 
     fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
         None
+    }
+
+    fn would_be_seen(&self, _: DVec2, _: &Plane) -> bool {
+        false
     }
 }
 
@@ -57,16 +68,20 @@ pub(crate) struct Ground {
     track_m: f64,
     tick: u64,
     cells: Vec<Option<GroundCell>>,
+    /// From where the last scans were taken, the newest last.
+    views: VecDeque<View>,
 }
 
 impl Ground {
     pub(crate) fn new(config: &PlannerConfig) -> Self {
         let PlannerConfig { ground, wheelbase_m, track_m, .. } = *config;
-        Self { config: ground, wheelbase_m, track_m, tick: 0, cells: vec![None; SIDE * SIDE] }
+        let views = VecDeque::with_capacity(MOST_VIEWS);
+        Self { config: ground, wheelbase_m, track_m, tick: 0, cells: vec![None; SIDE * SIDE], views }
     }
 
     pub(crate) fn clear(&mut self) {
         self.cells.fill(None);
+        self.views.clear();
     }
 
     /// Starts a new scan; what is older than the memory will no longer be found.
@@ -132,6 +147,10 @@ impl SeenGround for Ground {
 
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes> {
         self.on_wheels(place_m, direction, plane.gradient)
+    }
+
+    fn would_be_seen(&self, place_m: DVec2, plane: &Plane) -> bool {
+        self.was_in_view(place_m, plane)
     }
 }
 

@@ -488,6 +488,7 @@ impl Planner {
         self.ground.advance();
         let world_from_robot = pose.world_from_robot();
         let sensor = pose.position_m + world_from_robot * self.config.mount.offset_m();
+        self.ground.looked_from(sensor, world_from_robot.z_axis);
         let radius_squared = self.config.ground.radius_m * self.config.ground.radius_m;
         for point in points_m {
             let point = point.as_dvec3();

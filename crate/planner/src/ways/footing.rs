@@ -75,6 +75,8 @@ const TIGHT_SHARE: f64 = 0.5;
 const TIGHT_RISK: f64 = 2.0;
 /// A slope with a larger standard deviation is a guess.
 const GUESS_DEVIATION: f64 = 0.15;
+/// What is as near as this to the robot and was in view was seen under all wheels, or it is not there.
+const BY_NOW_SEEN_M: f64 = 2.0;
 /// Standard deviation of a slope between wheels under which returns were averaged.
 const WHEELS_DEVIATION: f64 = 0.05;
 
@@ -85,10 +87,13 @@ struct Known {
     plane: Option<Plane>,
     /// On the wheels, for each axis of travel.
     on_wheels: [Option<Slopes>; HEADINGS / 2],
+    /// Under a wheel there is nothing, as it would have been seen.
+    is_missing: bool,
 }
 
 impl Known {
-    const NOTHING: Self = Self { index: IVec2::MAX, plane: None, on_wheels: [None; HEADINGS / 2] };
+    const NOTHING: Self =
+        Self { index: IVec2::MAX, plane: None, on_wheels: [None; HEADINGS / 2], is_missing: false };
 }
 
 /// A place is looked at anew after so many looks: the ground stands still, and a robot drives a step in this time.
@@ -189,7 +194,14 @@ impl Footing {
                     let on_wheels = plane.map_or(Known::NOTHING.on_wheels, |plane| {
                         DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
                     });
-                    self.planes[slot] = Known { index: world, plane, on_wheels };
+                    let was_missing = self.planes[slot].index == world && self.planes[slot].is_missing;
+                    let would_be_seen = |plane: Plane| {
+                        (place_m - here_m).length() < BY_NOW_SEEN_M && ground.would_be_seen(place_m, &plane)
+                    };
+                    let is_missing = self.config.avoids_edges
+                        && on_wheels.iter().any(Option::is_none)
+                        && (was_missing || plane.is_some_and(would_be_seen));
+                    self.planes[slot] = Known { index: world, plane, on_wheels, is_missing };
                 }
             }
         }
@@ -211,11 +223,26 @@ impl Footing {
                     };
                     let deviations = self.deviations_at(place_m);
                     let risk = self.risk_of(&plane, &known.on_wheels, caution, away_m, deviations);
-                    Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust) }
+                    let falls = if self.config.avoids_edges && self.is_at_brink(offset) {
+                        f32::INFINITY
+                    } else {
+                        0.0
+                    };
+                    Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust + falls) }
                 }
                 _ => UNKNOWN,
             };
         }
+    }
+
+    /// Whether the ground is missing at a place or beside it: the robot is wider than its wheels, and keeps to a way by half a step.
+    fn is_at_brink(&self, offset: IVec2) -> bool {
+        let around = (-1..=1).flat_map(|y| (-1..=1).map(move |x| offset + IVec2::new(x, y)));
+        around.into_iter().any(|offset| {
+            let world = self.centre + offset;
+            let known = &self.planes[self.slot(world)];
+            known.index == world && known.is_missing
+        })
     }
 
     fn risk_of(
@@ -327,6 +354,7 @@ impl Footing {
             let known = &self.planes[self.slot(self.centre + offset)];
             plane.gradient_deviation > GUESS_DEVIATION
                 && known.on_wheels[heading % (HEADINGS / 2)].is_none()
+                && !known.is_missing
                 && self.risk(offset, heading).is_infinite()
         })
     }

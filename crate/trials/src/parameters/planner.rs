@@ -236,6 +236,12 @@ pub(super) const GROUPS: &[Group] = &[
             ),
             open("blind_radius_m", "m", Number(0.0, 12.0), "Unseen ground bridged next to the robot."),
             open(
+                "avoids_edges",
+                "",
+                Switch,
+                "Whether the robot keeps away from where ground would have been seen if it went on: an edge, or a steep slope down.",
+            ),
+            open(
                 "tilt_price",
                 "",
                 Number(0.0, 5.0),

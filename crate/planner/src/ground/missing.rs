@@ -1,0 +1,118 @@
+//! Ground that was looked at and is not there.
+//!
+//! A scan says nothing of an edge but that no returns come from beyond it, and a plane through the ground before it goes on where
+//! there is none. But ground that went on would have been seen while the robot came nearer.
+
+use glam::{DVec2, DVec3};
+
+use super::Ground;
+use crate::occupancy::LOWEST_ELEVATION_RAD;
+use crate::plane::Plane;
+
+/// Views are kept this far apart, and so many of them: the rings of a scan lie half a metre apart where they sweep over the ground
+/// that is about to be too near to be seen.
+const SPACING_M: f64 = 0.25;
+pub(super) const MOST_VIEWS: usize = 256;
+/// What was in so many views was swept over by a ring.
+const FEWEST_VIEWS: usize = 3;
+/// Ground is surely in view up to this distance, this far above the lowest beam, and where the beams meet it no flatter than this.
+const SURELY_SEEN_M: f64 = 4.5;
+const ABOVE_LOWEST_RAD: f64 = 0.02;
+const LEAST_INCIDENCE: f64 = 0.1;
+/// Ground that rises like this hides what follows, be it as level as a ramp's end.
+const RISING_SLOPE: f64 = 0.1;
+
+/// Where the sensor was.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    tick: u64,
+    sensor_m: DVec3,
+    up: DVec3,
+}
+
+impl Ground {
+    /// The scan was taken from here, by a sensor whose axis is the unit vector `up`.
+    pub(crate) fn looked_from(&mut self, sensor_m: DVec3, up: DVec3) {
+        let (tick, memory_ticks) = (self.tick, self.config.memory_ticks);
+        self.views.retain(|view| tick - view.tick <= memory_ticks);
+        if self.views.iter().any(|view| (view.sensor_m - sensor_m).length() < SPACING_M) {
+            return;
+        }
+        if self.views.len() == MOST_VIEWS {
+            self.views.pop_front();
+        }
+        self.views.push_back(View { tick, sensor_m, up });
+    }
+
+    /// Whether ground with this plane would have been seen at a place, while it was not too near.
+    pub(super) fn was_in_view(&self, place_m: DVec2, plane: &Plane) -> bool {
+        self.views.iter().filter(|view| view.holds(place_m.extend(plane.height_m), plane)).count()
+            >= FEWEST_VIEWS
+    }
+}
+
+impl View {
+    fn holds(&self, point_m: DVec3, plane: &Plane) -> bool {
+        let away = point_m - self.sensor_m;
+        let distance_m = away.length();
+        let beam = away / distance_m;
+        let normal = (-plane.gradient).extend(1.0).normalize();
+        let rises = plane.gradient.dot(beam.truncate().normalize_or_zero()) > RISING_SLOPE;
+        distance_m < SURELY_SEEN_M
+            && beam.dot(self.up) > libm::sin(LOWEST_ELEVATION_RAD + ABOVE_LOWEST_RAD)
+            && -beam.dot(normal) > LEAST_INCIDENCE
+            && !rises
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::PlannerConfig;
+
+    const AHEAD_M: DVec2 = DVec2::new(2.0, 0.0);
+
+    /// Has looked around while it drove to the origin from `from_m`, nose up by `pitch_rad`.
+    fn come_from(from_m: DVec2, pitch_rad: f64) -> Ground {
+        let mut ground = Ground::new(&PlannerConfig::default());
+        let up = DVec3::new(-libm::sin(pitch_rad), 0.0, libm::cos(pitch_rad));
+        for step in 0..=10 {
+            ground.advance();
+            ground.looked_from((from_m * (1.0 - 0.1 * f64::from(step))).extend(0.8), up);
+        }
+        ground
+    }
+
+    fn sloping(slope: f64) -> Plane {
+        Plane { height_m: 0.0, gradient: DVec2::new(slope, 0.0), gradient_deviation: 0.0 }
+    }
+
+    #[test]
+    fn level_ground_was_seen_from_where_the_robot_came() {
+        assert!(come_from(DVec2::new(-3.0, 0.0), 0.0).was_in_view(AHEAD_M, &sloping(0.0)));
+    }
+
+    #[test]
+    fn no_beam_met_what_was_always_too_near_or_below_the_lowest_one() {
+        assert!(!come_from(DVec2::new(-0.8, 0.0), 0.0).was_in_view(AHEAD_M, &sloping(0.0)));
+        assert!(!come_from(DVec2::new(-3.0, 0.0), 0.3).was_in_view(AHEAD_M, &sloping(0.0)), "nose up");
+    }
+
+    #[test]
+    fn slopes_that_fall_away_or_hide_what_follows_say_nothing() {
+        let ground = come_from(DVec2::new(-3.0, 0.0), 0.0);
+        assert!(ground.was_in_view(AHEAD_M, &sloping(-0.05)));
+        assert!(!ground.was_in_view(AHEAD_M, &sloping(-0.3)));
+        assert!(!ground.was_in_view(AHEAD_M, &sloping(0.3)));
+    }
+
+    #[test]
+    fn views_are_forgotten_with_the_ground_seen_from_them() {
+        let mut ground = come_from(DVec2::new(-3.0, 0.0), 0.0);
+        for _ in 0..=PlannerConfig::default().ground.memory_ticks {
+            ground.advance();
+            ground.looked_from(DVec3::new(0.0, 0.0, 0.8), DVec3::Z);
+        }
+        assert!(!ground.was_in_view(AHEAD_M, &sloping(0.0)));
+    }
+}
