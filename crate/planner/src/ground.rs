@@ -1,7 +1,8 @@
 //! What the last scans saw of the ground around the robot.
 //!
 //! Not a map: a window of cells that moves with the robot, holds returns of the last seconds within r_oc and the ground
-//! under the wheels, and forgets the rest. It answers one question: what would the robot's roll and pitch be there?
+//! under the wheels, and forgets the rest. It answers two questions: what would the robot's roll and pitch be there, and would
+//! ground have been seen there if there were any?
 
 mod missing;
 mod wheels;
@@ -33,7 +34,7 @@ pub(crate) trait SeenGround {
     /// no more than the plane is known.
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes>;
 
-    /// Whether ground with this plane would have been seen under all wheels at a place near the robot.
+    /// Whether ground with this plane would have been seen at a place, were it there.
     fn would_be_seen(&self, place_m: DVec2, plane: &Plane) -> bool;
 }
 

@@ -16,6 +16,7 @@ export class Refusals {
     for (const one of programs) {
       if (this.#asked.has(one)) continue;
       this.#asked.add(one);
+      // three.js types it as unknown.
       const program = one.program as WebGLProgram;
       const { LINK_STATUS } = this.#context;
       // A lost context has linked nothing and is told of elsewhere. Only a refusal is worth asking why, which waits for the graphics process.
