@@ -130,7 +130,7 @@ pub struct ForecastConfig {
     /// Unseen ground bridged next to the robot, where no beam reaches, metres.
     pub blind_radius_m: f64,
     /// Whether ground that would have been seen if it went on, and was not, counts as an edge to keep away from. From above the sensor
-    /// cannot tell an edge from a slope that begins with a corner of more than 15°, and without this tries both.
+    /// cannot tell an edge from a slope that begins with a corner of more than 15°; without this the robot drives over both.
     pub avoids_edges: bool,
     /// What a metre at the tilt limit costs beyond itself, in metres of level ground; in between with the square of the slope.
     pub tilt_price: f64,

@@ -34,6 +34,9 @@ pub(crate) trait SeenGround {
     /// no more than the plane is known.
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes>;
 
+    /// Whether no return comes from most of the ground around a place.
+    fn is_hole(&self, place_m: DVec2) -> bool;
+
     /// Whether ground with this plane would have been seen at a place, were it there.
     fn would_be_seen(&self, place_m: DVec2, plane: &Plane) -> bool;
 }
@@ -46,6 +49,10 @@ impl<F: Fn(DVec2) -> Option<Plane>> SeenGround for F {
 
     fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
         None
+    }
+
+    fn is_hole(&self, _: DVec2) -> bool {
+        false
     }
 
     fn would_be_seen(&self, _: DVec2, _: &Plane) -> bool {
@@ -148,6 +155,10 @@ impl SeenGround for Ground {
 
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes> {
         self.on_wheels(place_m, direction, plane.gradient)
+    }
+
+    fn is_hole(&self, place_m: DVec2) -> bool {
+        self.lacks_returns(place_m)
     }
 
     fn would_be_seen(&self, place_m: DVec2, plane: &Plane) -> bool {

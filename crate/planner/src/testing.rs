@@ -1,6 +1,24 @@
-//! Scans for unit tests.
+//! Scans and ground for unit tests.
 
-use glam::Vec3;
+use glam::{DVec2, Vec3};
+
+use crate::config::PlannerConfig;
+use crate::ground::Ground;
+
+/// Returns on the ground all around, up to two metres away; none where it has no height.
+pub(crate) fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> Ground {
+    let mut ground = Ground::new(&PlannerConfig::default());
+    ground.advance();
+    for i in -40..=40 {
+        for j in -40..=40 {
+            let place_m = DVec2::new(f64::from(i), f64::from(j)) * 0.05;
+            if let Some(height_m) = height_m(place_m) {
+                ground.add(place_m.extend(height_m));
+            }
+        }
+    }
+    ground
+}
 
 /// Returns of an undulating skyline over the columns `from..to`.
 pub(crate) fn undulating_scan(from: usize, to: usize) -> Vec<Vec3> {

@@ -5,8 +5,7 @@ use glam::DVec2;
 use mapless_trials::{Outcome, Preset, Scenario, Trial};
 use mapless_world::HeightField;
 
-const SCENARIO: &str = "terrain = \"a.toml\"\nstart = [10.0, 20.0, 0.0]\ngoal = [33.0, 20.0]\nseed = 1\n\
-    [planner.forecast]\navoids_edges = true\n";
+const SCENARIO: &str = "terrain = \"a.toml\"\nstart = [10.0, 20.0, 0.0]\ngoal = [33.0, 20.0]\nseed = 1\n";
 
 /// 40 m square, with a height for each place.
 fn trial(height_m: impl Fn(DVec2) -> f64, seed: u64) -> Trial {

@@ -76,7 +76,7 @@ impl Default for ForecastConfig {
             escape_m: 2.5,
             deviations: 1.0,
             blind_radius_m: 7.5,
-            avoids_edges: false,
+            avoids_edges: true,
             tilt_price: 4.0,
             climb_price: 4.0,
             turn_cost_m: 0.15,

@@ -22,6 +22,11 @@ const LEAST_INCIDENCE: f64 = 0.1;
 /// Ground that rises like this hides what follows, be it as level as a ramp's end.
 const RISING_SLOPE: f64 = 0.1;
 
+/// So many points to each side of a place are looked at, so far apart. A small rise hides fewer than this share of them.
+const HOLE_LOOKS: i32 = 3;
+const HOLE_LOOK_M: f64 = 0.1;
+const HOLE_SHARE: f64 = 0.5;
+
 /// Where the sensor was.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
@@ -42,6 +47,18 @@ impl Ground {
             self.views.pop_front();
         }
         self.views.push_back(View { tick, sensor_m, up });
+    }
+
+    /// Whether no return comes from most of the ground around a place.
+    pub(super) fn lacks_returns(&self, place_m: DVec2) -> bool {
+        let looks = (-HOLE_LOOKS..=HOLE_LOOKS)
+            .flat_map(|y| (-HOLE_LOOKS..=HOLE_LOOKS).map(move |x| DVec2::new(f64::from(x), f64::from(y))));
+        let (mut unseen, mut count) = (0, 0);
+        for look in looks {
+            count += 1;
+            unseen += u32::from(self.height_m(place_m + look * HOLE_LOOK_M, DVec2::ZERO).is_none());
+        }
+        f64::from(unseen) >= HOLE_SHARE * f64::from(count)
     }
 
     /// Whether ground with this plane would have been seen at a place, while it was not too near.
@@ -69,6 +86,7 @@ impl View {
 mod tests {
     use super::*;
     use crate::config::PlannerConfig;
+    use crate::testing::strewn;
 
     const AHEAD_M: DVec2 = DVec2::new(2.0, 0.0);
 
@@ -81,6 +99,26 @@ mod tests {
             ground.looked_from((from_m * (1.0 - 0.1 * f64::from(step))).extend(0.8), up);
         }
         ground
+    }
+
+    fn strewn_but(is_hidden: impl Fn(DVec2) -> bool) -> Ground {
+        strewn(|place| (!is_hidden(place)).then_some(0.0))
+    }
+
+    #[test]
+    fn beyond_an_edge_and_in_a_trench_no_return_comes_from_most_of_the_ground() {
+        let edge = strewn_but(|place| place.x > 0.3);
+        assert!(!edge.lacks_returns(DVec2::ZERO) && edge.lacks_returns(DVec2::new(0.5, 0.0)));
+        let trench = strewn_but(|place| place.x.abs() < 0.5);
+        assert!(trench.lacks_returns(DVec2::ZERO) && trench.lacks_returns(DVec2::new(-0.25, 0.0)));
+    }
+
+    #[test]
+    fn what_a_small_rise_hides_is_no_hole() {
+        let behind_rises = strewn_but(|place| (place.x - 0.1).abs() < 0.25);
+        assert!(!behind_rises.lacks_returns(DVec2::ZERO));
+        let far_apart = strewn_but(|place| place.x.rem_euclid(0.5) > 0.1);
+        assert!(!far_apart.lacks_returns(DVec2::ZERO), "rings half a metre apart");
     }
 
     fn sloping(slope: f64) -> Plane {

@@ -38,7 +38,7 @@ impl Ground {
     }
 
     /// Height of the ground at a point, from the cells around it.
-    fn height_m(&self, point_m: DVec2, gradient: DVec2) -> Option<f64> {
+    pub(super) fn height_m(&self, point_m: DVec2, gradient: DVec2) -> Option<f64> {
         let cells = point_m / self.config.cell_m - 0.5;
         let low = IVec2::new(floor(cells.x), floor(cells.y));
         let (mut sum, mut weights, mut nearest_squared) = (0.0, 0.0, f64::INFINITY);
@@ -62,22 +62,9 @@ impl Ground {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::PlannerConfig;
     use crate::ground::SeenGround;
+    use crate::testing::strewn;
     use proptest::prelude::*;
-
-    /// Returns on the ground all around, up to two metres away.
-    fn strewn(height_m: impl Fn(DVec2) -> f64) -> Ground {
-        let mut ground = Ground::new(&PlannerConfig::default());
-        ground.advance();
-        for i in -40..=40 {
-            for j in -40..=40 {
-                let place_m = DVec2::new(f64::from(i), f64::from(j)) * 0.05;
-                ground.add(place_m.extend(height_m(place_m)));
-            }
-        }
-        ground
-    }
 
     fn slopes(ground: &Ground, place_m: DVec2, direction: DVec2) -> Option<Slopes> {
         ground.on_wheels(place_m, direction, ground.plane_at(place_m)?.gradient)
@@ -90,7 +77,7 @@ mod tests {
         ) {
             let (gradient, place_m) = (DVec2::new(sx, sy), DVec2::new(x, y));
             let direction = DVec2::from_angle(heading);
-            let found = slopes(&strewn(|place_m| gradient.dot(place_m)), place_m, direction).unwrap();
+            let found = slopes(&strewn(|place_m| Some(gradient.dot(place_m))), place_m, direction).unwrap();
             let expected = Slopes::facing(gradient, direction);
             prop_assert!((found.across - expected.across).abs() < 1e-9);
             prop_assert!((found.along - expected.along).abs() < 1e-9);
@@ -100,7 +87,7 @@ mod tests {
     #[test]
     fn a_ditch_is_passed_across_and_not_along() {
         // Along x, 0.3 m deep and a metre wide: sides of 0.6.
-        let ditch = strewn(|place_m| -(0.3 - 0.6 * place_m.y.abs()).max(0.0));
+        let ditch = strewn(|place_m| Some(-(0.3 - 0.6 * place_m.y.abs()).max(0.0)));
         let across = slopes(&ditch, DVec2::ZERO, DVec2::Y).unwrap();
         assert!((0.4..0.6).contains(&across.along) && across.across < 0.02, "{across:?}");
         let side = slopes(&ditch, DVec2::new(0.0, 0.25), DVec2::X).unwrap();
@@ -111,7 +98,7 @@ mod tests {
 
     #[test]
     fn where_a_wheel_stands_on_unseen_ground_nothing_is_said() {
-        let ground = strewn(|_| 0.0);
+        let ground = strewn(|_| Some(0.0));
         assert!(slopes(&ground, DVec2::new(1.5, 0.0), DVec2::X).is_some());
         assert!(slopes(&ground, DVec2::new(2.2, 0.0), DVec2::X).is_none());
     }

@@ -178,7 +178,8 @@ impl Footing {
         let cells = here_m / self.config.step_m;
         self.centre = IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5));
         self.looks = (self.looks + 1) % LOOKS;
-        let (half, reach) = (self.half, self.half * self.half);
+        let (half, reach, step_m) = (self.half, self.half * self.half, self.config.step_m);
+        let around = |place_m: DVec2| around(IVec2::ZERO).map(move |step| place_m + step.as_dvec2() * step_m);
         for y in -half..=half {
             for x in -half..=half {
                 let offset = IVec2::new(x, y);
@@ -200,7 +201,8 @@ impl Footing {
                     };
                     let is_missing = self.config.avoids_edges
                         && on_wheels.iter().any(Option::is_none)
-                        && (was_missing || plane.is_some_and(would_be_seen));
+                        && (was_missing || plane.is_some_and(would_be_seen))
+                        && around(place_m).any(|near_m| ground.is_hole(near_m));
                     self.planes[slot] = Known { index: world, plane, on_wheels, is_missing };
                 }
             }
@@ -237,8 +239,7 @@ impl Footing {
 
     /// Whether the ground is missing at a place or beside it: the robot is wider than its wheels, and keeps to a way by half a step.
     fn is_at_brink(&self, offset: IVec2) -> bool {
-        let around = (-1..=1).flat_map(|y| (-1..=1).map(move |x| offset + IVec2::new(x, y)));
-        around.into_iter().any(|offset| {
+        around(offset).any(|offset| {
             let world = self.centre + offset;
             let known = &self.planes[self.slot(world)];
             known.index == world && known.is_missing
@@ -403,4 +404,9 @@ impl Footing {
         }
         None
     }
+}
+
+/// A cell and those beside it.
+fn around(cell: IVec2) -> impl Iterator<Item = IVec2> {
+    (-1..=1).flat_map(move |y| (-1..=1).map(move |x| cell + IVec2::new(x, y)))
 }
