@@ -24,9 +24,10 @@ struct Place {
     plane: Option<Plane>,
     /// (slope / limit)² for each axis of travel, the worse of roll and pitch; infinite where that is not safe.
     risk: [f32; HEADINGS / 2],
+    is_at_brink: bool,
 }
 
-const UNKNOWN: Place = Place { plane: None, risk: [f32::INFINITY; HEADINGS / 2] };
+const UNKNOWN: Place = Place { plane: None, risk: [f32::INFINITY; HEADINGS / 2], is_at_brink: false };
 
 /// Places around the robot, on a lattice that stands still in the world.
 #[derive(Clone, Debug)]
@@ -214,6 +215,7 @@ impl Footing {
         for index in 0..self.places.len() {
             let offset = self.offset(index);
             let known = self.planes[self.slot(self.centre + offset)];
+            let is_at_brink = self.config.avoids_edges && self.is_at_brink(offset);
             self.places[index] = match known.plane {
                 Some(plane) if known.index == self.centre + offset => {
                     let place_m = self.position_m(offset);
@@ -225,14 +227,10 @@ impl Footing {
                     };
                     let deviations = self.deviations_at(place_m);
                     let risk = self.risk_of(&plane, &known.on_wheels, caution, away_m, deviations);
-                    let falls = if self.config.avoids_edges && self.is_at_brink(offset) {
-                        f32::INFINITY
-                    } else {
-                        0.0
-                    };
-                    Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust + falls) }
+                    let falls = if is_at_brink { f32::INFINITY } else { 0.0 };
+                    Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust + falls), is_at_brink }
                 }
-                _ => UNKNOWN,
+                _ => Place { is_at_brink, ..UNKNOWN },
             };
         }
     }
@@ -349,15 +347,17 @@ impl Footing {
         self.places[self.index(offset)].plane.as_ref()
     }
 
-    /// Whether nothing can be said of a place for a heading: it was not seen, or is not safe only as it was guessed from afar.
+    /// Whether nothing can be said of a place for a heading: it was not seen, or is not safe only as it was guessed from afar. Of what is at
+    /// the brink of missing ground enough is known.
     pub(crate) fn is_hidden(&self, offset: IVec2, heading: usize) -> bool {
-        self.plane(offset).is_none_or(|plane| {
-            let known = &self.planes[self.slot(self.centre + offset)];
-            plane.gradient_deviation > GUESS_DEVIATION
-                && known.on_wheels[heading % (HEADINGS / 2)].is_none()
-                && !known.is_missing
-                && self.risk(offset, heading).is_infinite()
-        })
+        let place = &self.places[self.index(offset)];
+        !place.is_at_brink
+            && place.plane.is_none_or(|plane| {
+                plane.gradient_deviation > GUESS_DEVIATION
+                    && self.planes[self.slot(self.centre + offset)].on_wheels[heading % (HEADINGS / 2)]
+                        .is_none()
+                    && self.risk(offset, heading).is_infinite()
+            })
     }
 
     /// The risk of standing at a place with a heading; infinite where that is not safe.
