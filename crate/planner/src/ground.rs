@@ -34,11 +34,14 @@ pub(crate) trait SeenGround {
     /// no more than the plane is known.
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes>;
 
+    /// Whether returns around a place tell that the ground drops off there, seen from `here_m`.
+    fn drops_away(&self, place_m: DVec2, here_m: DVec2) -> bool;
+
     /// Whether no return comes from most of the ground around a place.
     fn is_hole(&self, place_m: DVec2) -> bool;
 
-    /// Whether ground with this plane would have been seen at a place, were it there.
-    fn would_be_seen(&self, place_m: DVec2, plane: &Plane) -> bool;
+    /// Whether ground that went on at a place, as it lies on the side of `here_m`, would have been seen.
+    fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool;
 }
 
 /// Ground of which the planes alone are known.
@@ -51,11 +54,15 @@ impl<F: Fn(DVec2) -> Option<Plane>> SeenGround for F {
         None
     }
 
+    fn drops_away(&self, _: DVec2, _: DVec2) -> bool {
+        false
+    }
+
     fn is_hole(&self, _: DVec2) -> bool {
         false
     }
 
-    fn would_be_seen(&self, _: DVec2, _: &Plane) -> bool {
+    fn would_be_seen(&self, _: DVec2, _: DVec2) -> bool {
         false
     }
 }
@@ -113,29 +120,34 @@ impl Ground {
     }
 
     fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
-        let moments = self.moments_near(place_m, radius_m);
+        let moments = self.moments_near(place_m, radius_m, |_| true);
         let plane = moments.plane()?;
         let unseen = self.config.curvature_per_m * moments.distance_m();
         Some(Plane { gradient_deviation: libm::hypot(plane.gradient_deviation, unseen), ..plane })
     }
 
-    /// Moments of the fresh cells whose mean is within `radius_m` of a place.
-    fn moments_near(&self, place_m: DVec2, radius_m: f64) -> Moments {
-        let reach = DVec2::splat(radius_m);
-        let (low, high) = (self.index_of(place_m - reach), self.index_of(place_m + reach));
+    /// Moments of the fresh cells whose mean is within `radius_m` of a place, as far as they count by where they lie from it.
+    fn moments_near(&self, place_m: DVec2, radius_m: f64, counts: impl Fn(DVec2) -> bool) -> Moments {
         let mut moments = Moments::default();
-        for y in low.y..=high.y {
-            let row = &self.cells[slot_of(IVec2::new(0, y))..][..SIDE];
-            for x in low.x..=high.x {
-                let Some(cell) = &row[slot_of(IVec2::new(x, 0))] else { continue };
-                let from_place = cell.mean_m.truncate() - place_m;
-                let near = from_place.length_squared() <= radius_m * radius_m;
-                if cell.index == IVec2::new(x, y) && self.is_fresh(cell) && near {
-                    moments.add(from_place, cell.mean_m.z);
-                }
+        for cell in self.cells_near(place_m, radius_m) {
+            let from_place = cell.mean_m.truncate() - place_m;
+            if counts(from_place) {
+                moments.add(from_place, cell.mean_m.z);
             }
         }
         moments
+    }
+
+    /// The fresh cells whose mean is within `radius_m` of a place.
+    fn cells_near(&self, place_m: DVec2, radius_m: f64) -> impl Iterator<Item = &GroundCell> {
+        let reach = DVec2::splat(radius_m);
+        let (low, high) = (self.index_of(place_m - reach), self.index_of(place_m + reach));
+        let indices = (low.y..=high.y).flat_map(move |y| (low.x..=high.x).map(move |x| IVec2::new(x, y)));
+        indices.filter_map(move |index| {
+            let cell = self.cells[slot_of(index)].as_ref()?;
+            let near = (cell.mean_m.truncate() - place_m).length_squared() <= radius_m * radius_m;
+            (cell.index == index && self.is_fresh(cell) && near).then_some(cell)
+        })
     }
 
     fn is_fresh(&self, cell: &GroundCell) -> bool {
@@ -157,12 +169,20 @@ impl SeenGround for Ground {
         self.on_wheels(place_m, direction, plane.gradient)
     }
 
+    fn drops_away(&self, place_m: DVec2, here_m: DVec2) -> bool {
+        self.has_drop(place_m, (place_m - here_m).normalize_or_zero())
+    }
+
     fn is_hole(&self, place_m: DVec2) -> bool {
         self.lacks_returns(place_m)
     }
 
-    fn would_be_seen(&self, place_m: DVec2, plane: &Plane) -> bool {
-        self.was_in_view(place_m, plane)
+    fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool {
+        let before = |from_place: DVec2| from_place.dot(here_m - place_m) > 0.0;
+        let plane = FOOTPRINT_RADII_M
+            .iter()
+            .find_map(|&radius_m| self.moments_near(place_m, radius_m, before).plane());
+        plane.is_some_and(|plane| self.was_in_view(place_m, &plane))
     }
 }
 

@@ -35,6 +35,16 @@ fn a_robot_does_not_drive_over_the_edge_of_an_abyss() {
 }
 
 #[test]
+fn a_robot_does_not_drive_over_a_ledge_whose_foot_it_sees() {
+    let ledge = |place: DVec2| if place.x < 20.0 { 0.0 } else { -1.0 };
+    for seed in 1..=3 {
+        let mut trial = trial(ledge, seed);
+        assert_eq!(outcome_within(&mut trial, 240), None, "seed {seed}");
+        assert!(trial.metrics().distance_m > 100.0, "seed {seed}");
+    }
+}
+
+#[test]
 fn a_robot_finds_the_ramp_down_a_ledge() {
     let ramp = |place: DVec2| {
         let on_ramp = (24.0..34.0).contains(&place.y);

@@ -27,6 +27,12 @@ const HOLE_LOOKS: i32 = 3;
 const HOLE_LOOK_M: f64 = 0.1;
 const HOLE_SHARE: f64 = 0.5;
 
+/// Returns this near to a place tell of a drop there if one lies so much lower than another, and the line through both is as steep as
+/// this. On 1.15 a robot exceeds a limit with every heading, as tan² 45° + tan² 30° is its square.
+const DROP_RADIUS_M: f64 = 0.7;
+const LEAST_DROP_M: f64 = 0.3;
+const DROP_SLOPE: f64 = 1.2;
+
 /// Where the sensor was.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
@@ -61,6 +67,18 @@ impl Ground {
         f64::from(unseen) >= HOLE_SHARE * f64::from(count)
     }
 
+    /// Whether the ground around a place drops off in the direction of the unit vector `away`: between two returns it is somewhere as
+    /// steep as the line through both.
+    pub(super) fn has_drop(&self, place_m: DVec2, away: DVec2) -> bool {
+        self.cells_near(place_m, DROP_RADIUS_M).any(|high| {
+            self.cells_near(place_m, DROP_RADIUS_M).any(|low| {
+                let drop = high.mean_m - low.mean_m;
+                let distance_m = drop.truncate().length();
+                drop.z > LEAST_DROP_M && drop.z > DROP_SLOPE * distance_m && drop.truncate().dot(away) < 0.0
+            })
+        })
+    }
+
     /// Whether ground with this plane would have been seen at a place, while it was not too near.
     pub(super) fn was_in_view(&self, place_m: DVec2, plane: &Plane) -> bool {
         self.views.iter().filter(|view| view.holds(place_m.extend(plane.height_m), plane)).count()
@@ -86,6 +104,7 @@ impl View {
 mod tests {
     use super::*;
     use crate::config::PlannerConfig;
+    use crate::ground::SeenGround;
     use crate::testing::strewn;
 
     const AHEAD_M: DVec2 = DVec2::new(2.0, 0.0);
@@ -119,6 +138,27 @@ mod tests {
         assert!(!behind_rises.lacks_returns(DVec2::ZERO));
         let far_apart = strewn_but(|place| place.x.rem_euclid(0.5) > 0.1);
         assert!(!far_apart.lacks_returns(DVec2::ZERO), "rings half a metre apart");
+    }
+
+    #[test]
+    fn a_ledge_drops_off_for_who_stands_above_and_a_hill_does_not() {
+        let ledge = strewn(|place| (place.x.abs() > 0.3).then_some(if place.x < 0.0 { 0.0 } else { -1.0 }));
+        assert!(ledge.has_drop(DVec2::ZERO, DVec2::X));
+        assert!(!ledge.has_drop(DVec2::ZERO, -DVec2::X), "seen from its foot");
+        assert!(!ledge.has_drop(DVec2::new(-1.2, 0.0), DVec2::X), "well before it");
+        assert!(!strewn(|place| Some(-place.x)).has_drop(DVec2::ZERO, DVec2::X), "45°");
+    }
+
+    #[test]
+    fn ground_that_went_on_before_a_ledge_would_be_seen_though_its_foot_was() {
+        let mut ground = strewn(|place| {
+            (!(-0.1..0.6).contains(&place.x)).then_some(if place.x < 0.0 { 0.0 } else { -1.0 })
+        });
+        for step in 0..=10 {
+            ground.looked_from(DVec3::new(-4.0 + 0.25 * f64::from(step), 0.0, 0.8), DVec3::Z);
+        }
+        assert!(ground.would_be_seen(DVec2::ZERO, DVec2::new(-1.5, 0.0)));
+        assert!(!ground.would_be_seen(DVec2::ZERO, DVec2::new(1.5, 0.0)), "its foot ends there");
     }
 
     fn sloping(slope: f64) -> Plane {

@@ -92,6 +92,9 @@ impl Ways {
         for step in 1..=steps {
             let along_m = self.config.step_m * step as f64;
             let Some(offset) = self.footing.nearest(self.here_m + travel * along_m) else { return };
+            if self.footing.is_at_brink(offset) {
+                return;
+            }
             if self.footing.is_hidden(offset, heading) {
                 if seen_m > WHEELS_M {
                     return;

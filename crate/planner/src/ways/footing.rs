@@ -88,7 +88,7 @@ struct Known {
     plane: Option<Plane>,
     /// On the wheels, for each axis of travel.
     on_wheels: [Option<Slopes>; HEADINGS / 2],
-    /// Under a wheel there is nothing, as it would have been seen.
+    /// Under a wheel there is nothing, as it would have been seen, or the ground drops off.
     is_missing: bool,
 }
 
@@ -197,13 +197,14 @@ impl Footing {
                         DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
                     });
                     let was_missing = self.planes[slot].index == world && self.planes[slot].is_missing;
-                    let would_be_seen = |plane: Plane| {
-                        (place_m - here_m).length() < BY_NOW_SEEN_M && ground.would_be_seen(place_m, &plane)
+                    let would_be_seen = || {
+                        (place_m - here_m).length() < BY_NOW_SEEN_M && ground.would_be_seen(place_m, here_m)
                     };
                     let is_missing = self.config.avoids_edges
                         && on_wheels.iter().any(Option::is_none)
-                        && (was_missing || plane.is_some_and(would_be_seen))
-                        && around(place_m).any(|near_m| ground.is_hole(near_m));
+                        && ((was_missing || would_be_seen())
+                            && around(place_m).any(|near_m| ground.is_hole(near_m))
+                            || ground.drops_away(place_m, here_m));
                     self.planes[slot] = Known { index: world, plane, on_wheels, is_missing };
                 }
             }
@@ -215,7 +216,7 @@ impl Footing {
         for index in 0..self.places.len() {
             let offset = self.offset(index);
             let known = self.planes[self.slot(self.centre + offset)];
-            let is_at_brink = self.config.avoids_edges && self.is_at_brink(offset);
+            let is_at_brink = self.config.avoids_edges && self.is_beside_missing(offset);
             self.places[index] = match known.plane {
                 Some(plane) if known.index == self.centre + offset => {
                     let place_m = self.position_m(offset);
@@ -236,7 +237,7 @@ impl Footing {
     }
 
     /// Whether the ground is missing at a place or beside it: the robot is wider than its wheels, and keeps to a way by half a step.
-    fn is_at_brink(&self, offset: IVec2) -> bool {
+    fn is_beside_missing(&self, offset: IVec2) -> bool {
         around(offset).any(|offset| {
             let world = self.centre + offset;
             let known = &self.planes[self.slot(world)];
@@ -358,6 +359,11 @@ impl Footing {
                         .is_none()
                     && self.risk(offset, heading).is_infinite()
             })
+    }
+
+    /// Whether the ground is missing at a place or beside it.
+    pub(crate) fn is_at_brink(&self, offset: IVec2) -> bool {
+        self.places[self.index(offset)].is_at_brink
     }
 
     /// The risk of standing at a place with a heading; infinite where that is not safe.
