@@ -34,14 +34,9 @@ pub(crate) trait SeenGround {
     /// no more than the plane is known.
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes>;
 
-    /// Whether returns around a place tell that the ground drops off there, seen from `here_m`.
-    fn drops_away(&self, place_m: DVec2, here_m: DVec2) -> bool;
-
-    /// Whether no return comes from most of the ground around a place.
-    fn is_hole(&self, place_m: DVec2) -> bool;
-
-    /// Whether ground that went on at a place, as it lies on the side of `here_m`, would have been seen.
-    fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool;
+    /// Whether there is no ground under a wheel at a place, as it would have been seen from the side of `here_m`, or it drops off there.
+    /// What `was_missing` stays so while no returns come from it.
+    fn is_missing(&self, place_m: DVec2, here_m: DVec2, was_missing: bool) -> bool;
 }
 
 /// Ground of which the planes alone are known.
@@ -54,15 +49,7 @@ impl<F: Fn(DVec2) -> Option<Plane>> SeenGround for F {
         None
     }
 
-    fn drops_away(&self, _: DVec2, _: DVec2) -> bool {
-        false
-    }
-
-    fn is_hole(&self, _: DVec2) -> bool {
-        false
-    }
-
-    fn would_be_seen(&self, _: DVec2, _: DVec2) -> bool {
+    fn is_missing(&self, _: DVec2, _: DVec2, _: bool) -> bool {
         false
     }
 }
@@ -142,11 +129,13 @@ impl Ground {
     fn cells_near(&self, place_m: DVec2, radius_m: f64) -> impl Iterator<Item = &GroundCell> {
         let reach = DVec2::splat(radius_m);
         let (low, high) = (self.index_of(place_m - reach), self.index_of(place_m + reach));
-        let indices = (low.y..=high.y).flat_map(move |y| (low.x..=high.x).map(move |x| IVec2::new(x, y)));
-        indices.filter_map(move |index| {
-            let cell = self.cells[slot_of(index)].as_ref()?;
-            let near = (cell.mean_m.truncate() - place_m).length_squared() <= radius_m * radius_m;
-            (cell.index == index && self.is_fresh(cell) && near).then_some(cell)
+        let rows = (low.y..=high.y).map(|y| (y, &self.cells[slot_of(IVec2::new(0, y))..][..SIDE]));
+        rows.flat_map(move |(y, row)| {
+            (low.x..=high.x).filter_map(move |x| {
+                let cell = row[slot_of(IVec2::new(x, 0))].as_ref()?;
+                let near = (cell.mean_m.truncate() - place_m).length_squared() <= radius_m * radius_m;
+                (near && cell.index == IVec2::new(x, y) && self.is_fresh(cell)).then_some(cell)
+            })
         })
     }
 
@@ -169,20 +158,8 @@ impl SeenGround for Ground {
         self.on_wheels(place_m, direction, plane.gradient)
     }
 
-    fn drops_away(&self, place_m: DVec2, here_m: DVec2) -> bool {
-        self.has_drop(place_m, (place_m - here_m).normalize_or_zero())
-    }
-
-    fn is_hole(&self, place_m: DVec2) -> bool {
-        self.lacks_returns(place_m)
-    }
-
-    fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool {
-        let before = |from_place: DVec2| from_place.dot(here_m - place_m) > 0.0;
-        let plane = FOOTPRINT_RADII_M
-            .iter()
-            .find_map(|&radius_m| self.moments_near(place_m, radius_m, before).plane());
-        plane.is_some_and(|plane| self.was_in_view(place_m, &plane))
+    fn is_missing(&self, place_m: DVec2, here_m: DVec2, was_missing: bool) -> bool {
+        self.lacks_ground(place_m, here_m, was_missing)
     }
 }
 

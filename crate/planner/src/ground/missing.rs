@@ -5,7 +5,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Ground;
+use super::{FOOTPRINT_RADII_M, Ground};
 use crate::occupancy::LOWEST_ELEVATION_RAD;
 use crate::plane::Plane;
 
@@ -21,6 +21,11 @@ const ABOVE_LOWEST_RAD: f64 = 0.02;
 const LEAST_INCIDENCE: f64 = 0.1;
 /// Ground that rises like this hides what follows, be it as level as a ramp's end.
 const RISING_SLOPE: f64 = 0.1;
+
+/// What is as near as this to the robot and was in view was seen under all wheels, or it is not there.
+const BY_NOW_SEEN_M: f64 = 2.0;
+/// From a place to where its wheels may stand.
+const BESIDE_M: f64 = 0.5;
 
 /// So many points to each side of a place are looked at, so far apart. A small rise hides fewer than this share of them.
 const HOLE_LOOKS: i32 = 3;
@@ -55,8 +60,33 @@ impl Ground {
         self.views.push_back(View { tick, sensor_m, up });
     }
 
+    /// Whether there is nothing under a wheel at a place, as it would have been seen from the side of `here_m`, or the ground drops off
+    /// there. What `was_missing` stays so while no returns come from it.
+    pub(super) fn lacks_ground(&self, place_m: DVec2, here_m: DVec2, was_missing: bool) -> bool {
+        (was_missing || self.would_be_seen(place_m, here_m)) && self.lacks_returns_beside(place_m)
+            || self.has_drop(place_m, (place_m - here_m).normalize_or_zero())
+    }
+
+    /// Whether ground that went on at a place near the robot, as it lies on the robot's side of it, would have been seen.
+    fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool {
+        let before = |from_place: DVec2| from_place.dot(here_m - place_m) > 0.0;
+        let plane = || {
+            FOOTPRINT_RADII_M
+                .iter()
+                .find_map(|&radius_m| self.moments_near(place_m, radius_m, before).plane())
+        };
+        (place_m - here_m).length() < BY_NOW_SEEN_M
+            && plane().is_some_and(|plane| self.was_in_view(place_m, &plane))
+    }
+
+    /// Whether no return comes from most of the ground at a place or beside it.
+    fn lacks_returns_beside(&self, place_m: DVec2) -> bool {
+        let sides = [-BESIDE_M, 0.0, BESIDE_M];
+        sides.into_iter().any(|y| sides.into_iter().any(|x| self.lacks_returns(place_m + DVec2::new(x, y))))
+    }
+
     /// Whether no return comes from most of the ground around a place.
-    pub(super) fn lacks_returns(&self, place_m: DVec2) -> bool {
+    fn lacks_returns(&self, place_m: DVec2) -> bool {
         let looks = (-HOLE_LOOKS..=HOLE_LOOKS)
             .flat_map(|y| (-HOLE_LOOKS..=HOLE_LOOKS).map(move |x| DVec2::new(f64::from(x), f64::from(y))));
         let (mut unseen, mut count) = (0, 0);
@@ -69,18 +99,21 @@ impl Ground {
 
     /// Whether the ground around a place drops off in the direction of the unit vector `away`: between two returns it is somewhere as
     /// steep as the line through both.
-    pub(super) fn has_drop(&self, place_m: DVec2, away: DVec2) -> bool {
-        self.cells_near(place_m, DROP_RADIUS_M).any(|high| {
-            self.cells_near(place_m, DROP_RADIUS_M).any(|low| {
-                let drop = high.mean_m - low.mean_m;
-                let distance_m = drop.truncate().length();
-                drop.z > LEAST_DROP_M && drop.z > DROP_SLOPE * distance_m && drop.truncate().dot(away) < 0.0
+    fn has_drop(&self, place_m: DVec2, away: DVec2) -> bool {
+        let near = || self.cells_near(place_m, DROP_RADIUS_M).map(|cell| cell.mean_m);
+        let lowest_m = near().map(|mean_m| mean_m.z).fold(f64::INFINITY, f64::min);
+        near().filter(|high_m| high_m.z - lowest_m > LEAST_DROP_M).any(|high_m| {
+            near().map(|low_m| high_m - low_m).any(|drop_m| {
+                let across_m = drop_m.truncate();
+                drop_m.z > LEAST_DROP_M
+                    && drop_m.z > DROP_SLOPE * across_m.length()
+                    && across_m.dot(away) < 0.0
             })
         })
     }
 
     /// Whether ground with this plane would have been seen at a place, while it was not too near.
-    pub(super) fn was_in_view(&self, place_m: DVec2, plane: &Plane) -> bool {
+    fn was_in_view(&self, place_m: DVec2, plane: &Plane) -> bool {
         self.views.iter().filter(|view| view.holds(place_m.extend(plane.height_m), plane)).count()
             >= FEWEST_VIEWS
     }
@@ -104,7 +137,6 @@ impl View {
 mod tests {
     use super::*;
     use crate::config::PlannerConfig;
-    use crate::ground::SeenGround;
     use crate::testing::strewn;
 
     const AHEAD_M: DVec2 = DVec2::new(2.0, 0.0);

@@ -76,8 +76,6 @@ const TIGHT_SHARE: f64 = 0.5;
 const TIGHT_RISK: f64 = 2.0;
 /// A slope with a larger standard deviation is a guess.
 const GUESS_DEVIATION: f64 = 0.15;
-/// What is as near as this to the robot and was in view was seen under all wheels, or it is not there.
-const BY_NOW_SEEN_M: f64 = 2.0;
 /// Standard deviation of a slope between wheels under which returns were averaged.
 const WHEELS_DEVIATION: f64 = 0.05;
 
@@ -179,8 +177,7 @@ impl Footing {
         let cells = here_m / self.config.step_m;
         self.centre = IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5));
         self.looks = (self.looks + 1) % LOOKS;
-        let (half, reach, step_m) = (self.half, self.half * self.half, self.config.step_m);
-        let around = |place_m: DVec2| around(IVec2::ZERO).map(move |step| place_m + step.as_dvec2() * step_m);
+        let (half, reach) = (self.half, self.half * self.half);
         for y in -half..=half {
             for x in -half..=half {
                 let offset = IVec2::new(x, y);
@@ -197,14 +194,9 @@ impl Footing {
                         DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
                     });
                     let was_missing = self.planes[slot].index == world && self.planes[slot].is_missing;
-                    let would_be_seen = || {
-                        (place_m - here_m).length() < BY_NOW_SEEN_M && ground.would_be_seen(place_m, here_m)
-                    };
                     let is_missing = self.config.avoids_edges
                         && on_wheels.iter().any(Option::is_none)
-                        && ((was_missing || would_be_seen())
-                            && around(place_m).any(|near_m| ground.is_hole(near_m))
-                            || ground.drops_away(place_m, here_m));
+                        && ground.is_missing(place_m, here_m, was_missing);
                     self.planes[slot] = Known { index: world, plane, on_wheels, is_missing };
                 }
             }
@@ -332,10 +324,7 @@ impl Footing {
     /// Whether what was seen ends at a place: at the border of the lattice, or with nothing known of a place beside it.
     pub(crate) fn is_frontier(&self, offset: IVec2) -> bool {
         let inner = self.half - HORIZON;
-        offset.length_squared() > inner * inner || {
-            let beside = (-1..=1).flat_map(|y| (-1..=1).map(move |x| offset + IVec2::new(x, y)));
-            beside.into_iter().any(|place| self.plane(place).is_none())
-        }
+        offset.length_squared() > inner * inner || around(offset).any(|place| self.plane(place).is_none())
     }
 
     /// Where a place lies in the world, seen from above.
