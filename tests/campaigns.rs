@@ -291,14 +291,11 @@ fn a_report_is_the_same_twice_and_names_every_route() {
             .replace("to = 6", "to = 1"),
     );
     folder.trials(&["--out", "out"]);
-    let report = |out: &str| -> Vec<(PathBuf, String)> {
+    let report = |out: &str| -> Vec<(PathBuf, Vec<u8>)> {
         let output = folder.command(&["report", "out", "--out", out]).output().unwrap();
         assert!(output.status.success(), "{output:?}");
         let files = String::from_utf8(output.stdout).unwrap();
-        files
-            .lines()
-            .map(|file| (PathBuf::from(file), fs::read_to_string(folder.path(file)).unwrap()))
-            .collect()
+        files.lines().map(|file| (PathBuf::from(file), fs::read(folder.path(file)).unwrap())).collect()
     };
     let (first, second) = (report("docs"), report("again"));
     assert_eq!(first.len(), second.len());
@@ -306,29 +303,47 @@ fn a_report_is_the_same_twice_and_names_every_route() {
         assert_eq!(path.file_name(), other.file_name());
         assert!(text == again, "{} differs", path.display());
     }
-    let text = &first.iter().find(|(path, _)| path.ends_with("RESULTS.md")).unwrap().1;
+    let text = |name: &str| {
+        let (_, bytes) = first.iter().find(|(path, _)| path.ends_with(name)).unwrap();
+        str::from_utf8(bytes).unwrap()
+    };
+    let success = "| `default` | 2 of 2 (34–100 %) |";
+    let index = text("RESULTS.md");
+    assert!(index.contains("## [Campaign `small`](results/small.md)") && index.contains(success), "{index}");
+    assert_eq!(
+        fs::read(folder.path("out/trials.parquet")).unwrap(),
+        fs::read(folder.path("docs/results/small.parquet")).unwrap()
+    );
+    let page = text("small.md");
     for needle in [
-        "## Campaign `small`",
+        "# Campaign `small`",
+        success,
+        "(small.parquet)",
         "| cht-ad |",
         "west",
         "| AD (cht-ad) | *published: VGF* | | *46.6* |",
         "| AD (cht-ad) | `default` | 1 of 1 (21–100 %) | ",
         "`default` against the published numbers of VGF, on 1 route:",
-        "### Against the shortest safe path",
-        "#### `planner.decision.steepness_weight`",
+        "## Against the shortest safe path",
+        "### `planner.decision.steepness_weight`",
         "| `default` | **1.0** | ",
         "| `paper` | 0.7 | ",
         "mapless trials small.toml --only ",
     ] {
-        assert!(text.contains(needle), "not in the report: {needle}\n{text}");
+        assert!(page.contains(needle), "not in the report: {needle}\n{page}");
     }
     // Every figure that the report shows is there, and is a picture.
-    let figures: Vec<&str> =
-        text.split("](results/").skip(1).map(|rest| rest.split(')').next().unwrap()).collect();
-    assert_eq!(figures.len(), 1 + 2 + 3 + 2, "{figures:?}");
-    assert_eq!(figures.len() + 1, first.len());
+    let figures: Vec<&str> = page
+        .split("](")
+        .skip(1)
+        .map(|rest| rest.split(')').next().unwrap())
+        .filter(|file| file.ends_with(".svg"))
+        .collect();
+    assert_eq!(figures.len(), 2 + 3 + 2, "{figures:?}");
+    // With the page, the index, its figure and the rows.
+    assert_eq!(figures.len() + 4, first.len());
     for figure in figures {
-        let svg = &first.iter().find(|(path, _)| path.ends_with(figure)).unwrap().1;
+        let svg = text(figure);
         assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n") && !svg.contains("NaN"), "{figure}");
     }
     let error = folder.refused(&["report", "routes"]);

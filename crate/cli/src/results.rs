@@ -10,7 +10,7 @@ pub(crate) struct Args {
     /// Folders of finished campaigns, as `mapless trials --out` has them.
     #[arg(required = true, value_name = "DIR")]
     campaigns: Vec<PathBuf>,
-    /// Write RESULTS.md and the folder results/ with its figures here.
+    /// Write RESULTS.md here and the campaigns' pages, figures and rows to its folder results/; pages of other campaigns stay.
     #[arg(long, value_name = "DIR", default_value = "docs")]
     out: PathBuf,
 }

@@ -52,7 +52,7 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 200)]
         poses: usize,
     },
-    /// Run campaigns of terrains/campaigns, or what is left of them, and write docs/RESULTS.md with its figures.
+    /// Run campaigns of terrains/campaigns, or what is left of them, and write their pages in docs/results and docs/RESULTS.md.
     Results {
         /// Campaigns by name, in the order of the report; paper, generated, faults and ablation when absent.
         campaigns: Vec<String>,

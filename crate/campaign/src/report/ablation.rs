@@ -42,7 +42,7 @@ pub(super) fn section(text: &mut String, results: &Results, figures: &mut Figure
     if !alone.is_empty() {
         writeln!(
             text,
-            "\n### What the parameters buy\n\nThe same trials again, with one parameter set to another value than the planner's own. Each value is compared \
+            "\n## What the parameters buy\n\nThe same trials again, with one parameter set to another value than the planner's own. Each value is compared \
              with the planner's own over the trials that reach with both, so that none gains by failing where it is hard. A change of a metric is named \
              where a sign test over these trials lets less than {:.0} % to chance, and differences below {:.1} % count for neither side; of many comparisons a few are named by chance all the same.\n",
             100.0 * CHANCE,
@@ -82,7 +82,7 @@ fn heading(text: &mut String, first: &str) -> fmt::Result {
 
 /// A table and a figure of one parameter.
 fn parameter(text: &mut String, results: &Results, figures: &mut Figures, path: &str) -> fmt::Result {
-    writeln!(text, "\n#### `{path}`\n")?;
+    writeln!(text, "\n### `{path}`\n")?;
     if let Some(purpose) = purpose(path) {
         write!(text, "{purpose} ")?;
     }
@@ -260,7 +260,7 @@ fn own_value(row: &TrialRow, path: &str) -> Option<String> {
 }
 
 fn combinations(text: &mut String, rows: &[&TrialRow]) -> fmt::Result {
-    writeln!(text, "\n#### Combinations")?;
+    writeln!(text, "\n### Combinations")?;
     heading(text, "parameters")?;
     let mut groups: BTreeMap<(&str, &str), Vec<&TrialRow>> = BTreeMap::new();
     for row in rows {

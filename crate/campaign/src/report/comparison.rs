@@ -32,37 +32,60 @@ impl Contest {
     }
 }
 
-/// What the first planner does better and worse than the paper says of its own and than the other planners here.
-pub(super) fn sentences(text: &mut String, results: &Results, published: &[PublishedRow]) -> fmt::Result {
-    writeln!(text, "\n### Where it wins, where it loses\n")?;
-    let planners = &results.manifest.planners;
+/// Where the first planner wins, where it loses, and how it fails.
+pub(super) fn of_the_first(text: &mut String, results: &Results, published: &[PublishedRow]) -> fmt::Result {
+    let Some((first, others)) = results.manifest.planners.split_first() else { return Ok(()) };
+    writeln!(text, "\nWhere `{first}` wins, where it loses:\n")?;
+    against_published(text, results, published, first)?;
     let groups = results.groups();
-    let are_published = published.iter().any(|row| groups.contains(&row.route.as_str()));
-    for planner in planners.iter().filter(|_| are_published) {
-        for (method, name) in [
-            ("paper", "the published numbers of the paper's method"),
-            ("VGF", "the published numbers of VGF"),
-        ] {
-            let pairs = (published.iter().filter(|row| row.method == method)).filter_map(|row| {
-                let ours = results.of(planner, groups.iter().find(|group| **group == row.route)?);
-                Some((means(&ours), row.mean.map(Some)))
-            });
-            writeln!(text, "{}", against(planner, name, &contests(pairs)))?;
-        }
-    }
-    let Some((first, others)) = planners.split_first() else { return Ok(()) };
-    let all =
-        |planner: &str| -> Vec<&TrialRow> { results.plain().filter(|row| row.planner == planner).collect() };
     for other in others {
         let pairs =
             groups.iter().map(|group| (means(&results.of(first, group)), means(&results.of(other, group))));
         writeln!(text, "{}", against(first, &format!("`{other}`"), &contests(pairs)))?;
-        writeln!(text, "{}", successes([first, other], [&all(first), &all(other)]))?;
+        writeln!(text, "{}", successes([first, other], [&all_of(results, first), &all_of(results, other)]))?;
     }
-    for planner in planners {
-        writeln!(text, "{}", why(results, planner, &all(planner)))?;
+    writeln!(text, "{}", why(results, first))
+}
+
+/// The same of the other planners, beside the paper alone.
+pub(super) fn of_the_others(text: &mut String, results: &Results, published: &[PublishedRow]) -> fmt::Result {
+    let others = results.manifest.planners.get(1..).unwrap_or_default();
+    if others.is_empty() {
+        return Ok(());
+    }
+    writeln!(text, "\n## The other planners\n")?;
+    for planner in others {
+        against_published(text, results, published, planner)?;
+        writeln!(text, "{}", why(results, planner))?;
     }
     Ok(())
+}
+
+/// A planner against the numbers that the paper gives of both methods, where the routes are the paper's.
+fn against_published(
+    text: &mut String,
+    results: &Results,
+    published: &[PublishedRow],
+    planner: &str,
+) -> fmt::Result {
+    let groups = results.groups();
+    if !published.iter().any(|row| groups.contains(&row.route.as_str())) {
+        return Ok(());
+    }
+    for (method, name) in
+        [("paper", "the published numbers of the paper's method"), ("VGF", "the published numbers of VGF")]
+    {
+        let pairs = (published.iter().filter(|row| row.method == method)).filter_map(|row| {
+            let ours = results.of(planner, groups.iter().find(|group| **group == row.route)?);
+            Some((means(&ours), row.mean.map(Some)))
+        });
+        writeln!(text, "{}", against(planner, name, &contests(pairs)))?;
+    }
+    Ok(())
+}
+
+fn all_of<'a>(results: &'a Results, planner: &str) -> Vec<&'a TrialRow> {
+    results.plain().filter(|row| row.planner == planner).collect()
 }
 
 fn means(rows: &[&TrialRow]) -> [Option<f64>; 6] {
@@ -127,7 +150,8 @@ fn successes([one, other]: [&str; 2], [ones, others]: [&[&TrialRow]; 2]) -> Stri
 }
 
 /// How the planner fails, and where most.
-fn why(results: &Results, planner: &str, rows: &[&TrialRow]) -> String {
+fn why(results: &Results, planner: &str) -> String {
+    let rows = all_of(results, planner);
     let failed: Vec<&&TrialRow> = rows.iter().filter(|row| !row.has_reached()).collect();
     if failed.is_empty() {
         return format!("- `{planner}` fails nowhere here.");
@@ -147,7 +171,7 @@ fn why(results: &Results, planner: &str, rows: &[&TrialRow]) -> String {
         "- `{planner}` fails in {} of {} trials: {}; most on {}.",
         failed.len(),
         rows.len(),
-        failures(rows),
+        failures(&rows),
         most.join(", ")
     )
 }
@@ -164,7 +188,7 @@ mod tests {
             let rows =
                 vec![row("default", route, "none", 1, "reached"), row("default", route, "none", 2, "stuck")];
             let mut text = String::new();
-            sentences(&mut text, &results(&["default"], &[route], rows), &published().unwrap()).unwrap();
+            of_the_first(&mut text, &results(&["default"], &[route], rows), &published().unwrap()).unwrap();
             text
         };
         assert!(text_of("ml").contains("the published numbers of the paper's method"));

@@ -14,7 +14,7 @@ const TIMES: [f64; 6] = [1.5, 3.0, 6.0, 12.0, 24.0, MOST_STRAIGHT_TIMES];
 pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     writeln!(
         text,
-        "\n### How soon\n\nPer cent of the trials that reached within a minute and so many times what the straight way takes at full speed; \
+        "\n## How soon\n\nPer cent of the trials that reached within a minute and so many times what the straight way takes at full speed; \
          after {MOST_STRAIGHT_TIMES} times that a trial ends, as `timeout`.\n"
     )?;
     let headings: Vec<String> = TIMES.iter().map(|times| format!(" {times} × |")).collect();

@@ -72,7 +72,7 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     }
     write!(
         text,
-        "\n### Where failures come from\n\nThe same trials again, with the planner told the truth: the elevation profile in place of what it makes of a scan, \
+        "\n## Where failures come from\n\nThe same trials again, with the planner told the truth: the elevation profile in place of what it makes of a scan, \
          the ground in place of the returns that it remembers, or both. A failure that goes away is put down to what the truth stood in for, one \
          that stays whatever is told to decision or control"
     )?;

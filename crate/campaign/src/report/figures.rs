@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use glam::DVec2;
-use mapless::cost::steepness_cost;
+use mapless::cost;
 use mapless_figures::FigureError;
 use mapless_figures::map::Map;
 use mapless_figures::marks;
@@ -13,7 +13,7 @@ use mapless_figures::scale::ticks;
 use mapless_trials::LoadedScenario;
 
 use super::trajectory::{self, State};
-use super::{FIGURES, MOST_ROUTES, Results};
+use super::{MOST_ROUTES, Results};
 use crate::error::CampaignError;
 use crate::results::{ManifestRoute, TrialRow, trajectory_path};
 
@@ -43,78 +43,9 @@ struct Drive<'a> {
 impl Figures {
     /// Keeps a figure; gives the words that show it.
     pub(super) fn add(&mut self, file: String, title: &str, svg: String) -> String {
-        let words = format!("![{title}]({FIGURES}/{file})");
+        let words = format!("![{title}]({file})");
         self.drawn.push((file, svg));
         words
-    }
-
-    /// The paper's figure of C_stp over pitch and height.
-    pub(super) fn steepness_cost(&mut self, text: &mut String) -> Result<(), FigureError> {
-        const SIDE: u32 = 241;
-        const MOST_PITCH_RAD: f64 = 0.785;
-        const MOST_RISE_M: f64 = 2.0;
-        let (place, size) = (DVec2::new(64.0, 62.0), DVec2::splat(440.0));
-        let across = |share: f64, most: f64| (2.0 * share - 1.0) * most;
-        let most = steepness_cost(MOST_RISE_M, MOST_PITCH_RAD);
-        let mut rgb = Vec::new();
-        for row in 0..SIDE {
-            for column in 0..SIDE {
-                let share = |index: u32| f64::from(index) / f64::from(SIDE - 1);
-                let pitch_rad = across(share(column), MOST_PITCH_RAD);
-                let rise_m = -across(share(row), MOST_RISE_M);
-                rgb.extend(heat(steepness_cost(rise_m, pitch_rad) / most));
-            }
-        }
-        let mut svg = String::new();
-        let title = "Steepness cost C_stp = dz² + exp(sign(ψ) dz) |ψ|";
-        let subtitle = "pitch ψ nose-up positive, dz the subgoal's height over the robot's";
-        page::begin(&mut svg, DVec2::new(640.0, 568.0), place.x, title, subtitle)?;
-        embed(&mut svg, place, size, &page::png(SIDE, SIDE, &rgb)?)?;
-        let (right, bottom) = (place.x + size.x, place.y + size.y);
-        for pitch_rad in ticks(-MOST_PITCH_RAD, MOST_PITCH_RAD, 0.2) {
-            let x = place.x + size.x * (pitch_rad / MOST_PITCH_RAD + 1.0) / 2.0;
-            writeln!(
-                svg,
-                r#"<path stroke="{INK}" d="M{x:.1} {bottom}v5"/><text x="{x:.1}" y="{}" text-anchor="middle">{pitch_rad}</text>"#,
-                bottom + 19.0
-            )?;
-        }
-        for rise_m in ticks(-MOST_RISE_M, MOST_RISE_M, 0.5) {
-            let y = place.y + size.y * (1.0 - rise_m / MOST_RISE_M) / 2.0;
-            writeln!(
-                svg,
-                r#"<path stroke="{INK}" d="M{} {y:.1}h-5"/><text x="{}" y="{:.1}" text-anchor="end">{rise_m}</text>"#,
-                place.x,
-                place.x - 9.0,
-                y + 4.5
-            )?;
-        }
-        let middle = place + size / 2.0;
-        writeln!(
-            svg,
-            r#"<text x="{}" y="{}" text-anchor="middle">pitch ψ (rad)</text>"#,
-            middle.x,
-            bottom + 38.0
-        )?;
-        writeln!(
-            svg,
-            r#"<text transform="translate(18 {}) rotate(-90)" text-anchor="middle">dz (m)</text>"#,
-            middle.y
-        )?;
-        let bar = ColourBar {
-            id: "cost",
-            label: "C_stp",
-            place: DVec2::new(right + 20.0, place.y),
-            height: size.y,
-            range: (0.0, most),
-            ticks: 6.0,
-        };
-        bar.draw(&mut svg, heat)?;
-        svg.push_str("</svg>\n");
-        let words =
-            self.add("steepness-cost.svg".to_owned(), "The steepness cost over pitch and height", svg);
-        writeln!(text, "{words}")?;
-        Ok(())
     }
 
     /// The paths of every route that has some, and the attitude along one; gives the words that show them.
@@ -141,11 +72,11 @@ impl Figures {
             }
         }
         if let Some((route, drives)) = with_attitude {
-            text.push_str(&format!("\n### Attitude along {}\n\nThe first seed, over time.\n", route.name));
+            text.push_str(&format!("\n## Attitude along {}\n\nThe first seed, over time.\n", route.name));
             self.attitude(&mut text, &results.manifest.name, &route.name, &drives);
         }
         if !text.is_empty() {
-            text.insert_str(0, "\n### Paths\n\nThe first seed's path of every planner over the elevation.\n");
+            text.insert_str(0, "\n## Paths\n\nThe first seed's path of every planner over the elevation.\n");
         }
         Ok(text)
     }
@@ -180,6 +111,72 @@ impl Figures {
             text.push_str(&format!("\n{words}\n"));
         }
     }
+}
+
+/// The paper's figure of C_stp over pitch and height, with its file's name.
+pub(super) fn steepness_cost() -> Result<(&'static str, String), FigureError> {
+    const SIDE: u32 = 241;
+    const MOST_PITCH_RAD: f64 = 0.785;
+    const MOST_RISE_M: f64 = 2.0;
+    let (place, size) = (DVec2::new(64.0, 62.0), DVec2::splat(440.0));
+    let across = |share: f64, most: f64| (2.0 * share - 1.0) * most;
+    let most = cost::steepness_cost(MOST_RISE_M, MOST_PITCH_RAD);
+    let mut rgb = Vec::new();
+    for row in 0..SIDE {
+        for column in 0..SIDE {
+            let share = |index: u32| f64::from(index) / f64::from(SIDE - 1);
+            let pitch_rad = across(share(column), MOST_PITCH_RAD);
+            let rise_m = -across(share(row), MOST_RISE_M);
+            rgb.extend(heat(cost::steepness_cost(rise_m, pitch_rad) / most));
+        }
+    }
+    let mut svg = String::new();
+    let title = "Steepness cost C_stp = dz² + exp(sign(ψ) dz) |ψ|";
+    let subtitle = "pitch ψ nose-up positive, dz the subgoal's height over the robot's";
+    page::begin(&mut svg, DVec2::new(640.0, 568.0), place.x, title, subtitle)?;
+    embed(&mut svg, place, size, &page::png(SIDE, SIDE, &rgb)?)?;
+    let (right, bottom) = (place.x + size.x, place.y + size.y);
+    for pitch_rad in ticks(-MOST_PITCH_RAD, MOST_PITCH_RAD, 0.2) {
+        let x = place.x + size.x * (pitch_rad / MOST_PITCH_RAD + 1.0) / 2.0;
+        writeln!(
+            svg,
+            r#"<path stroke="{INK}" d="M{x:.1} {bottom}v5"/><text x="{x:.1}" y="{}" text-anchor="middle">{pitch_rad}</text>"#,
+            bottom + 19.0
+        )?;
+    }
+    for rise_m in ticks(-MOST_RISE_M, MOST_RISE_M, 0.5) {
+        let y = place.y + size.y * (1.0 - rise_m / MOST_RISE_M) / 2.0;
+        writeln!(
+            svg,
+            r#"<path stroke="{INK}" d="M{} {y:.1}h-5"/><text x="{}" y="{:.1}" text-anchor="end">{rise_m}</text>"#,
+            place.x,
+            place.x - 9.0,
+            y + 4.5
+        )?;
+    }
+    let middle = place + size / 2.0;
+    writeln!(
+        svg,
+        r#"<text x="{}" y="{}" text-anchor="middle">pitch ψ (rad)</text>"#,
+        middle.x,
+        bottom + 38.0
+    )?;
+    writeln!(
+        svg,
+        r#"<text transform="translate(18 {}) rotate(-90)" text-anchor="middle">dz (m)</text>"#,
+        middle.y
+    )?;
+    let bar = ColourBar {
+        id: "cost",
+        label: "C_stp",
+        place: DVec2::new(right + 20.0, place.y),
+        height: size.y,
+        range: (0.0, most),
+        ticks: 6.0,
+    };
+    bar.draw(&mut svg, heat)?;
+    svg.push_str("</svg>\n");
+    Ok(("steepness-cost.svg", svg))
 }
 
 /// The kept trajectories of the planners as they are, in the campaign's order of planners.

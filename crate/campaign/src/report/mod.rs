@@ -1,4 +1,4 @@
-//! The report of one or several campaigns: `RESULTS.md` and its figures. The same campaigns give the same bytes.
+//! The report of campaigns: a page for each with its figures and rows, and `RESULTS.md` that shows how every page begins. The same campaigns give the same bytes.
 
 mod ablation;
 mod comparison;
@@ -13,7 +13,7 @@ mod trajectory;
 mod worst;
 
 use std::collections::BTreeMap;
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::error::CampaignError;
@@ -22,12 +22,17 @@ use crate::results::{Manifest, TrialRow};
 use mapless_trials::statistics as stats;
 use mapless_world::generate::Difficulty;
 
-/// The figures stand in a folder of this name beside the report.
-const FIGURES: &str = "results";
+/// Pages, figures and rows stand in a folder of this name beside `RESULTS.md`.
+const PAGES: &str = "results";
 /// A rate of at least so many trials has a decimal.
 const MANY_TRIALS: usize = 200;
 /// With more routes than this, a table has one row for all routes whose names begin alike.
-const MOST_ROUTES: usize = 20;
+const MOST_ROUTES: usize = 12;
+
+const INTRODUCTION: &str = "A trial counts as reached when the robot arrives with |roll| and |pitch| within their limits all the way, as in the paper. \
+    Rates have Wilson's 95 % interval. Metrics are the paper's, mean ± standard deviation over the trials that reached; lower is better in all of them. \
+    The paper's numbers come from its own terrains in Gazebo, of which ours are models: they say how a method does among its kind, not which of two \
+    methods on different ground is better. Below stands, for each campaign, how many trials reached and where its first planner wins and loses; its page has the rest.";
 
 /// A metric of the paper: what it is called, its decimals, and where it stands.
 struct Metric {
@@ -139,63 +144,91 @@ impl TrialRow {
     }
 }
 
-/// Writes the report of the finished campaigns in `folders` to `RESULTS.md` in `out`; gives the files written.
+/// Writes a page for each finished campaign in `folders` to the folder `results` in `out`, with its figures and its rows beside it, and renews
+/// `RESULTS.md` in `out`, which also shows the pages that were written before; gives the files written.
 ///
 /// # Errors
 /// [`CampaignError`] when a campaign has not finished, a scenario that a figure shows is no longer there, or `out` cannot be
 /// written.
 pub fn write(folders: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, CampaignError> {
-    let mut campaigns = Vec::new();
+    let pages = out.join(PAGES);
+    std::fs::create_dir_all(&pages).map_err(|error| CampaignError::write(&pages, error))?;
+    let published = published::published()?;
+    let mut written = Vec::new();
+    let mut keep = |path: PathBuf, bytes: &[u8]| {
+        write_atomically(&path, bytes)?;
+        written.push(path);
+        Ok::<(), CampaignError>(())
+    };
     for folder in folders {
         let (manifest, rows) = Manifest::read(folder)?;
-        campaigns.push(Results { folder: folder.clone(), manifest, rows });
+        let results = Results { folder: folder.clone(), manifest, rows };
+        let name = &results.manifest.name;
+        let path = pages.join(format!("{name}.md"));
+        let (text, figures) = page(&results, &published, &path)?;
+        for (name, svg) in figures {
+            keep(pages.join(name), svg.as_bytes())?;
+        }
+        let rows = folder.join("trials.parquet");
+        let bytes = std::fs::read(&rows).map_err(|error| CampaignError::read(&rows, error))?;
+        keep(pages.join(rows_file(name)), &bytes)?;
+        keep(path, text.as_bytes())?;
     }
-    let figures_folder = out.join(FIGURES);
-    std::fs::create_dir_all(&figures_folder).map_err(|error| CampaignError::write(&figures_folder, error))?;
-    let mut figures = figures::Figures::default();
     let path = out.join("RESULTS.md");
-    let published = published::published()?;
-    let mut text = String::from("# Results\n\nWritten by `mapless report`. ");
-    introduction(&mut text).map_err(|error| CampaignError::write(&path, error))?;
-    contents(&mut text, &campaigns).map_err(|error| CampaignError::write(&path, error))?;
-    figures.steepness_cost(&mut text).map_err(|error| CampaignError::write(&path, error))?;
-    for results in &campaigns {
-        let maps = figures.maps(results)?;
-        chapter(&mut text, results, &published, &mut figures, &maps)
-            .map_err(|error| CampaignError::write(&path, error))?;
-    }
-    let mut written = Vec::new();
-    for (name, svg) in figures.drawn {
-        let path = figures_folder.join(name);
-        write_atomically(&path, svg.as_bytes())?;
-        written.push(path);
-    }
-    write_atomically(&path, text.as_bytes())?;
-    written.push(path);
+    let (figure, svg) = figures::steepness_cost().map_err(|error| CampaignError::write(&path, error))?;
+    keep(pages.join(figure), svg.as_bytes())?;
+    let text = index(&pages, figure)?;
+    keep(path, text.as_bytes())?;
     Ok(written)
 }
 
-fn introduction(text: &mut String) -> fmt::Result {
-    writeln!(
-        text,
-        "A trial counts as reached when the robot arrives with |roll| and |pitch| within their limits all the way, \
-         as in the paper. Rates have Wilson's 95 % interval. Metrics are the paper's, mean ± standard deviation over the trials that \
-         reached; lower is better in all of them. The paper's numbers come from its own terrains in Gazebo, of which ours are models: \
-         they say how a method does among its kind, not which of two methods on different ground is better.\n"
-    )
-}
-
-/// A line for each campaign.
-fn contents(text: &mut String, campaigns: &[Results]) -> fmt::Result {
-    for results in campaigns {
-        let name = &results.manifest.name;
-        let question = results.question().map_or_else(String::new, |question| format!("{question}; "));
-        writeln!(text, "- [Campaign `{name}`](#campaign-{name}): {question}{}", results.size())?;
+/// `RESULTS.md`: how every page in the folder begins, in the order of their names.
+fn index(pages: &Path, figure: &str) -> Result<String, CampaignError> {
+    let files = std::fs::read_dir(pages).map_err(|error| CampaignError::read(pages, error))?;
+    let files = files.map(|file| Ok(file?.path())).collect::<std::io::Result<Vec<PathBuf>>>();
+    let mut files = files.map_err(|error| CampaignError::read(pages, error))?;
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "md"));
+    files.sort_unstable();
+    let mut text = format!("# Results\n\nWritten by `mapless report`. {INTRODUCTION}\n");
+    for file in files {
+        let page = std::fs::read_to_string(&file).map_err(|error| CampaignError::read(&file, error))?;
+        let beginning = page.split("\n## ").next().unwrap_or_default();
+        let Some((title, summary)) = beginning.strip_prefix("# ").and_then(|rest| rest.split_once('\n'))
+        else {
+            return Err(CampaignError::content(
+                &file,
+                "expected a page that begins with its title, as `mapless report` writes it",
+            ));
+        };
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        text.push_str(&format!("\n## [{title}]({PAGES}/{name})\n\n{}\n", summary.trim()));
     }
-    writeln!(text)
+    text.push_str(&format!(
+        "\n## The steepness cost\n\n![The steepness cost over pitch and height]({PAGES}/{figure})\n"
+    ));
+    Ok(text)
 }
 
-fn chapter(
+/// The file with a campaign's rows, beside its page.
+fn rows_file(name: &str) -> String {
+    format!("{name}.parquet")
+}
+
+/// A campaign's page, which is to stand at `path`, and its figures by file name.
+fn page(
+    results: &Results,
+    published: &[published::PublishedRow],
+    path: &Path,
+) -> Result<(String, Vec<(String, String)>), CampaignError> {
+    let mut figures = figures::Figures::default();
+    let maps = figures.maps(results)?;
+    let mut text = String::new();
+    sections(&mut text, results, published, &mut figures, &maps)
+        .map_err(|error| CampaignError::write(path, error))?;
+    Ok((text, figures.drawn))
+}
+
+fn sections(
     text: &mut String,
     results: &Results,
     published: &[published::PublishedRow],
@@ -203,13 +236,18 @@ fn chapter(
     maps: &str,
 ) -> Result<(), mapless_figures::FigureError> {
     let Manifest { name, hash, planners, .. } = &results.manifest;
-    writeln!(text, "\n## Campaign `{name}`\n")?;
-    writeln!(text, "{} trials: {}; identity `{hash}`.", results.rows.len(), results.size())?;
+    let question = results.question().map_or_else(String::new, |question| format!("{question}; "));
+    writeln!(text, "# Campaign `{name}`\n")?;
+    writeln!(text, "{} trials: {question}{}; identity `{hash}`.", results.rows.len(), results.size())?;
     tables::success(text, results)?;
-    duration::section(text, results)?;
     // One planner that is run again with something changed is compared with itself.
-    if planners.len() > 1 || results.question().is_none() {
-        comparison::sentences(text, results, published)?;
+    let compares = planners.len() > 1 || results.question().is_none();
+    if compares {
+        comparison::of_the_first(text, results, published)?;
+    }
+    duration::section(text, results)?;
+    if compares {
+        comparison::of_the_others(text, results, published)?;
         tables::metrics(text, results, published)?;
         spread::section(text, results, published)?;
         oracle::section(text, results)?;
@@ -218,6 +256,11 @@ fn chapter(
     ablation::section(text, results, figures)?;
     text.push_str(maps);
     worst::section(text, results)?;
+    let rows = rows_file(name);
+    writeln!(
+        text,
+        "\n## Every trial\n\n[`{rows}`]({rows}) has a row for each, with its outcome, metrics, digest and whole configuration."
+    )?;
     Ok(())
 }
 
@@ -272,12 +315,22 @@ mod tests {
         assert_eq!(campaign(&rows).size(), "1 planner, 2 routes, 1 seed");
         assert_eq!(campaign(&rows).question(), None);
         rows.push(row("default", "a", "both", 1, "reached"));
-        let mut text = String::new();
-        contents(&mut text, &[campaign(&rows)]).unwrap();
-        assert_eq!(
-            text,
-            "- [Campaign `test`](#campaign-test): where failures come from; 1 planner, 2 routes, 1 seed\n\n"
-        );
+        assert_eq!(campaign(&rows).question(), Some("where failures come from"));
+    }
+
+    #[test]
+    fn the_index_shows_how_every_page_begins() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        write("b.md", "# Campaign `b`\n\n2 trials.\n\n| table |\n\n## How soon\n\n## Rest\n");
+        write("a.md", "# Campaign `a`\n\n1 trial.\n");
+        write("a.svg", "no page");
+        let text = index(folder.path(), "cost.svg").unwrap();
+        let expected = "\n\n## [Campaign `a`](results/a.md)\n\n1 trial.\n\n## [Campaign `b`](results/b.md)\n\n2 trials.\n\n| table |\n\n## The steep";
+        assert!(text.contains(expected) && text.ends_with("(results/cost.svg)\n"), "{text}");
+        write("c.md", "notes");
+        let error = index(folder.path(), "cost.svg").unwrap_err().to_string();
+        assert!(error.contains("c.md") && error.contains("begins with its title"), "{error}");
     }
 
     #[test]

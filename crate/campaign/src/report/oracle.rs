@@ -7,7 +7,7 @@ use crate::results::TrialRow;
 
 /// SPL and the median ratio of lengths by planner, where shortest paths are known.
 pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
-    writeln!(text, "\n### Against the shortest safe path\n")?;
+    writeln!(text, "\n## Against the shortest safe path\n")?;
     if results.plain().all(|row| row.oracle_length_m.is_none()) {
         return writeln!(
             text,

@@ -20,7 +20,7 @@ pub(super) fn section(text: &mut String, results: &Results, published: &[Publish
     if rows.is_empty() {
         return Ok(());
     }
-    writeln!(text, "\n### Within the paper's spread\n")?;
+    writeln!(text, "\n## Within the paper's spread\n")?;
     writeln!(
         text,
         "Where the paper gives a standard deviation: whether our mean lies within its mean ± 2 sd.\n"

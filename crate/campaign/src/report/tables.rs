@@ -19,7 +19,7 @@ const TABLE_II: [(&str, &str); 2] = [("vta", "VTA"), ("ml", "ML")];
 
 /// How many trials reached, planner by planner.
 pub(super) fn success(text: &mut String, results: &Results) -> fmt::Result {
-    writeln!(text, "\n### Success\n")?;
+    writeln!(text)?;
     let groups = results.groups();
     let headings: Vec<String> = groups.iter().map(|group| format!(" {group} |")).collect();
     writeln!(text, "| planner | all (95 % interval) | failures |{}", headings.concat())?;
@@ -72,7 +72,7 @@ fn table(
         return Ok(());
     }
     let headings: Vec<String> = METRICS.iter().map(|metric| format!(" {} |", metric.heading)).collect();
-    writeln!(text, "\n### {title}\n\n| route | planner | reached |{}", headings.concat())?;
+    writeln!(text, "\n## {title}\n\n| route | planner | reached |{}", headings.concat())?;
     writeln!(text, "|---|---|---|{}", "---:|".repeat(METRICS.len()))?;
     for (route, shown) in routes {
         for row in published.iter().filter(|row| row.route == *route) {

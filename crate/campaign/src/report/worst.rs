@@ -21,7 +21,7 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
             .then_with(|| (&a.planner, &a.route, a.seed, &a.id).cmp(&(&b.planner, &b.route, b.seed, &b.id)))
     });
     let failed = rows.iter().filter(|(row, _)| !row.has_reached()).count();
-    writeln!(text, "\n### The worst trials\n")?;
+    writeln!(text, "\n## The worst trials\n")?;
     writeln!(
         text,
         "Failures first, then by the largest share of a tilt limit. The command runs a trial again and prints its digest; the page \
