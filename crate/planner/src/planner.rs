@@ -99,6 +99,8 @@ const FARTHEST_M: f64 = 1e6;
 const MOST_WAY_POINTS: usize = 256;
 /// What is known of dead ends is brought up to date when the robot has driven this far.
 const LEARN_SPACING_M: f64 = 0.5;
+/// On the way back it drives as fast as with this much left of it.
+const LEAST_BACK_M: f64 = 0.3;
 /// A robot that has lost its patience minds steep ground by this share.
 const IMPATIENT_SHARE: f64 = 0.25;
 /// What the robot cannot get to lies this much farther from the goal than it seemed, with the places around it.
@@ -354,7 +356,9 @@ impl Planner {
         if !self.retreat.is_on() {
             return false;
         }
-        let Some(back) = self.retreat.next(pose) else { return false };
+        let Some(back) = self.retreat.next(pose, |turn_rad| self.ways.safe_turn_rad(turn_rad)) else {
+            return false;
+        };
         self.looked_ticks = 0;
         self.last_bearing_rad = None;
         self.ways.stand();
@@ -371,7 +375,7 @@ impl Planner {
                 self.controller.slowed(Command { linear_m_s: 0.0, ..turning }, share)
             }
             Back::Drive { bearing_rad, reverse } => {
-                self.drive_along(length_m(&self.way), bearing_rad, reverse, share)
+                self.drive_along(length_m(&self.way).max(LEAST_BACK_M), bearing_rad, reverse, share)
             }
         };
         true
@@ -409,7 +413,7 @@ impl Planner {
         let ahead = self.ways.drive(&next);
         let bearing = bearing_rad(pose, ahead.position_m);
         let way_m = subgoal.forecast.map_or(0.0, |f| f.way_m);
-        let share = self.ways.share_ahead(&self.way);
+        let share = self.ways.share_ahead(&self.way, &ahead);
         self.drive_along(way_m, bearing, ahead.reverse, share)
     }
 

@@ -22,6 +22,10 @@ const NEIGHBOURS: usize = 3;
 const RADIAN_M: f64 = 0.5;
 /// A stance this near is turned to, one farther away driven to; steering no more than this, so as not to turn where it drove straight.
 const TURN_M: f64 = 0.08;
+/// Where it may not turn from there, it drives on until it is this near.
+const THERE_M: f64 = 0.03;
+/// A smaller part of a turn is not worth while.
+const LEAST_TURN_RAD: f64 = 0.1;
 const MOST_STEERING_RAD: f64 = 0.4;
 /// A robot that is farther from where it last was did not drive there.
 const JUMP_M: f64 = 1.0;
@@ -127,29 +131,41 @@ impl Retreat {
         Some(came.normalize())
     }
 
-    /// The next move on the way back; `None`, and the end of it, when there is none left. Where the trail begins stays known.
-    pub(crate) fn next(&mut self, pose: &Pose) -> Option<Back> {
+    /// The next move on the way back; `None`, and the end of it, when there is none left. Where the trail begins stays known. Beside where it
+    /// stood a turn may be too steep: `safe_turn_rad` says how much of one, anticlockwise, is not.
+    pub(crate) fn next(&mut self, pose: &Pose, safe_turn_rad: impl Fn(f64) -> f64) -> Option<Back> {
         let here = Stance::of(pose);
-        while let Some((last, before)) = self.trail.back().zip(self.trail.iter().nth_back(1)) {
-            let away_m = here.away_m(last);
-            if away_m > SAME_M && here.away_m(before) > away_m {
-                break;
+        loop {
+            while let Some((last, before)) = self.trail.back().zip(self.trail.iter().nth_back(1)) {
+                let away_m = here.away_m(last);
+                if away_m > SAME_M && here.away_m(before) > away_m {
+                    break;
+                }
+                self.trail.pop_back();
+            }
+            let left = self.trail.back().filter(|last| here.away_m(last) > SAME_M);
+            let Some(&Stance { place_m, yaw_rad }) = left else {
+                self.end();
+                return None;
+            };
+            let bearing = bearing_rad(pose, place_m);
+            let reverse = bearing.abs() > FRAC_PI_2;
+            let straight = if reverse { PI } else { 0.0 };
+            let away_m = (place_m - here.place_m).length();
+            if away_m >= TURN_M {
+                let steering = wrap_rad(bearing - straight).clamp(-MOST_STEERING_RAD, MOST_STEERING_RAD);
+                return Some(Back::Drive { bearing_rad: straight + safe_turn_rad(steering), reverse });
+            }
+            let turn_rad = wrap_rad(yaw_rad - pose.yaw_rad);
+            let by_rad = safe_turn_rad(turn_rad);
+            if by_rad.abs() >= turn_rad.abs().min(LEAST_TURN_RAD) {
+                return Some(Back::Turn { by_rad });
+            }
+            if (away_m * libm::cos(bearing)).abs() > THERE_M {
+                return Some(Back::Drive { bearing_rad: straight, reverse });
             }
             self.trail.pop_back();
         }
-        let left = self.trail.back().filter(|last| here.away_m(last) > SAME_M);
-        let Some(&Stance { place_m, yaw_rad }) = left else {
-            self.end();
-            return None;
-        };
-        if (place_m - here.place_m).length() < TURN_M {
-            return Some(Back::Turn { by_rad: wrap_rad(yaw_rad - pose.yaw_rad) });
-        }
-        let bearing = bearing_rad(pose, place_m);
-        let reverse = bearing.abs() > FRAC_PI_2;
-        let straight = if reverse { PI } else { 0.0 };
-        let steering = wrap_rad(bearing - straight).clamp(-MOST_STEERING_RAD, MOST_STEERING_RAD);
-        Some(Back::Drive { bearing_rad: straight + steering, reverse })
     }
 
     /// The places on the way back, the nearest first.
@@ -193,7 +209,7 @@ mod tests {
     fn go_back(retreat: &mut Retreat, pose: &mut Pose) -> Vec<Pose> {
         assert!(retreat.begin(pose.plan_m()).is_some());
         let mut poses = Vec::new();
-        while let Some(back) = retreat.next(pose) {
+        while let Some(back) = retreat.next(pose, |turn_rad| turn_rad) {
             let (speed_m_s, turn_rate_rad_s) = match back {
                 Back::Turn { by_rad } => (0.0, (5.0 * by_rad).clamp(-0.5, 0.5)),
                 Back::Drive { bearing_rad, reverse: true } => (-0.3, 2.0 * wrap_rad(bearing_rad - PI)),
@@ -235,6 +251,34 @@ mod tests {
     }
 
     #[test]
+    fn beside_where_it_stood_it_turns_no_farther_than_is_safe() {
+        // Ahead, a turn of a radian to the left, ahead; then back, but for the last 0.07 m.
+        let (mut retreat, mut robot) = driven(20);
+        for _ in 0..20 {
+            advance(&mut retreat, &mut robot, 0.0, 0.5);
+        }
+        for _ in 0..10 {
+            advance(&mut retreat, &mut robot, 0.5, 0.0);
+        }
+        assert!(retreat.begin(robot.plan_m()).is_some());
+        robot.position_m = DVec3::new(1.0, 0.0, 0.0) + 0.07 * DVec3::new(libm::cos(1.0), libm::sin(1.0), 0.0);
+        let part = |share: f64| move |turn_rad: f64| share * turn_rad;
+        let turn_rad = |back| if let Some(Back::Turn { by_rad }) = back { by_rad } else { f64::NAN };
+        let whole_rad = turn_rad(retreat.clone().next(&robot, part(1.0)));
+        assert!((-0.3..-0.1).contains(&whole_rad), "{whole_rad}");
+        assert!((turn_rad(retreat.clone().next(&robot, part(0.8))) - 0.8 * whole_rad).abs() < 1e-12);
+        // What is safe nowhere is tried where it stood, and then left out.
+        assert_eq!(retreat.next(&robot, part(0.0)), Some(Back::Drive { bearing_rad: PI, reverse: true }));
+        robot.position_m = DVec3::new(1.0, 0.0, 0.0);
+        let left_out = retreat.next(&robot, part(0.0));
+        assert!(
+            matches!(left_out, Some(Back::Drive { bearing_rad, .. }) if bearing_rad == PI),
+            "{left_out:?}"
+        );
+        assert!(retreat.way_back_m().next().unwrap().x < 0.95);
+    }
+
+    #[test]
     fn a_loop_is_left_out() {
         let (mut retreat, mut robot) = driven(20);
         let ticks = 120;
@@ -250,7 +294,10 @@ mod tests {
         let (mut retreat, mut robot) = driven(100);
         assert!((retreat.begin(robot.plan_m()).unwrap() - DVec2::X).length() < 1e-9);
         while !retreat.has_gone_far(robot.plan_m()) {
-            assert!(matches!(retreat.next(&robot), Some(Back::Drive { reverse: true, .. })));
+            assert!(matches!(
+                retreat.next(&robot, |turn_rad| turn_rad),
+                Some(Back::Drive { reverse: true, .. })
+            ));
             advance(&mut retreat, &mut robot, -0.5, 0.0);
         }
         retreat.end();

@@ -13,6 +13,7 @@ mod headings;
 mod queue;
 mod remaining;
 mod route;
+mod standing;
 #[cfg(test)]
 mod tests;
 
@@ -24,11 +25,11 @@ use crate::angle::wrap_rad;
 use crate::config::{ForecastConfig, TiltLimits};
 use crate::ground::SeenGround;
 use crate::pose::Pose;
-use crate::slopes::Slopes;
 use footing::{Caution, Footing};
 use headings::{HEADINGS, STEPS};
 use queue::BucketQueue;
 pub(crate) use route::length_m;
+use standing::Standing;
 
 /// Directions in which the way begins.
 const FIRST_DIRECTIONS: usize = 64;
@@ -73,14 +74,11 @@ pub(crate) struct Ways {
     remaining_mm: Vec<u32>,
     queue: BucketQueue,
     here_m: DVec2,
-    standing_height_m: f64,
-    standing_gradient: DVec2,
+    standing: Standing,
     caution: Caution,
     /// How the way that was last driven began, and what the robot headed for on it.
     last: Option<First>,
     leg: Option<WayPoint>,
-    /// How much steeper it stands than at the search before, as a share of the tilt limits.
-    steeper_share: f64,
     /// Where it last began to change its mind, and how often it did so there.
     changed_at_m: DVec2,
     changes: i32,
@@ -160,12 +158,10 @@ impl Ways {
                 entries,
             ),
             here_m: DVec2::ZERO,
-            standing_height_m: 0.0,
-            standing_gradient: DVec2::ZERO,
+            standing: Standing::default(),
             caution: Caution::Usual,
             last: None,
             leg: None,
-            steeper_share: 0.0,
             changed_at_m: DVec2::ZERO,
             changes: 0,
             escapes: false,
@@ -181,14 +177,10 @@ impl Ways {
 
     /// Finds the ways from `pose` over the ground that was seen.
     pub(crate) fn search(&mut self, ground: &dyn SeenGround, pose: &Pose) {
-        let before = self.standing_slopes().share_of(self.footing.limits());
         let moved_m = pose.plan_m() - self.here_m;
         self.here_m = pose.plan_m();
-        self.standing_height_m = pose.position_m.z;
+        self.standing.be_at(pose);
         self.facing = (wrap_rad(pose.yaw_rad) / TAU * FIRST_DIRECTIONS as f64).round() as i32;
-        let up = pose.world_from_robot().z_axis;
-        self.standing_gradient = -up.truncate() / up.z;
-        self.steeper_share = self.standing_slopes().share_of(self.footing.limits()) - before;
         if (self.changed_at_m - self.here_m).length() > SAME_PLACE_M {
             self.changes = 0;
         }
@@ -200,9 +192,9 @@ impl Ways {
     /// Whether the robot stands steeper than even an escape may lead it, or would exceed a limit before it stands still: what it was told
     /// of the ground is not true.
     pub(crate) fn stands_too_steep(&self) -> bool {
-        let standing = self.standing_slopes();
-        let stopped = standing.share_of(self.footing.limits()) + BRAKING_TICKS * self.steeper_share;
-        !standing.within(self.footing.most(), 0.0) || stopped > MOST_SHARE
+        let stopped = self.standing.slopes_within(BRAKING_TICKS);
+        !self.standing.slopes().within(self.footing.most(), 0.0)
+            || stopped.share_of(self.footing.limits()) > MOST_SHARE
     }
 
     /// Whether it stands on ground that is a good part of that steep.
@@ -222,11 +214,7 @@ impl Ways {
 
     /// How much of the slope that a way may have at most the robot stands on.
     fn standing_share(&self) -> f64 {
-        self.standing_slopes().share_of(self.footing.most())
-    }
-
-    fn standing_slopes(&self) -> Slopes {
-        Slopes::facing(self.standing_gradient, self.first_direction(self.facing))
+        self.standing.slopes().share_of(self.footing.most())
     }
 
     /// Searches the same ground anew, with less caution near the robot.
@@ -348,8 +336,14 @@ impl Ways {
         self.footing.keep_margin(least_margin_rad);
     }
 
+    /// As much of a turn on the spot, anticlockwise, as makes the robot no steeper than a way may lead it.
+    pub(crate) fn safe_turn_rad(&self, turn_rad: f64) -> f64 {
+        self.standing.safe_turn_rad(turn_rad, self.footing.most())
+    }
+
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
+        self.standing = Standing::default();
         self.footing.clear();
         self.stand();
         self.escapes = false;

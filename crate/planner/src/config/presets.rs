@@ -62,7 +62,7 @@ impl Default for SegmentConfig {
 
 impl Default for GroundConfig {
     fn default() -> Self {
-        Self { cell_m: 0.2, radius_m: 9.0, memory_ticks: 600, curvature_per_m: 0.5 }
+        Self { cell_m: 0.2, radius_m: 9.0, memory_ticks: 3000, curvature_per_m: 0.5 }
     }
 }
 

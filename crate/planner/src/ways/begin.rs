@@ -18,7 +18,7 @@ impl Ways {
     /// From where the robot stands straight to the first known places in each direction that it may turn to.
     pub(super) fn begin(&mut self) {
         let count = FIRST_DIRECTIONS as i32;
-        let standing = self.standing_slopes();
+        let standing = Slopes::facing(self.standing.gradient, self.first_direction(self.facing));
         let most_change_m = self.config.change_cost_m * f64::from(1 << self.changes);
         for (side, sign) in [1, -1].into_iter().enumerate() {
             self.turns[side] = count / 2;
@@ -26,7 +26,7 @@ impl Ways {
                 let facing = self.first_direction(self.facing + sign * turn);
                 let allowed = self.footing.most();
                 // Where it stands on more than its limits allow, a turn may still not make the pitch worse.
-                let slopes = Slopes::facing(self.standing_gradient, facing);
+                let slopes = Slopes::facing(self.standing.gradient, facing);
                 let steeper =
                     slopes.across > allowed.across || slopes.along > allowed.along.max(standing.along);
                 if turn > 0 && steeper {
@@ -129,7 +129,7 @@ impl Ways {
         }
         let heading = nearest(first.facing);
         let start =
-            Station { distance_m: 0.0, height_m: self.standing_height_m, gradient: self.standing_gradient };
+            Station { distance_m: 0.0, height_m: self.standing.height_m, gradient: self.standing.gradient };
         let end = Station { distance_m, height_m: plane.height_m, gradient: plane.gradient };
         let risk = self.risk_between(&start, &end, way / distance_m, 0.0);
         let risk = risk.max(self.footing.risk(offset, heading)).max(passed_risk);

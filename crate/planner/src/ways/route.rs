@@ -80,7 +80,7 @@ impl Ways {
                     along = along.max(slopes.along);
                 }
                 let height_m = |state: u32| self.height_m(Reached { state });
-                let last_height_m = if from < BEGIN { height_m(from) } else { self.standing_height_m };
+                let last_height_m = if from < BEGIN { height_m(from) } else { self.standing.height_m };
                 climb_m += (height_m(state) - last_height_m).abs();
                 let position_m = self.footing.position_m(offset);
                 let last_m = if from < BEGIN {
@@ -118,7 +118,7 @@ impl Ways {
     /// Height of the ground at a place that was reached.
     pub(crate) fn height_m(&self, reached: Reached) -> f64 {
         let offset = self.footing.offset(reached.state as usize / HEADINGS);
-        self.footing.plane(offset).map_or(self.standing_height_m, |plane| plane.height_m)
+        self.footing.plane(offset).map_or(self.standing.height_m, |plane| plane.height_m)
     }
 
     /// Where to head for on a way: the farthest place before it changes between forward and reverse that costs no more to drive
@@ -144,7 +144,7 @@ impl Ways {
         let heading = nearest(facing);
         let count = (2.0 * length_m / self.config.step_m).ceil();
         let (mut risk, mut climb_m) = (0.0, 0.0);
-        let mut height_m = self.standing_height_m;
+        let mut height_m = self.standing.height_m;
         for k in 1..=count as usize {
             let share = k as f64 / count;
             let at = self.footing.nearest(self.here_m + way * share);
@@ -161,16 +161,21 @@ impl Ways {
         price * length_m * (1.0 + self.prices.tilt * risk / count) + self.prices.climb * climb_m
     }
 
-    /// The share of the tilt limits that the robot takes up or soon will where it is, in slope.
+    /// The share of the tilt limits that the robot takes up or soon will where it is, in slope: ground that gets steeper fast may go on to
+    /// do so.
     pub(crate) fn share_here(&self) -> f64 {
-        let standing = self.standing_slopes().share_of(self.footing.limits());
-        // Ground that gets steeper fast may go on to do so.
-        standing + GETS_STEEPER_TICKS * self.steeper_share.max(0.0)
+        self.standing.slopes_within(GETS_STEEPER_TICKS).share_of(self.footing.limits())
     }
 
-    /// The share of the tilt limits that the robot takes up or soon will on a way, in slope.
-    pub(crate) fn share_ahead(&self, way: &[WayPoint]) -> f64 {
-        let mut share = self.share_here();
+    /// The share of the tilt limits that the robot takes up or soon will, in slope: on a way, and straight to what it heads for, which may lie
+    /// elsewhere.
+    pub(crate) fn share_ahead(&self, way: &[WayPoint], ahead: &WayPoint) -> f64 {
+        let here = WayPoint { position_m: self.here_m, ..*ahead };
+        self.share_here().max(self.share_along(way)).max(self.share_along(&[here, *ahead]))
+    }
+
+    fn share_along(&self, way: &[WayPoint]) -> f64 {
+        let mut share = 0.0_f64;
         for leg in way.windows(2) {
             let (from_m, way_m) = (leg[0].position_m, leg[1].position_m - leg[0].position_m);
             let steps = (way_m.length() / self.config.step_m).ceil();
