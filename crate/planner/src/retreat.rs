@@ -22,7 +22,8 @@ const NEIGHBOURS: usize = 3;
 const RADIAN_M: f64 = 0.5;
 /// A stance this near is turned to, one farther away driven to; steering no more than this, so as not to turn where it drove straight.
 const TURN_M: f64 = 0.08;
-/// Where it may not turn from there, it drives on until it is this near.
+/// Where it may not turn from there, it drives on until the stance is no farther ahead or behind than this; one to its side cannot be
+/// driven to.
 const THERE_M: f64 = 0.03;
 /// A smaller part of a turn is not worth while.
 const LEAST_TURN_RAD: f64 = 0.1;
@@ -152,17 +153,17 @@ impl Retreat {
             let reverse = bearing.abs() > FRAC_PI_2;
             let straight = if reverse { PI } else { 0.0 };
             let away_m = (place_m - here.place_m).length();
-            if away_m >= TURN_M {
-                let steering = wrap_rad(bearing - straight).clamp(-MOST_STEERING_RAD, MOST_STEERING_RAD);
-                return Some(Back::Drive { bearing_rad: straight + safe_turn_rad(steering), reverse });
-            }
+            let is_abeam = (away_m * libm::cos(bearing)).abs() < THERE_M;
             let turn_rad = wrap_rad(yaw_rad - pose.yaw_rad);
             let by_rad = safe_turn_rad(turn_rad);
-            if by_rad.abs() >= turn_rad.abs().min(LEAST_TURN_RAD) {
+            let may_turn = by_rad.abs() >= turn_rad.abs().min(LEAST_TURN_RAD);
+            if may_turn && (away_m < TURN_M || is_abeam && turn_rad.abs() > SPACING_RAD) {
                 return Some(Back::Turn { by_rad });
             }
-            if (away_m * libm::cos(bearing)).abs() > THERE_M {
-                return Some(Back::Drive { bearing_rad: straight, reverse });
+            if !is_abeam {
+                let most_rad = if away_m < TURN_M { 0.0 } else { MOST_STEERING_RAD };
+                let steering = wrap_rad(bearing - straight).clamp(-most_rad, most_rad);
+                return Some(Back::Drive { bearing_rad: straight + safe_turn_rad(steering), reverse });
             }
             self.trail.pop_back();
         }
@@ -276,6 +277,25 @@ mod tests {
             "{left_out:?}"
         );
         assert!(retreat.way_back_m().next().unwrap().x < 0.95);
+    }
+
+    #[test]
+    fn a_trail_to_its_side_does_not_hold_it() {
+        let (mut retreat, mut robot) = driven(20);
+        for _ in 0..10 {
+            advance(&mut retreat, &mut robot, 0.0, 0.5);
+        }
+        assert!(retreat.begin(robot.plan_m()).is_some());
+        robot.position_m.y -= 0.15;
+        let mut moves = Vec::new();
+        while let Some(back) = retreat.next(&robot, |_| 0.0) {
+            let Back::Drive { reverse, .. } = back else { panic!("{back:?} is not safe") };
+            advance(&mut retreat, &mut robot, if reverse { -0.3 } else { 0.3 }, 0.0);
+            moves.push(reverse);
+            assert!(moves.len() < 100, "to and fro: {moves:?}");
+        }
+        let changes = moves.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        assert!(changes < 3, "{moves:?}");
     }
 
     #[test]
