@@ -275,18 +275,27 @@ export class App {
     return this.#info;
   }
 
+  /** The newest tick; nothing until the first scenario is loaded. */
+  get frame(): Frame | undefined {
+    return this.#frame;
+  }
+
   /** The goal, with waypoints to drive to before it. */
   async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
     this.#lingering.stop();
-    await this.bench.setRoute(waypoints, goal);
+    await this.bench.setRoute(() => ({ waypoints, goal }));
   }
 
-  /** A goal after the present one, which becomes a waypoint. Waypoints behind the robot are left behind. */
-  addGoal(goal: Place): Promise<void> {
-    const { waypoints = [], goal: last } = this.#info ?? {};
-    if (!last) return this.setGoal(goal);
-    const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
-    return this.setGoal(goal, reached ? [] : [...waypoints.slice(this.#frame?.waypointsPassed ?? 0), last]);
+  /** A stop on the way to the goal, after those there are; a robot at its goal goes on to it. */
+  async addStop(place: Place): Promise<void> {
+    this.#lingering.stop();
+    await this.bench.setRoute(() => {
+      const { waypoints = [], goal } = this.#info ?? {};
+      const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
+      if (!goal || reached) return { waypoints: [], goal: place };
+      // What the robot has been to stays behind it.
+      return { waypoints: [...waypoints.slice(this.#frame?.waypointsPassed ?? 0), place], goal };
+    });
   }
 
   /** Begins anew with these parameters in place of all others, and another seed if given. */

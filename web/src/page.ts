@@ -153,7 +153,8 @@ const measure = new Measure({
 const thinking = new Thinking(app, stage, view);
 const tools = stage
   ? new GroundTools(view, stage, {
-      setGoal: (goal, added) => app.attempt(added ? app.addGoal(goal) : app.setGoal(goal)),
+      setGoal: (goal) => app.attempt(app.setGoal(goal)),
+      addStop: (place) => app.attempt(app.addStop(place)),
       setStart: (start) => app.attempt(app.setStart(start)),
       stroke(brush) {
         const stroke = app.bench.stroke(brush);
@@ -185,7 +186,7 @@ const actions = {
     thinking.letGo();
   },
   help: () => help.showModal(),
-  addStops: (adding: boolean) => tools?.adding(adding),
+  addStops: (adding: boolean) => tools?.addStops(adding),
   clearStops: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
   jump: (times: number) => app.attempt(app.jump(times)),
   lab: () => app.attempt(openLab()),

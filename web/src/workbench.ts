@@ -12,6 +12,9 @@ const MOST_PATCH_BYTES = 64 << 20;
 /** A stroke begun with fewer touches than this in all fits into what an experiment holds, however long it is held. */
 const FULL_TOUCHES = 0.9 * MAX_TOUCHES;
 
+/** Where to drive: to the waypoints, one after the other, and then to the goal. */
+export type Route = Pick<Experiment, 'waypoints' | 'goal'>;
+
 interface Core {
   request(command: Command): Promise<void>;
   /** The page's copy of the ground. */
@@ -95,23 +98,36 @@ export class Workbench {
 
   /** Settings: the trial begins anew with them and drives, on the ground as it is. */
   change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
-    return this.#edit(part, (experiment) => ({ type: 'load', source: { experiment }, play: true }));
+    return this.#edit(
+      () => part,
+      (experiment) => ({ type: 'load', source: { experiment }, play: true }),
+    );
   }
 
   /** Parameters, and another seed if given: the trial begins anew with them. */
   setOverrides(overrides: Overrides, seed?: number): Promise<void> {
     const part = seed === undefined ? { overrides } : { overrides, seed };
-    return this.#edit(part, () => ({ type: 'parameters', overrides, seed }));
+    return this.#edit(
+      () => part,
+      () => ({ type: 'parameters', overrides, seed }),
+    );
   }
 
-  setRoute(places: readonly Place[], place: Place): Promise<void> {
-    const [waypoints, goal] = [places.map(tidyPlace), tidyPlace(place)];
-    return this.#edit({ waypoints, goal }, () => ({ type: 'goal', goal, waypoints }));
+  /** `route` is asked once all changes before are made. */
+  setRoute(route: () => Route): Promise<void> {
+    const tidy = () => {
+      const { waypoints, goal } = route();
+      return { waypoints: waypoints.map(tidyPlace), goal: tidyPlace(goal) };
+    };
+    return this.#edit(tidy, ({ waypoints, goal }) => ({ type: 'goal', goal, waypoints }));
   }
 
   setStart(heading: Heading): Promise<void> {
     const start = tidyHeading(heading);
-    return this.#edit({ start }, () => ({ type: 'start', start }));
+    return this.#edit(
+      () => ({ start }),
+      () => ({ type: 'start', start }),
+    );
   }
 
   /** Begins a stroke: `touch` it, then `end` it. Everything else waits until it has ended. */
@@ -168,11 +184,11 @@ export class Workbench {
     return result;
   }
 
-  #edit(part: Partial<Experiment>, command: (experiment: Experiment) => Command): Promise<void> {
+  #edit(part: () => Partial<Experiment>, command: (experiment: Experiment) => Command): Promise<void> {
     return this.#next(async () => {
       const { experiment } = this;
       if (!experiment) throw new Error('No scenario is loaded yet.');
-      const changed = { ...experiment, ...part };
+      const changed = { ...experiment, ...part() };
       const first = command(changed);
       if (first.type === 'parameters') await this.#takeOwnRoute();
       await this.#core.request(first);

@@ -84,7 +84,7 @@ test('strokes are undone and redone by putting heights back, in any number and i
 
 test('goal, start and strokes share one history', async () => {
   const core = await opened();
-  await core.bench.setRoute([], { x: 8.123456, y: 2 });
+  await core.bench.setRoute(() => ({ waypoints: [], goal: { x: 8.123456, y: 2 } }));
   assert.deepEqual(core.bench.experiment?.goal, { x: 8.12, y: 2 });
   await core.stroke(1);
   await core.bench.setStart({ x: 1, y: 1, heading_rad: 0.12345 });
@@ -113,7 +113,10 @@ test('settings and other terrains are undone by loading', async () => {
 test('what the core refuses leaves no trace, and what follows goes on', async () => {
   const core = await opened();
   const before = core.bench.experiment;
-  await assert.rejects(core.bench.setRoute([], { x: -1, y: 0 }), /off the terrain/);
+  await assert.rejects(
+    core.bench.setRoute(() => ({ waypoints: [], goal: { x: -1, y: 0 } })),
+    /off the terrain/,
+  );
   assert.equal(core.bench.experiment, before);
   await core.stroke(1);
   assert.equal(core.bench.experiment?.strokes.length, 1);
