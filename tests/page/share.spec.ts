@@ -94,6 +94,19 @@ plain('hostile and broken links say so, and lose nothing', async ({ page }) => {
   }
 });
 
+plain('a small link to hours of work is refused', async ({ page }) => {
+  await page.goto('/');
+  await loaded(page);
+  const experiment = await page.evaluate(() => window.mapless?.experiment());
+  const hill = '[[hill]]\ncentre = [1, 1]\nheight_m = 0\nradius_m = 1000\n';
+  const recipe = `name = "a"\nsize_m = [800.0, 800.0]\ncell_m = 0.2\n${hill.repeat(8000)}`;
+  const json = JSON.stringify({ ...experiment, terrain: { recipe } });
+  await page.goto('about:blank');
+  await page.goto(`/#e=${deflateRawSync(json).toString('base64url')}`);
+  await expect(page.locator('#notice-text')).toContainText('hill[15].samples touched = 256128016: expected at most');
+  await until(page, ({ tick }) => tick > 3);
+});
+
 plain('the page continues where it was left, and starts afresh when asked', async ({ page }) => {
   await page.goto('/');
   await loaded(page);

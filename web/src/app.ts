@@ -19,6 +19,7 @@ import type {
 } from './core/protocol.ts';
 import { RunRecord } from './core/record.ts';
 import { Seeker } from './core/seeker.ts';
+import { Recovery } from './recovery.ts';
 import { HeightField } from './scene/heightfield.ts';
 import { SPEEDS } from './ui/controls.ts';
 import { Lingering } from './ui/lingering.ts';
@@ -44,6 +45,10 @@ export interface Views {
   experiment(bench: Workbench): void;
   notice(message: string): void;
   clearNotice(): void;
+  /** Something takes long to open, which can be stopped. */
+  slow(stop: () => void): void;
+  /** What took long is open, or refused. */
+  clearSlow(): void;
 }
 
 export class App {
@@ -62,7 +67,7 @@ export class App {
   readonly #seeker = new Seeker((tick) => this.#core.request({ type: 'seek', tick }));
   /** Whether anything shows the surfaces. */
   #watching = false;
-  #recovering = false;
+  readonly #recovery: Recovery;
   readonly bench: Workbench;
 
   constructor(core: CoreClient, views: Views) {
@@ -74,6 +79,11 @@ export class App {
       ground: () => this.#field,
       info: () => this.#info,
       changed: (bench) => this.#views.experiment(bench),
+    });
+    this.#recovery = new Recovery({
+      title: () => this.bench.experiment && entry(this.scenario).title,
+      reopen: () => this.#reopen(),
+      notice: views.notice,
     });
   }
 
@@ -203,6 +213,8 @@ export class App {
       frame: (frame) => this.#onFrame(frame),
       ground: (patch) => this.#onPatch(patch),
       failure: (message, panicked) => this.#onFailure(message, panicked),
+      slow: () => this.#views.slow(() => this.#stopOpening()),
+      opened: () => this.#views.clearSlow(),
     });
     const beginning = begun.then((known) => {
       if (known.from !== 'catalogue') this.touch();
@@ -417,35 +429,20 @@ export class App {
   #onFailure(message: string, panicked: boolean): void {
     this.#show(false);
     this.#lingering.stop();
-    if (!panicked) {
-      this.#views.notice(message);
-      return;
-    }
-    // A panic on the way back is reported by the way back.
-    if (this.#recovering) return;
-    this.#recovering = true;
-    this.#recover(message).finally(() => {
-      this.#recovering = false;
-    });
+    if (panicked) this.#recovery.afterPanic(message);
+    else this.#views.notice(message);
   }
 
-  async #recover(message: string): Promise<void> {
-    const { title } = entry(this.scenario);
-    this.#views.notice(
-      `The simulation stopped on an internal error. “${title}” goes back to its start, with your ground, start and goal. (${message})`,
-    );
-    if (!this.bench.experiment) {
-      this.#views.notice(`The simulation could not be loaded; reload the page to try again. (${message})`);
-      return;
-    }
-    try {
-      await this.bench.reopen();
-      await this.setSpeed(this.#speed);
-      await this.#core.request({ type: 'watch', surfaces: this.#watching });
-    } catch {
-      this.#views.notice(
-        `The simulation stopped on an internal error and could not be started again; reload the page. (${message})`,
-      );
-    }
+  /** Gives up what is being opened, and goes back to what was there before. */
+  #stopOpening(): void {
+    this.#show(false);
+    this.#core.stop('Opening it was stopped.');
+    this.#recovery.afterStop();
+  }
+
+  async #reopen(): Promise<void> {
+    await this.bench.reopen();
+    await this.setSpeed(this.#speed);
+    await this.#core.request({ type: 'watch', surfaces: this.#watching });
   }
 }

@@ -67,6 +67,8 @@ function labCount(count: number): void {
   );
 }
 
+const SLOW = 'Opening this takes long. Wait for it, or stop it and go on with what was there before.';
+
 let stage: Stage | undefined;
 
 const app = new App(core, {
@@ -131,6 +133,8 @@ const app = new App(core, {
   },
   notice: (message) => notice.show(message),
   clearNotice: () => notice.hide(),
+  slow: (stop) => notice.tell(SLOW, 'Stop', stop),
+  clearSlow: () => notice.withdraw(SLOW),
 });
 
 const graphics = watchGraphics(

@@ -309,6 +309,8 @@ export type ToWorker = { type: 'request'; id: number; command: Command } | { typ
 export type FromWorker =
   /** Its thread runs: whatever keeps the page busy, the core loads beside it. */
   | { type: 'started' }
+  /** The core is there, and opens what this request asks for. */
+  | { type: 'opening'; id: number }
   /** After a load, with the ground and the experiment. */
   | { type: 'session'; info: SessionInfo; ground: Ground | undefined; experiment: Experiment | undefined }
   | { type: 'frame'; frame: Frame }

@@ -196,8 +196,9 @@ function showPatch(patch: GroundPatch): void {
   if (!running()) setTimeout(loop);
 }
 
-async function load(source: Source, play: boolean): Promise<void> {
+async function load(source: Source, play: boolean, id: number): Promise<void> {
   const core = await loading;
+  post({ type: 'opening', id });
   const experiment = await experimentFrom(core, source);
   const opened = Session.open(core, experiment);
   session?.free();
@@ -212,11 +213,11 @@ async function load(source: Source, play: boolean): Promise<void> {
 async function carryOut(command: Command, id: number): Promise<unknown> {
   if (command.type === 'begin') {
     const { source, ...beginning } = await beginningAt(command.address);
-    await load(source, true);
+    await load(source, true, id);
     return beginning;
   }
   if (command.type === 'load') {
-    await load(command.source, command.play);
+    await load(command.source, command.play, id);
     return;
   }
   if (command.type === 'watch') {
