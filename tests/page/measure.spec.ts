@@ -164,6 +164,26 @@ test('the digest goes to the clipboard, the paper’s numbers stand beside the r
   const { digest } = await state(page);
   await expect.poll(() => page.evaluate(() => navigator.clipboard.readText())).toBe(digest);
   await expect(page.locator('#metrics')).toContainText('paper 63.5');
+  // They are those of the paper's own course.
+  const [paper, lesson] = [page.locator('#metrics').getByText('paper 63.5'), page.locator('#scene-lesson')];
+  await expect(lesson).toContainText('too steep');
+  await page.evaluate(() => window.mapless?.setGoal({ x: 30, y: 20 }));
+  await expect(paper).toBeHidden();
+  await expect(page.locator('.plot-paper')).toHaveCount(0);
+  await expect(lesson).toHaveText('Changed: ground, start or route are no longer the scenario’s.');
+  await page.evaluate(() => window.mapless?.undo());
+  await expect(paper).toBeVisible();
+  await expect(lesson).toContainText('too steep');
+  await page.evaluate(() =>
+    window.mapless?.sculpt({ kind: 'raise', radius_m: 2, strength_m: 1, points_cm: [3000, 2000] }),
+  );
+  await expect(paper).toBeHidden();
+  // A link says so, too.
+  const link = await page.evaluate(() => window.mapless?.link());
+  await page.goto('about:blank');
+  await page.goto(link ?? '');
+  await expect(lesson).toContainText('Changed');
+  await expect(paper).toBeHidden();
   await page.evaluate(() => window.mapless?.loadScenario('ml'));
   await expect(page.locator('#metrics')).toContainText('paper 84.5 ± 2.3');
   await page.evaluate(() => window.mapless?.loadScenario('gsb'));

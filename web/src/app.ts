@@ -11,6 +11,7 @@ import type {
   Ground,
   GroundPatch,
   Heading,
+  Loaded,
   NamedFile,
   Place,
   SessionInfo,
@@ -209,7 +210,7 @@ export class App {
   /** Shows what the core begins with; undoing leads back to one's own work. */
   async begin(begun: Promise<Beginning>): Promise<Beginning> {
     this.#core.listen({
-      session: (info, ground, experiment) => this.#onSession(info, ground, experiment),
+      session: (info, loaded) => this.#onSession(info, loaded),
       frame: (frame) => this.#onFrame(frame),
       ground: (patch) => this.#onPatch(patch),
       failure: (message, panicked) => this.#onFailure(message, panicked),
@@ -393,10 +394,10 @@ export class App {
     if (this.#frame) this.#views.status(this.#frame, playing);
   }
 
-  #onSession(info: SessionInfo, ground: Ground | undefined, experiment: Experiment | undefined): void {
+  #onSession(info: SessionInfo, loaded: Loaded | undefined): void {
     this.#info = info;
-    if (experiment) this.bench.loaded(experiment);
-    const field = ground ? new HeightField(ground) : undefined;
+    if (loaded) this.bench.loaded(loaded);
+    const field = loaded && new HeightField(loaded.ground);
     this.#field = field ?? this.#field;
     this.#views.session(info, field);
   }

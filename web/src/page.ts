@@ -11,6 +11,7 @@ import type { Lab } from './lab/lab.ts';
 import { keepOffline } from './offline/register.ts';
 import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
 import { Measure } from './panel/measure.ts';
+import { published } from './panel/published.ts';
 import { OUTCOME_WORDS, StatusPanel } from './panel/status.ts';
 import { Stage } from './scene/stage.ts';
 import { GroundTools } from './scene/tools.ts';
@@ -27,6 +28,7 @@ import { TerrainsSheet } from './ui/terrains.ts';
 import { readTheme, watchTheme } from './ui/theme.ts';
 import { TimelineBar } from './ui/timeline.ts';
 import { UndoButtons } from './ui/undo.ts';
+import type { Workbench } from './workbench.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
@@ -67,6 +69,15 @@ function labCount(count: number): void {
   );
 }
 
+/** What is said and published of a scenario is shown only where its ground, start and route are its own. */
+function showCourse({ experiment, asItComes }: Workbench): void {
+  const name = asItComes && experiment ? experiment.name : '';
+  measure.paper(published(name));
+  setText(element('scene-lesson'), asItComes === false ? CHANGED : entry(name).lesson);
+}
+
+const CHANGED = 'Changed: ground, start or route are no longer the scenario’s.';
+
 const SLOW = 'Opening this takes long. Wait for it, or stop it and go on with what was there before.';
 
 let stage: Stage | undefined;
@@ -89,9 +100,8 @@ const app = new App(core, {
       brushPanel.ground(field.min_m, field.max_m);
       lab?.sculpted();
     }
-    const { group, title, lesson } = entry(info.scenario);
+    const { group, title } = entry(info.scenario);
     setText(element('scene-title'), `${group}: ${title}`);
-    setText(element('scene-lesson'), lesson);
     setText(element('next-title'), following(info.scenario).title);
   },
   frame(frame) {
@@ -127,6 +137,7 @@ const app = new App(core, {
   },
   experiment(bench) {
     undoButtons.show(bench);
+    showCourse(bench);
     // A link in the address is no longer what is shown.
     if (bench.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
     if (app.touched && bench.experiment) autosave.save(bench.experiment);

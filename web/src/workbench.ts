@@ -1,9 +1,19 @@
 /** Holds the experiment that the page shows, and its history: everything that changes it goes through here. */
 
-import { type Experiment, MAX_TOUCHES, type Stroke, tidyHeading, tidyPlace } from './core/experiment.ts';
+import { type Experiment, MAX_TOUCHES, type Stroke, sameCourse, tidyHeading, tidyPlace } from './core/experiment.ts';
 import { History } from './core/history.ts';
 import type { Overrides } from './core/overrides.ts';
-import type { Beginning, Command, Ground, GroundPatch, Heading, Place, SessionInfo, Source } from './core/protocol.ts';
+import type {
+  Beginning,
+  Command,
+  Ground,
+  GroundPatch,
+  Heading,
+  Loaded,
+  Place,
+  SessionInfo,
+  Source,
+} from './core/protocol.ts';
 import { type Brush, type MadeStroke, StrokeInHand } from './core/strokeInHand.ts';
 
 /** Ground kept for undoing strokes at once; older strokes are undone by loading the ground anew. */
@@ -31,6 +41,8 @@ export class Workbench {
   readonly #patches = new Map<Stroke, MadeStroke>();
   #patchBytes = 0;
   #loaded: Experiment | undefined;
+  /** The scenario that the experiment is named after. */
+  #scenario: Experiment | undefined;
   #inHand: StrokeInHand | undefined;
   /** Changes are made one after the other. */
   #queue: Promise<void> = Promise.resolve();
@@ -52,8 +64,14 @@ export class Workbench {
   }
 
   /** The core has loaded this. */
-  loaded(experiment: Experiment): void {
+  loaded({ experiment, scenario }: Pick<Loaded, 'experiment' | 'scenario'>): void {
     this.#loaded = experiment;
+    this.#scenario = scenario;
+  }
+
+  /** Whether ground, start and route are those of the scenario that the experiment is named after; nothing where there is none. */
+  get asItComes(): boolean | undefined {
+    return this.experiment && this.#scenario && sameCourse(this.experiment, this.#scenario);
   }
 
   /** The core has changed the ground here. */

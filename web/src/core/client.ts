@@ -1,14 +1,13 @@
 /** The page's end of the worker: requests with answers, events, and a new worker after a panic. */
 
-import type { Experiment } from './experiment.ts';
 import { gate } from './gate.ts';
 import {
   type Command,
   type Frame,
   type FrameBuffers,
   type FromWorker,
-  type Ground,
   type GroundPatch,
+  type Loaded,
   type SessionInfo,
   type ToWorker,
   transferables,
@@ -18,7 +17,7 @@ import {
 const SLOW_MS = 5000;
 
 export interface CoreEvents {
-  session(info: SessionInfo, ground: Ground | undefined, experiment: Experiment | undefined): void;
+  session(info: SessionInfo, loaded: Loaded | undefined): void;
   frame(frame: Frame): void;
   ground(patch: GroundPatch): void;
   /** An error that no request is waiting for, or any panic. After a panic the simulation is gone. */
@@ -115,7 +114,7 @@ export class CoreClient {
   #receive(message: FromWorker, events: CoreEvents): void {
     switch (message.type) {
       case 'session':
-        events.session(message.info, message.ground, message.experiment);
+        events.session(message.info, message.loaded);
         break;
       case 'frame':
         events.frame(message.frame);

@@ -1,7 +1,7 @@
 /** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
 
 import { loadTrials } from '../trials/wasm.ts';
-import { TASK, terrainFile } from './catalogue.ts';
+import { CATALOGUE, TASK, terrainFile } from './catalogue.ts';
 import {
   type Experiment,
   MAX_FILE_BYTES,
@@ -76,6 +76,15 @@ export async function experimentFrom(core: CoreModule, source: Source): Promise<
   const { scenario, setup, seed } = source;
   const { read, terrain } = TASK.test(scenario) ? await task(core, scenario) : catalogued(core, scenario);
   return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setup);
+}
+
+/** The scenario that what was loaded is named after, as it comes; nothing where there is none. */
+export function scenarioOf(core: CoreModule, source: Source, experiment: Experiment): Experiment | undefined {
+  if ('scenario' in source) return experiment;
+  const { name } = experiment;
+  if (!CATALOGUE.some(({ id }) => id === name)) return undefined;
+  const { read, terrain } = catalogued(core, name);
+  return fromScenario(read, name, terrain, experiment);
 }
 
 function catalogued(core: CoreModule, scenario: string): { read: ScenarioRead; terrain: Terrain } {

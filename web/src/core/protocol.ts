@@ -302,6 +302,14 @@ export type Command =
   | { type: 'watch'; surfaces: boolean }
   | { type: 'hidden'; hidden: boolean };
 
+/** What is new after a load. */
+export interface Loaded {
+  readonly ground: Ground;
+  readonly experiment: Experiment;
+  /** The scenario that it is named after, as that comes; nothing where there is none. */
+  readonly scenario: Experiment | undefined;
+}
+
 /** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */
 export type ToWorker = { type: 'request'; id: number; command: Command } | { type: 'recycle'; buffers: FrameBuffers };
 
@@ -311,8 +319,7 @@ export type FromWorker =
   | { type: 'started' }
   /** The core is there, and opens what this request asks for. */
   | { type: 'opening'; id: number }
-  /** After a load, with the ground and the experiment. */
-  | { type: 'session'; info: SessionInfo; ground: Ground | undefined; experiment: Experiment | undefined }
+  | { type: 'session'; info: SessionInfo; loaded: Loaded | undefined }
   | { type: 'frame'; frame: Frame }
   | { type: 'ground'; patch: GroundPatch }
   | { type: 'done'; id: number; value: unknown }
