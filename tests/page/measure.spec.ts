@@ -134,10 +134,16 @@ test('the MCAP file is valid, complete and in the schemas of Foxglove', async ({
 });
 
 test('pictures, plots and a film of the view', async ({ mapless: page }) => {
-  await driveTo(page, 30);
-  const picture = await download(page, 'save-picture');
-  expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');
-  expect(picture.bytes.length).toBeGreaterThan(20_000);
+  const view = await page.locator('#view').boundingBox();
+  const [width, height] = [Math.floor(view?.width ?? 0), Math.floor(view?.height ?? 0)];
+  for (const act of ['drives', 'stands']) {
+    if (act === 'stands') await driveTo(page, 30);
+    const picture = await download(page, 'save-picture');
+    expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');
+    expect(picture.bytes.length).toBeGreaterThan(20_000);
+    // Every pixel of the screen, also where a processor draws coarsely what moves.
+    expect([picture.bytes.readUInt32BE(16), picture.bytes.readUInt32BE(20)]).toEqual([width, height]);
+  }
   const plots = (await download(page, 'save-plots')).bytes.toString();
   const faults = await page.evaluate(
     (text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('parsererror').length,
@@ -155,6 +161,21 @@ test('pictures, plots and a film of the view', async ({ mapless: page }) => {
   expect(film.bytes.readUInt32BE(0)).toBe(0x1a45dfa3);
   expect(film.bytes.length).toBeGreaterThan(5_000);
   await expect(page.locator('#save-film')).toHaveText('Film (WebM)');
+});
+
+test('the view is sharp once it stands, and coarser at most while something moves', async ({ mapless: page }) => {
+  const width = () =>
+    page.locator('#view').evaluate(async (view: HTMLCanvasElement) => {
+      const picture = await createImageBitmap(view);
+      return picture.width / view.clientWidth;
+    });
+  await until(page, ({ tick }) => tick > 5);
+  expect(await width()).toBeLessThanOrEqual(1);
+  await page.evaluate(() => window.mapless?.still());
+  expect(await width()).toBeCloseTo(1, 2);
+  await page.evaluate(() => window.mapless?.play());
+  await page.evaluate(() => window.mapless?.pause());
+  await expect.poll(width).toBeCloseTo(1, 2);
 });
 
 test('the digest goes to the clipboard, the paper’s numbers stand beside the run’s', async ({ mapless: page }) => {
