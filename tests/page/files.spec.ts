@@ -120,6 +120,38 @@ test('a scenario opens with its own terrain, and one of the catalogue by itself'
   await until(page, (now) => now.scenario === 'other');
 });
 
+test('the scenario that the page saves opens again, and drives the same run', async ({ mapless: page }) => {
+  const steps = async () => {
+    await page.evaluate(async () => {
+      await window.mapless?.pause();
+      await window.mapless?.restart();
+      for (let tick = 0; tick < 5; tick += 1) await window.mapless?.step();
+    });
+    return state(page);
+  };
+  await page.evaluate(() => window.mapless?.loadScenario('ht', { seed: 3 }));
+  const { start } = await state(page);
+  await page.evaluate(async ({ x, y }) => {
+    const points_cm = [100 * (x + 4), 100 * (y + 1)].map(Math.round);
+    await window.mapless?.sculpt({ kind: 'boulder', radius_m: 1.5, strength_m: 0.8, points_cm });
+    await window.mapless?.setGoal({ x: x + 6, y: y + 6 }, [{ x: x + 4, y: y - 1 }]);
+    await window.mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } });
+  }, start);
+  const before = await steps();
+  await page.getByRole('button', { name: 'Share and save' }).click();
+  const [zip] = await Promise.all([page.waitForEvent('download'), page.locator('#save-scenario').click()]);
+  const bytes = readFileSync(await zip.path());
+  await page.keyboard.press('Escape');
+  await page.evaluate(() => window.mapless?.loadScenario('ml'));
+  await open(page, file('mine.zip', bytes));
+  await until(page, (now) => now.scenario === 'mine');
+  const { digest, goal, waypoints, seed, overrides } = before;
+  expect(await steps()).toMatchObject({ digest, goal, waypoints, seed, overrides, tick: 5 });
+  await open(page, file('cut.zip', bytes.subarray(0, bytes.length - 9)));
+  await expect(page.locator('#notice-text')).toContainText('cut.zip: not a ZIP file that this page reads');
+  expect((await state(page)).scenario).toBe('mine');
+});
+
 test('files that cannot be opened say why, and change nothing', async ({ mapless: page }) => {
   await page.evaluate(() => window.mapless?.pause());
   const { scenario } = await state(page);

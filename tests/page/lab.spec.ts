@@ -3,7 +3,7 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import type { Page } from '@playwright/test';
 import { driven } from './commandLine.ts';
-import { expect, loaded, shortCourse, state, test, until } from './page.ts';
+import { driveTo, expect, loaded, shortCourse, state, test, until } from './page.ts';
 
 async function openLab(page: Page, tab: string): Promise<void> {
   await page.getByRole('button', { name: /^Parameters, comparison/ }).click();
@@ -104,6 +104,30 @@ test('ghosts drive the same course: the same planner gives the same digest, anot
     await expect(row(name).getByRole('cell').nth(1)).toHaveText(/\(0\.0+\)$/);
   }
   await expect(row('Curvature change').getByRole('cell').nth(2)).not.toHaveText(/\(0\.0+\)$/);
+});
+
+test('a ghost that catches up is compared with the robot in view at the same tick', async ({ mapless: page }) => {
+  test.setTimeout(300_000);
+  await driveTo(page, 200);
+  await openLab(page, 'Compare');
+  // Each difference that the same planner with the same seed is ever shown with.
+  await page.evaluate(() => {
+    const seen = new Set<string>();
+    Object.assign(window, { seen });
+    new MutationObserver(() => {
+      const texts = Array.from(
+        document.querySelectorAll('.comparison tbody tr td:last-child'),
+        (cell) => cell.textContent,
+      );
+      if (texts[1]?.includes('catching up')) for (const text of texts.slice(2)) seen.add(text?.split(' ').pop() ?? '');
+    }).observe(document.body, { subtree: true, childList: true, characterData: true });
+  });
+  await page.getByRole('checkbox', { name: /^Best/ }).check();
+  const time = page.locator('.comparison').getByRole('row', { name: 'Time' }).getByRole('cell').nth(1);
+  await expect(time).toHaveText(/^\d+:\d\d\.\d$/, { timeout: 200_000 });
+  const seen = await page.evaluate(() => [...(window as unknown as { seen: Set<string> }).seen]);
+  expect(seen.length).toBeGreaterThan(0);
+  for (const difference of seen) expect(difference).toMatch(/^(–|\(0\.0+\))$/);
 });
 
 /** What the table and the summary of a batch of six seeds say; `most` is how many workers drove at once. */

@@ -134,10 +134,16 @@ test('the MCAP file is valid, complete and in the schemas of Foxglove', async ({
 });
 
 test('pictures, plots and a film of the view', async ({ mapless: page }) => {
-  await driveTo(page, 30);
-  const picture = await download(page, 'save-picture');
-  expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');
-  expect(picture.bytes.length).toBeGreaterThan(20_000);
+  const view = await page.locator('#view').boundingBox();
+  const [width, height] = [Math.floor(view?.width ?? 0), Math.floor(view?.height ?? 0)];
+  for (const act of ['drives', 'stands']) {
+    if (act === 'stands') await driveTo(page, 30);
+    const picture = await download(page, 'save-picture');
+    expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');
+    expect(picture.bytes.length).toBeGreaterThan(20_000);
+    // Every pixel of the screen, also where a processor draws coarsely what moves.
+    expect([picture.bytes.readUInt32BE(16), picture.bytes.readUInt32BE(20)]).toEqual([width, height]);
+  }
   const plots = (await download(page, 'save-plots')).bytes.toString();
   const faults = await page.evaluate(
     (text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('parsererror').length,
@@ -157,6 +163,21 @@ test('pictures, plots and a film of the view', async ({ mapless: page }) => {
   await expect(page.locator('#save-film')).toHaveText('Film (WebM)');
 });
 
+test('the view is sharp once it stands, and coarser at most while something moves', async ({ mapless: page }) => {
+  const width = () =>
+    page.locator('#view').evaluate(async (view: HTMLCanvasElement) => {
+      const picture = await createImageBitmap(view);
+      return picture.width / view.clientWidth;
+    });
+  await until(page, ({ tick }) => tick > 5);
+  expect(await width()).toBeLessThanOrEqual(1);
+  await page.evaluate(() => window.mapless?.still());
+  expect(await width()).toBeCloseTo(1, 2);
+  await page.evaluate(() => window.mapless?.play());
+  await page.evaluate(() => window.mapless?.pause());
+  await expect.poll(width).toBeCloseTo(1, 2);
+});
+
 test('the digest goes to the clipboard, the paper’s numbers stand beside the run’s', async ({ mapless: page }) => {
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   await driveTo(page, 10);
@@ -164,6 +185,26 @@ test('the digest goes to the clipboard, the paper’s numbers stand beside the r
   const { digest } = await state(page);
   await expect.poll(() => page.evaluate(() => navigator.clipboard.readText())).toBe(digest);
   await expect(page.locator('#metrics')).toContainText('paper 63.5');
+  // They are those of the paper's own course.
+  const [paper, lesson] = [page.locator('#metrics').getByText('paper 63.5'), page.locator('#scene-lesson')];
+  await expect(lesson).toContainText('too steep');
+  await page.evaluate(() => window.mapless?.setGoal({ x: 30, y: 20 }));
+  await expect(paper).toBeHidden();
+  await expect(page.locator('.plot-paper')).toHaveCount(0);
+  await expect(lesson).toHaveText('Changed: ground, start or route are no longer the scenario’s.');
+  await page.evaluate(() => window.mapless?.undo());
+  await expect(paper).toBeVisible();
+  await expect(lesson).toContainText('too steep');
+  await page.evaluate(() =>
+    window.mapless?.sculpt({ kind: 'raise', radius_m: 2, strength_m: 1, points_cm: [3000, 2000] }),
+  );
+  await expect(paper).toBeHidden();
+  // A link says so, too.
+  const link = await page.evaluate(() => window.mapless?.link());
+  await page.goto('about:blank');
+  await page.goto(link ?? '');
+  await expect(lesson).toContainText('Changed');
+  await expect(paper).toBeHidden();
   await page.evaluate(() => window.mapless?.loadScenario('ml'));
   await expect(page.locator('#metrics')).toContainText('paper 84.5 ± 2.3');
   await page.evaluate(() => window.mapless?.loadScenario('gsb'));

@@ -1,4 +1,4 @@
-import { test as plain } from '@playwright/test';
+import { type Page, test as plain } from '@playwright/test';
 import { expect, loaded, state, test, until } from './page.ts';
 
 // A small view leaves a processor without graphics card its time. What these tests replace must come from the server.
@@ -48,6 +48,59 @@ plain('a panic loses neither the ground, the start nor the goal', async ({ page 
     goal: place,
   });
   await page.getByRole('button', { name: 'Play' }).click();
+  await until(page, ({ tick }) => tick > 3);
+});
+
+/** The first worker's core takes a minute for an experiment with other parameters, as a slow machine might. */
+async function slowCore(page: Page): Promise<void> {
+  let served = 0;
+  await page.route('**/mapless_wasm*.js', async (route) => {
+    const response = await route.fetch();
+    const script = await response.text();
+    served += 1;
+    const wait = 'const end=Date.now()+6e4;while(Date.now()<end);';
+    const slow = script.replace(/\bset_parameters\(([\w$,\s]+)\)\s*\{/, `set_parameters($1){${wait}`);
+    expect(slow.length).toBe(script.length + wait.length);
+    await route.fulfill({ response, body: served === 1 ? slow : script });
+  });
+}
+
+plain('what takes long to open can be stopped, and the last experiment comes back', async ({ page }) => {
+  await slowCore(page);
+  await page.goto('/');
+  await loaded(page);
+  await page.evaluate(() => window.mapless?.loadScenario('ht', { seed: 9 }));
+  const { start } = await state(page);
+  const place = { x: start.x + 6, y: start.y + 1 };
+  await page.evaluate((at) => window.mapless?.setGoal(at), place);
+  const experiment = await page.evaluate(() => window.mapless?.experiment());
+  const opening = page.evaluate(
+    (other) => window.mapless?.openExperiment(other).catch((error: Error) => error.message),
+    { ...experiment, name: 'slow', overrides: { sensor: { range_noise_m: 0.1 } } },
+  );
+  await expect(page.locator('#notice-text')).toContainText('Opening this takes long');
+  await page.getByRole('button', { name: 'Stop', exact: true }).click();
+  expect(await opening).toContain('stopped');
+  await until(page, (now) => now.tick === 0 && !now.playing);
+  expect(await state(page)).toMatchObject({ scenario: 'ht', seed: 9, goal: place });
+  expect(await page.evaluate(() => window.mapless?.experiment())).toEqual(experiment);
+  await page.getByRole('button', { name: 'Play' }).click();
+  await until(page, ({ tick }) => tick > 3);
+});
+
+plain('a link that takes long to open can be stopped, and the page begins without it', async ({ page }) => {
+  await page.goto('/');
+  await loaded(page);
+  await page.evaluate(() => window.mapless?.loadScenario('ml'));
+  await page.evaluate(() => window.mapless?.setOverrides({ sensor: { range_noise_m: 0.1 } }));
+  const link = await page.evaluate(() => window.mapless?.link());
+  await slowCore(page);
+  await page.goto('about:blank');
+  await page.goto(link ?? '');
+  await expect(page.locator('#notice-text')).toContainText('Opening this takes long');
+  await page.getByRole('button', { name: 'Stop', exact: true }).click();
+  await loaded(page);
+  await expect(page.locator('#notice-text')).toContainText('Opening it was stopped');
   await until(page, ({ tick }) => tick > 3);
 });
 

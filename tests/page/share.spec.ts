@@ -94,6 +94,27 @@ plain('hostile and broken links say so, and lose nothing', async ({ page }) => {
   }
 });
 
+plain('small links to hours of work are refused', async ({ page }) => {
+  await page.goto('/');
+  await loaded(page);
+  const experiment = await page.evaluate(() => window.mapless?.experiment());
+  const open = async (part: object) => {
+    const json = JSON.stringify({ ...experiment, ...part });
+    await page.goto('about:blank');
+    await page.goto(`/#e=${deflateRawSync(json).toString('base64url')}`);
+  };
+  const hill = '[[hill]]\ncentre = [1, 1]\nheight_m = 0\nradius_m = 1000\n';
+  const recipe = `name = "a"\nsize_m = [800.0, 800.0]\ncell_m = 0.2\n${hill.repeat(8000)}`;
+  await open({ terrain: { recipe } });
+  await expect(page.locator('#notice-text')).toContainText('hill[15].samples touched = 256128016: expected at most');
+  // As many samples as an integer of 32 bits holds, and one more. Links hold each touch as the way from the one before.
+  const largest = 'name = "a"\nsize_m = [819.0, 819.0]\ncell_m = 0.2\n';
+  const points_cm = [100, 100, ...new Array(2 * 255).fill(0)];
+  await open({ terrain: { recipe: largest }, strokes: [{ kind: 'lower', radius_m: 1000, strength_m: 0, points_cm }] });
+  await expect(page.locator('#notice-text')).toContainText('stroke[1].samples touched = ');
+  await until(page, ({ tick }) => tick > 3);
+});
+
 plain('the page continues where it was left, and starts afresh when asked', async ({ page }) => {
   await page.goto('/');
   await loaded(page);

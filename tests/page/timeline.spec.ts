@@ -105,8 +105,18 @@ test('stops are driven to in order, and cleared again', async ({ mapless: page }
   await still(page);
   const box = await page.locator('#view').boundingBox();
   if (!box) throw new Error('The view has no size.');
+  await expect(page.locator('#tool-hint')).toContainText('stop on the way to the goal');
+  const before = await state(page);
+  // Two presses, the second before the first is carried out: stops on the way, in their order, before the same goal.
   await page.mouse.click(box.x + 0.55 * box.width, box.y + 0.55 * box.height);
-  await until(page, (now) => now.waypoints.length === 2);
+  await page.mouse.click(box.x + 0.45 * box.width, box.y + 0.6 * box.height);
+  await until(page, (now) => now.waypoints.length === 3);
+  const after = await state(page);
+  expect(after.goal).toEqual(before.goal);
+  expect(after.waypoints[0]).toEqual(stop);
+  // In the view's chase camera what is farther to the left of the picture is farther to the robot's left.
+  const left = ({ x = 0, y = 0 } = {}) => -Math.sin(pose.yaw) * (x - pose.x) + Math.cos(pose.yaw) * (y - pose.y);
+  expect(left(after.waypoints[2])).toBeGreaterThan(left(after.waypoints[1]));
   await page.getByRole('button', { name: 'Clear stops' }).click();
   await until(page, (now) => now.waypoints.length === 0);
 });

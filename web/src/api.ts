@@ -1,9 +1,11 @@
 /**
  * `window.mapless`: the page's own controls as functions, for tests, teachers and the browser's console. Each promise
- * resolves once the simulation has carried the call out, and is rejected with a message when it could not.
+ * resolves once the simulation has carried the call out, and is rejected with a message when it could not. `docs/API.md`
+ * says the same to those who use it.
  */
 
 import type { App } from './app.ts';
+import { number } from './core/checks.ts';
 import type { Experiment, Stroke } from './core/experiment.ts';
 import { linkTo } from './core/link.ts';
 import type { Overrides } from './core/overrides.ts';
@@ -72,9 +74,9 @@ declare global {
 export function publish(app: App): void {
   const used =
     <Arguments extends unknown[]>(act: (...args: Arguments) => Promise<void>) =>
-    (...args: Arguments) => {
+    async (...args: Arguments) => {
       app.touch();
-      return act(...args);
+      await act(...args);
     };
   window.mapless = {
     state: () => app.state(),
@@ -84,9 +86,9 @@ export function publish(app: App): void {
     still: used(() => app.still()),
     step: used(() => app.step()),
     restart: used(() => app.restart()),
-    setSpeed: used((speed: number) => app.setSpeed(speed)),
+    setSpeed: used((speed: number) => app.setSpeed(number(speed, 'speed', 0.01, Number.POSITIVE_INFINITY))),
     setGoal: used((goal: Place, waypoints?: readonly Place[]) => app.setGoal(goal, waypoints)),
-    seek: used((tick: number) => app.seek(tick)),
+    seek: used((tick: number) => app.seek(number(tick, 'tick', 0, Number.MAX_SAFE_INTEGER))),
     setOverrides: used((overrides: Overrides) => app.setOverrides(overrides)),
     setStart: used((start: Heading) => app.setStart(start)),
     sculpt: used((stroke: Stroke) => app.sculpt(readStroke(stroke))),

@@ -11,6 +11,7 @@ import type {
   Ground,
   GroundPatch,
   Heading,
+  Loaded,
   NamedFile,
   Place,
   SessionInfo,
@@ -19,6 +20,7 @@ import type {
 } from './core/protocol.ts';
 import { RunRecord } from './core/record.ts';
 import { Seeker } from './core/seeker.ts';
+import { Recovery } from './recovery.ts';
 import { HeightField } from './scene/heightfield.ts';
 import { SPEEDS } from './ui/controls.ts';
 import { Lingering } from './ui/lingering.ts';
@@ -44,6 +46,10 @@ export interface Views {
   experiment(bench: Workbench): void;
   notice(message: string): void;
   clearNotice(): void;
+  /** Something takes long to open, which can be stopped. */
+  slow(stop: () => void): void;
+  /** What took long is open, or refused. */
+  clearSlow(): void;
 }
 
 export class App {
@@ -62,7 +68,7 @@ export class App {
   readonly #seeker = new Seeker((tick) => this.#core.request({ type: 'seek', tick }));
   /** Whether anything shows the surfaces. */
   #watching = false;
-  #recovering = false;
+  readonly #recovery: Recovery;
   readonly bench: Workbench;
 
   constructor(core: CoreClient, views: Views) {
@@ -74,6 +80,11 @@ export class App {
       ground: () => this.#field,
       info: () => this.#info,
       changed: (bench) => this.#views.experiment(bench),
+    });
+    this.#recovery = new Recovery({
+      title: () => this.bench.experiment && entry(this.scenario).title,
+      reopen: () => this.#reopen(),
+      notice: views.notice,
     });
   }
 
@@ -199,10 +210,12 @@ export class App {
   /** Shows what the core begins with; undoing leads back to one's own work. */
   async begin(begun: Promise<Beginning>): Promise<Beginning> {
     this.#core.listen({
-      session: (info, ground, experiment) => this.#onSession(info, ground, experiment),
+      session: (info, loaded) => this.#onSession(info, loaded),
       frame: (frame) => this.#onFrame(frame),
       ground: (patch) => this.#onPatch(patch),
       failure: (message, panicked) => this.#onFailure(message, panicked),
+      slow: () => this.#views.slow(() => this.#stopOpening()),
+      opened: () => this.#views.clearSlow(),
     });
     const beginning = begun.then((known) => {
       if (known.from !== 'catalogue') this.touch();
@@ -275,18 +288,27 @@ export class App {
     return this.#info;
   }
 
+  /** The newest tick; nothing until the first scenario is loaded. */
+  get frame(): Frame | undefined {
+    return this.#frame;
+  }
+
   /** The goal, with waypoints to drive to before it. */
   async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
     this.#lingering.stop();
-    await this.bench.setRoute(waypoints, goal);
+    await this.bench.setRoute(() => ({ waypoints, goal }));
   }
 
-  /** A goal after the present one, which becomes a waypoint. Waypoints behind the robot are left behind. */
-  addGoal(goal: Place): Promise<void> {
-    const { waypoints = [], goal: last } = this.#info ?? {};
-    if (!last) return this.setGoal(goal);
-    const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
-    return this.setGoal(goal, reached ? [] : [...waypoints.slice(this.#frame?.waypointsPassed ?? 0), last]);
+  /** A stop on the way to the goal, after those there are; a robot at its goal goes on to it. */
+  async addStop(place: Place): Promise<void> {
+    this.#lingering.stop();
+    await this.bench.setRoute(() => {
+      const { waypoints = [], goal } = this.#info ?? {};
+      const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
+      if (!goal || reached) return { waypoints: [], goal: place };
+      // What the robot has been to stays behind it.
+      return { waypoints: [...waypoints.slice(this.#frame?.waypointsPassed ?? 0), place], goal };
+    });
   }
 
   /** Begins anew with these parameters in place of all others, and another seed if given. */
@@ -372,10 +394,10 @@ export class App {
     if (this.#frame) this.#views.status(this.#frame, playing);
   }
 
-  #onSession(info: SessionInfo, ground: Ground | undefined, experiment: Experiment | undefined): void {
+  #onSession(info: SessionInfo, loaded: Loaded | undefined): void {
     this.#info = info;
-    if (experiment) this.bench.loaded(experiment);
-    const field = ground ? new HeightField(ground) : undefined;
+    if (loaded) this.bench.loaded(loaded);
+    const field = loaded && new HeightField(loaded.ground);
     this.#field = field ?? this.#field;
     this.#views.session(info, field);
   }
@@ -408,35 +430,20 @@ export class App {
   #onFailure(message: string, panicked: boolean): void {
     this.#show(false);
     this.#lingering.stop();
-    if (!panicked) {
-      this.#views.notice(message);
-      return;
-    }
-    // A panic on the way back is reported by the way back.
-    if (this.#recovering) return;
-    this.#recovering = true;
-    this.#recover(message).finally(() => {
-      this.#recovering = false;
-    });
+    if (panicked) this.#recovery.afterPanic(message);
+    else this.#views.notice(message);
   }
 
-  async #recover(message: string): Promise<void> {
-    const { title } = entry(this.scenario);
-    this.#views.notice(
-      `The simulation stopped on an internal error. “${title}” goes back to its start, with your ground, start and goal. (${message})`,
-    );
-    if (!this.bench.experiment) {
-      this.#views.notice(`The simulation could not be loaded; reload the page to try again. (${message})`);
-      return;
-    }
-    try {
-      await this.bench.reopen();
-      await this.setSpeed(this.#speed);
-      await this.#core.request({ type: 'watch', surfaces: this.#watching });
-    } catch {
-      this.#views.notice(
-        `The simulation stopped on an internal error and could not be started again; reload the page. (${message})`,
-      );
-    }
+  /** Gives up what is being opened, and goes back to what was there before. */
+  #stopOpening(): void {
+    this.#show(false);
+    this.#core.stop('Opening it was stopped.');
+    this.#recovery.afterStop();
+  }
+
+  async #reopen(): Promise<void> {
+    await this.bench.reopen();
+    await this.setSpeed(this.#speed);
+    await this.#core.request({ type: 'watch', surfaces: this.#watching });
   }
 }

@@ -19,18 +19,21 @@ export async function begin(
   try {
     welcome(app, notice, await app.begin(begun));
   } catch (error) {
-    // What was asked for does not work: say why, and show what does.
-    await app.begin(plainly());
+    // What was asked for does not work: say why, and show what does. That may be the very work of the last visit.
+    await app.begin(plainly()).catch(() => first(app));
     notice.show(error instanceof Error ? error.message : String(error));
   }
 }
 
+function first(app: App): Promise<void> {
+  return app.runScenario(CATALOGUE[0]?.id ?? '', FIRST_SETUP);
+}
+
 function welcome(app: App, notice: Notice, { from, own, unread }: Beginning): void {
-  const first = () => app.runScenario(CATALOGUE[0]?.id ?? '', FIRST_SETUP);
   if (unread) notice.show(`What this browser kept of the last visit cannot be read. ${unread}`);
   else if (from === 'link' && own) notice.tell('This came with the link. Undo leads back to your own work.');
   else if (from === 'last visit') {
-    notice.tell('Here is where you left off.', 'Start afresh', () => app.attempt(first()));
+    notice.tell('Here is where you left off.', 'Start afresh', () => app.attempt(first(app)));
   }
 }
 

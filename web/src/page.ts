@@ -11,6 +11,7 @@ import type { Lab } from './lab/lab.ts';
 import { keepOffline } from './offline/register.ts';
 import { AttitudeInstrument, PITCH, ROLL } from './panel/attitude.ts';
 import { Measure } from './panel/measure.ts';
+import { published } from './panel/published.ts';
 import { OUTCOME_WORDS, StatusPanel } from './panel/status.ts';
 import { Stage } from './scene/stage.ts';
 import { GroundTools } from './scene/tools.ts';
@@ -27,6 +28,7 @@ import { TerrainsSheet } from './ui/terrains.ts';
 import { readTheme, watchTheme } from './ui/theme.ts';
 import { TimelineBar } from './ui/timeline.ts';
 import { UndoButtons } from './ui/undo.ts';
+import type { Workbench } from './workbench.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
@@ -67,6 +69,17 @@ function labCount(count: number): void {
   );
 }
 
+/** What is said and published of a scenario is shown only where its ground, start and route are its own. */
+function showCourse({ experiment, asItComes }: Workbench): void {
+  const name = asItComes && experiment ? experiment.name : '';
+  measure.paper(published(name));
+  setText(element('scene-lesson'), asItComes === false ? CHANGED : entry(name).lesson);
+}
+
+const CHANGED = 'Changed: ground, start or route are no longer the scenario’s.';
+
+const SLOW = 'Opening this takes long. Wait for it, or stop it and go on with what was there before.';
+
 let stage: Stage | undefined;
 
 const app = new App(core, {
@@ -87,9 +100,8 @@ const app = new App(core, {
       brushPanel.ground(field.min_m, field.max_m);
       lab?.sculpted();
     }
-    const { group, title, lesson } = entry(info.scenario);
+    const { group, title } = entry(info.scenario);
     setText(element('scene-title'), `${group}: ${title}`);
-    setText(element('scene-lesson'), lesson);
     setText(element('next-title'), following(info.scenario).title);
   },
   frame(frame) {
@@ -125,12 +137,15 @@ const app = new App(core, {
   },
   experiment(bench) {
     undoButtons.show(bench);
+    showCourse(bench);
     // A link in the address is no longer what is shown.
     if (bench.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
     if (app.touched && bench.experiment) autosave.save(bench.experiment);
   },
   notice: (message) => notice.show(message),
   clearNotice: () => notice.hide(),
+  slow: (stop) => notice.tell(SLOW, 'Stop', stop),
+  clearSlow: () => notice.withdraw(SLOW),
 });
 
 const graphics = watchGraphics(
@@ -153,7 +168,8 @@ const measure = new Measure({
 const thinking = new Thinking(app, stage, view);
 const tools = stage
   ? new GroundTools(view, stage, {
-      setGoal: (goal, added) => app.attempt(added ? app.addGoal(goal) : app.setGoal(goal)),
+      setGoal: (goal) => app.attempt(app.setGoal(goal)),
+      addStop: (place) => app.attempt(app.addStop(place)),
       setStart: (start) => app.attempt(app.setStart(start)),
       stroke(brush) {
         const stroke = app.bench.stroke(brush);
@@ -185,7 +201,7 @@ const actions = {
     thinking.letGo();
   },
   help: () => help.showModal(),
-  addStops: (adding: boolean) => tools?.adding(adding),
+  addStops: (adding: boolean) => tools?.addStops(adding),
   clearStops: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
   jump: (times: number) => app.attempt(app.jump(times)),
   lab: () => app.attempt(openLab()),

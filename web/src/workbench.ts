@@ -1,9 +1,19 @@
 /** Holds the experiment that the page shows, and its history: everything that changes it goes through here. */
 
-import { type Experiment, MAX_TOUCHES, type Stroke, tidyHeading, tidyPlace } from './core/experiment.ts';
+import { type Experiment, MAX_TOUCHES, type Stroke, sameCourse, tidyHeading, tidyPlace } from './core/experiment.ts';
 import { History } from './core/history.ts';
 import type { Overrides } from './core/overrides.ts';
-import type { Beginning, Command, Ground, GroundPatch, Heading, Place, SessionInfo, Source } from './core/protocol.ts';
+import type {
+  Beginning,
+  Command,
+  Ground,
+  GroundPatch,
+  Heading,
+  Loaded,
+  Place,
+  SessionInfo,
+  Source,
+} from './core/protocol.ts';
 import { type Brush, type MadeStroke, StrokeInHand } from './core/strokeInHand.ts';
 
 /** Ground kept for undoing strokes at once; older strokes are undone by loading the ground anew. */
@@ -11,6 +21,9 @@ const MOST_PATCH_BYTES = 64 << 20;
 
 /** A stroke begun with fewer touches than this in all fits into what an experiment holds, however long it is held. */
 const FULL_TOUCHES = 0.9 * MAX_TOUCHES;
+
+/** Where to drive: to the waypoints, one after the other, and then to the goal. */
+export type Route = Pick<Experiment, 'waypoints' | 'goal'>;
 
 interface Core {
   request(command: Command): Promise<void>;
@@ -28,6 +41,8 @@ export class Workbench {
   readonly #patches = new Map<Stroke, MadeStroke>();
   #patchBytes = 0;
   #loaded: Experiment | undefined;
+  /** The scenario that the experiment is named after. */
+  #scenario: Experiment | undefined;
   #inHand: StrokeInHand | undefined;
   /** Changes are made one after the other. */
   #queue: Promise<void> = Promise.resolve();
@@ -49,8 +64,14 @@ export class Workbench {
   }
 
   /** The core has loaded this. */
-  loaded(experiment: Experiment): void {
+  loaded({ experiment, scenario }: Pick<Loaded, 'experiment' | 'scenario'>): void {
     this.#loaded = experiment;
+    this.#scenario = scenario;
+  }
+
+  /** Whether ground, start and route are those of the scenario that the experiment is named after; nothing where there is none. */
+  get asItComes(): boolean | undefined {
+    return this.experiment && this.#scenario && sameCourse(this.experiment, this.#scenario);
   }
 
   /** The core has changed the ground here. */
@@ -95,23 +116,36 @@ export class Workbench {
 
   /** Settings: the trial begins anew with them and drives, on the ground as it is. */
   change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
-    return this.#edit(part, (experiment) => ({ type: 'load', source: { experiment }, play: true }));
+    return this.#edit(
+      () => part,
+      (experiment) => ({ type: 'load', source: { experiment }, play: true }),
+    );
   }
 
   /** Parameters, and another seed if given: the trial begins anew with them. */
   setOverrides(overrides: Overrides, seed?: number): Promise<void> {
     const part = seed === undefined ? { overrides } : { overrides, seed };
-    return this.#edit(part, () => ({ type: 'parameters', overrides, seed }));
+    return this.#edit(
+      () => part,
+      () => ({ type: 'parameters', overrides, seed }),
+    );
   }
 
-  setRoute(places: readonly Place[], place: Place): Promise<void> {
-    const [waypoints, goal] = [places.map(tidyPlace), tidyPlace(place)];
-    return this.#edit({ waypoints, goal }, () => ({ type: 'goal', goal, waypoints }));
+  /** `route` is asked once all changes before are made. */
+  setRoute(route: () => Route): Promise<void> {
+    const tidy = () => {
+      const { waypoints, goal } = route();
+      return { waypoints: waypoints.map(tidyPlace), goal: tidyPlace(goal) };
+    };
+    return this.#edit(tidy, ({ waypoints, goal }) => ({ type: 'goal', goal, waypoints }));
   }
 
   setStart(heading: Heading): Promise<void> {
     const start = tidyHeading(heading);
-    return this.#edit({ start }, () => ({ type: 'start', start }));
+    return this.#edit(
+      () => ({ start }),
+      () => ({ type: 'start', start }),
+    );
   }
 
   /** Begins a stroke: `touch` it, then `end` it. Everything else waits until it has ended. */
@@ -168,11 +202,11 @@ export class Workbench {
     return result;
   }
 
-  #edit(part: Partial<Experiment>, command: (experiment: Experiment) => Command): Promise<void> {
+  #edit(part: () => Partial<Experiment>, command: (experiment: Experiment) => Command): Promise<void> {
     return this.#next(async () => {
       const { experiment } = this;
       if (!experiment) throw new Error('No scenario is loaded yet.');
-      const changed = { ...experiment, ...part };
+      const changed = { ...experiment, ...part() };
       const first = command(changed);
       if (first.type === 'parameters') await this.#takeOwnRoute();
       await this.#core.request(first);

@@ -3,6 +3,7 @@ import { test } from 'node:test';
 import { crc32, inflateSync } from 'node:zlib';
 import { crc32 as ours } from '../src/files/checksum.ts';
 import { heightsAscii, heightsPng } from '../src/files/heights.ts';
+import { unzip } from '../src/files/unzip.ts';
 import { zip } from '../src/files/zip.ts';
 import { HeightField } from '../src/scene/heightfield.ts';
 
@@ -78,4 +79,70 @@ test('an archive lists its files with their sizes, places and checksums', async 
     assert.deepEqual(new Uint8Array(archive.subarray(begin, begin + bytes.length)), bytes);
     at += 46 + name.length;
   }
+});
+
+const FILES = [
+  { name: 'scenario.toml', bytes: new TextEncoder().encode('seed = 1\n') },
+  { name: 'terrain.asc', bytes: new Uint8Array(3000).fill(49) },
+];
+
+async function archived(): Promise<Uint8Array<ArrayBuffer>> {
+  return new Uint8Array(await zip(FILES).arrayBuffer());
+}
+
+function opened(bytes: Uint8Array<ArrayBuffer>) {
+  return unzip({ name: 'a.zip', bytes }).map((file) => ({ ...file, bytes: Uint8Array.from(file.bytes) }));
+}
+
+test('an archive is read back, with a comment after it and within a larger buffer, too', async () => {
+  const bytes = await archived();
+  assert.deepEqual(opened(bytes), FILES);
+  const commented = new Uint8Array(bytes.length + 5);
+  commented.set(bytes);
+  commented[bytes.length - 2] = 5;
+  assert.deepEqual(opened(commented), FILES);
+  const larger = new Uint8Array(bytes.length + 20);
+  larger.set(bytes, 10);
+  assert.deepEqual(opened(larger.subarray(10, bytes.length + 10)), FILES);
+});
+
+test('an archive that is cut short or lies is refused, whatever byte is wrong', async () => {
+  const bytes = await archived();
+  for (let length = 0; length < bytes.length; length += 1) {
+    assert.throws(() => opened(bytes.slice(0, length)), /^Error: a.zip: not a ZIP file that this page reads: /);
+  }
+  for (let at = 0; at < bytes.length; at += 1) {
+    for (const flip of [0x01, 0x80, 0xff]) {
+      const damaged = bytes.slice();
+      damaged[at] = (damaged[at] ?? 0) ^ flip;
+      try {
+        // Names and dates may be others; what is in the files is not.
+        assert.deepEqual(
+          opened(damaged).map((file) => file.bytes),
+          FILES.map((file) => file.bytes),
+        );
+      } catch (error) {
+        assert.match(String(error), /^Error: a.zip: not a ZIP file that this page reads: |^AssertionError.*at most/);
+      }
+    }
+  }
+});
+
+test('what an archive claims is bounded by what it holds', async () => {
+  const bytes = await archived();
+  const end = bytes.length - 22;
+  const view = new DataView(bytes.buffer);
+  const entry = view.getUint32(end + 16, true);
+  const lie = (at: number, ...values: number[]) => {
+    const copy = bytes.slice();
+    copy.set(values, at);
+    return () => opened(copy);
+  };
+  assert.throws(lie(end + 10, 255, 255), /65535 files: expected at most 100/);
+  assert.throws(lie(end + 10, 3), /entry 3 of its directory is not there/);
+  assert.throws(lie(end + 16, 255, 255, 255, 255), /entry 1 of its directory is not there/);
+  assert.throws(lie(entry + 10, 8), /scenario.toml is packed or encrypted/);
+  assert.throws(lie(entry + 20, 255, 255, 255, 255, 255, 255, 255, 255), /scenario.toml has 4294967295 bytes/);
+  assert.throws(lie(entry + 42, 255, 255, 255, 255), /scenario.toml is cut off or not where its directory says/);
+  assert.throws(lie(entry + 16, 0), /scenario.toml does not have its checksum/);
 });

@@ -23,7 +23,9 @@ class Core {
   async #carryOut(command: Command): Promise<void> {
     await Promise.resolve();
     this.asked.push(command.type);
-    if (command.type === 'load' && 'experiment' in command.source) this.bench.loaded(command.source.experiment);
+    if (command.type === 'load' && 'experiment' in command.source) {
+      this.bench.loaded({ experiment: command.source.experiment, scenario: SOURCE.experiment });
+    }
     if (command.type === 'goal' && command.goal.x < 0) throw new Error('goal off the terrain');
     if (command.type === 'sculpt') {
       for (let at = 0; at < command.stroke.points_cm.length; at += 2) {
@@ -51,7 +53,7 @@ class Core {
   }
 }
 
-const SOURCE: Source = { experiment: { ...EXPERIMENT, strokes: [] } };
+const SOURCE = { experiment: { ...EXPERIMENT, strokes: [] } } satisfies Source;
 
 async function opened(): Promise<Core> {
   const core = new Core();
@@ -84,7 +86,7 @@ test('strokes are undone and redone by putting heights back, in any number and i
 
 test('goal, start and strokes share one history', async () => {
   const core = await opened();
-  await core.bench.setRoute([], { x: 8.123456, y: 2 });
+  await core.bench.setRoute(() => ({ waypoints: [], goal: { x: 8.123456, y: 2 } }));
   assert.deepEqual(core.bench.experiment?.goal, { x: 8.12, y: 2 });
   await core.stroke(1);
   await core.bench.setStart({ x: 1, y: 1, heading_rad: 0.12345 });
@@ -94,6 +96,24 @@ test('goal, start and strokes share one history', async () => {
   await core.bench.undo();
   assert.deepEqual(core.asked, ['start', 'replace', 'goal']);
   assert.deepEqual(core.bench.experiment, SOURCE.experiment);
+});
+
+test('another start, route or ground is not the scenario’s any more, until it is taken back', async () => {
+  const core = await opened();
+  assert.equal(core.bench.asItComes, true);
+  for (const change of [
+    () => core.stroke(1),
+    () => core.bench.setStart({ x: 12.01, y: 12, heading_rad: 1.5 }),
+    () => core.bench.setRoute(() => ({ waypoints: [], goal: EXPERIMENT.goal })),
+    () => core.bench.setRoute(() => ({ waypoints: EXPERIMENT.waypoints, goal: { x: 14, y: 57.01 } })),
+  ]) {
+    await change();
+    assert.equal(core.bench.asItComes, false);
+    await core.bench.undo();
+    assert.equal(core.bench.asItComes, true);
+  }
+  await core.bench.change({ preset: 'paper' });
+  assert.equal(core.bench.asItComes, true);
 });
 
 test('settings and other terrains are undone by loading', async () => {
@@ -113,7 +133,10 @@ test('settings and other terrains are undone by loading', async () => {
 test('what the core refuses leaves no trace, and what follows goes on', async () => {
   const core = await opened();
   const before = core.bench.experiment;
-  await assert.rejects(core.bench.setRoute([], { x: -1, y: 0 }), /off the terrain/);
+  await assert.rejects(
+    core.bench.setRoute(() => ({ waypoints: [], goal: { x: -1, y: 0 } })),
+    /off the terrain/,
+  );
   assert.equal(core.bench.experiment, before);
   await core.stroke(1);
   assert.equal(core.bench.experiment?.strokes.length, 1);
@@ -137,7 +160,7 @@ test('a new change gives up what was undone; everything waits for the stroke in 
 test('undoing leads from an experiment of somebody else back to one’s own', async () => {
   const core = new Core();
   const own = { ...EXPERIMENT, name: 'own' };
-  core.bench.loaded(EXPERIMENT);
+  core.bench.loaded({ experiment: EXPERIMENT, scenario: undefined });
   await core.bench.begin(Promise.resolve({ from: 'link', own, unread: undefined }));
   assert.equal(core.bench.experiment?.name, EXPERIMENT.name);
   await core.bench.undo();

@@ -76,3 +76,15 @@ test('a time finds the nearest tick', () => {
 test('half a row is refused', () => {
   assert.throws(() => new RunRecord().add(new Float64Array(3)), /3 values/);
 });
+
+test('the metrics of a tick are those of its row', () => {
+  const record = new RunRecord();
+  record.add(rows(0, 30));
+  const row = rows(30, 31);
+  row[ROW.indexOf('distance_m')] = 7;
+  record.add(row);
+  assert.equal(record.metricsAt(30)?.distance_m, 7);
+  assert.equal(record.metricsAt(29)?.distance_m, 0);
+  assert.equal(record.metricsAt(31), undefined);
+  assert.equal(new RunRecord().metricsAt(0), undefined);
+});

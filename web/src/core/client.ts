@@ -1,25 +1,30 @@
 /** The page's end of the worker: requests with answers, events, and a new worker after a panic. */
 
-import type { Experiment } from './experiment.ts';
 import { gate } from './gate.ts';
 import {
   type Command,
   type Frame,
   type FrameBuffers,
   type FromWorker,
-  type Ground,
   type GroundPatch,
+  type Loaded,
   type SessionInfo,
   type ToWorker,
   transferables,
 } from './protocol.ts';
 
+/** Opening something usually takes a fraction of a second. */
+const SLOW_MS = 5000;
+
 export interface CoreEvents {
-  session(info: SessionInfo, ground: Ground | undefined, experiment: Experiment | undefined): void;
+  session(info: SessionInfo, loaded: Loaded | undefined): void;
   frame(frame: Frame): void;
   ground(patch: GroundPatch): void;
   /** An error that no request is waiting for, or any panic. After a panic the simulation is gone. */
   failure(message: string, panicked: boolean): void;
+  /** Opening something takes long; then it is open, or refused. */
+  slow(): void;
+  opened(): void;
 }
 
 interface Waiting {
@@ -34,6 +39,7 @@ export class CoreClient {
   readonly #waiting = new Map<number, Waiting>();
   #worker: Worker;
   #nextId = 0;
+  #opening: { id: number; timer: ReturnType<typeof setTimeout> } | undefined;
   /** What the worker answers to the command that it was started with. */
   readonly first: Promise<unknown>;
   readonly #started = gate();
@@ -71,6 +77,17 @@ export class CoreClient {
     this.#send({ type: 'recycle', buffers }, transferables(buffers));
   }
 
+  /** Ends the worker whatever it does; a new one takes over, with nothing loaded, and whoever waits is told why. */
+  stop(why: string): void {
+    this.#worker.onmessage = null;
+    this.#worker.terminate();
+    this.#worker = this.#start();
+    clearTimeout(this.#opening?.timer);
+    this.#opening = undefined;
+    for (const waiting of this.#waiting.values()) waiting.reject(new Error(why));
+    this.#waiting.clear();
+  }
+
   #send(message: ToWorker, transfer: Transferable[] = []): void {
     this.#worker.postMessage(message, transfer);
   }
@@ -97,7 +114,7 @@ export class CoreClient {
   #receive(message: FromWorker, events: CoreEvents): void {
     switch (message.type) {
       case 'session':
-        events.session(message.info, message.ground, message.experiment);
+        events.session(message.info, message.loaded);
         break;
       case 'frame':
         events.frame(message.frame);
@@ -105,10 +122,15 @@ export class CoreClient {
       case 'ground':
         events.ground(message.patch);
         break;
+      case 'opening':
+        this.#opening = { id: message.id, timer: setTimeout(() => events.slow(), SLOW_MS) };
+        break;
       case 'done':
+        this.#endOpening(message.id, events);
         this.#settle(message.id)?.resolve(message.value);
         break;
       case 'failed': {
+        this.#endOpening(message.id, events);
         const waiting = message.id === undefined ? undefined : this.#settle(message.id);
         waiting?.reject(new Error(message.message));
         if (message.panicked || !waiting) this.#fail(message.message, message.panicked, events);
@@ -123,14 +145,16 @@ export class CoreClient {
     return waiting;
   }
 
+  #endOpening(id: number | undefined, events: CoreEvents): void {
+    if (!this.#opening || this.#opening.id !== id) return;
+    clearTimeout(this.#opening.timer);
+    this.#opening = undefined;
+    events.opened();
+  }
+
   #fail(message: string, panicked: boolean, events: CoreEvents): void {
-    if (panicked) {
-      // A panic leaves the core's memory in an unknown state: only a new worker is trustworthy.
-      this.#worker.terminate();
-      this.#worker = this.#start();
-      for (const waiting of this.#waiting.values()) waiting.reject(new Error(message));
-      this.#waiting.clear();
-    }
+    // A panic leaves the core's memory in an unknown state: only a new worker is trustworthy.
+    if (panicked) this.stop(message);
     events.failure(message, panicked);
   }
 }

@@ -97,3 +97,14 @@ export function tidyPlace({ x, y }: Place): Place {
 export function tidyHeading(heading: Heading): Heading {
   return { ...tidyPlace(heading), heading_rad: Math.round(1000 * heading.heading_rad) / 1000 };
 }
+
+/** Whether two experiments lead over the same ground from the same start to the same goal. */
+export function sameCourse(one: Experiment, other: Experiment): boolean {
+  const route = ({ start, waypoints, goal }: Experiment) =>
+    JSON.stringify([tidyHeading(start), waypoints.map(tidyPlace), tidyPlace(goal)]);
+  return (
+    one.strokes.length + other.strokes.length === 0 &&
+    route(one) === route(other) &&
+    JSON.stringify(one.terrain) === JSON.stringify(other.terrain)
+  );
+}

@@ -1,7 +1,8 @@
 /** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
 
+import { unzip } from '../files/unzip.ts';
 import { loadTrials } from '../trials/wasm.ts';
-import { TASK, terrainFile } from './catalogue.ts';
+import { CATALOGUE, TASK, terrainFile } from './catalogue.ts';
 import {
   type Experiment,
   MAX_FILE_BYTES,
@@ -29,6 +30,7 @@ interface ScenarioRead {
   readonly robot?: Overrides;
 }
 
+const ARCHIVE = /\.zip$/i;
 const GRIDS = /\.(png|asc|tiff?)$/i;
 /** Samples along the longer side of a preview. */
 const PREVIEW_SAMPLES = 96;
@@ -78,6 +80,16 @@ export async function experimentFrom(core: CoreModule, source: Source): Promise<
   return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setup);
 }
 
+/** The scenario that what was loaded is named after, as it comes; nothing where there is none. */
+export function scenarioOf(core: CoreModule, source: Source, experiment: Experiment): Experiment | undefined {
+  if ('scenario' in source) return experiment;
+  const { name, terrain: own } = experiment;
+  // Files of one's own may bear any name.
+  if (!('catalogue' in own) || !CATALOGUE.some(({ id }) => id === name)) return undefined;
+  const { read, terrain } = catalogued(core, name);
+  return fromScenario(read, name, terrain, experiment);
+}
+
 function catalogued(core: CoreModule, scenario: string): { read: ScenarioRead; terrain: Terrain } {
   const file = `scenarios/${scenario}.toml`;
   const read = core.read_scenario(file, terrainFile(file)) as ScenarioRead;
@@ -111,13 +123,16 @@ function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, setup:
   };
 }
 
-/** A scenario with the terrain it names, a terrain by itself, or a saved experiment. */
-function fromFiles(core: CoreModule, files: readonly NamedFile[], setup: Setup): Experiment {
-  for (const { name, bytes } of files) {
-    if (bytes.length > MAX_FILE_BYTES) {
-      throw new Error(`${name}: ${bytes.length} bytes: expected at most ${MAX_FILE_BYTES}`);
-    }
-  }
+/** A scenario with the terrain it names, a terrain by itself, or a saved experiment, each also within an archive. */
+function fromFiles(core: CoreModule, given: readonly NamedFile[], setup: Setup): Experiment {
+  const archive = given.find(({ name }) => ARCHIVE.test(name));
+  const files = given.flatMap((file) => {
+    if (!ARCHIVE.test(file.name)) return [file];
+    // A grid of the largest size, and what says how to read it.
+    limit(file, 2 * MAX_FILE_BYTES);
+    return unzip(file);
+  });
+  for (const file of files) limit(file, MAX_FILE_BYTES);
   const texts = files.filter(({ name }) => /\.(toml|json)$/i.test(name)).map((file) => ({ ...file, text: text(file) }));
   const saved = texts.find(({ name }) => /\.json$/i.test(name));
   if (saved) return readFile(saved.name, saved.text);
@@ -128,15 +143,20 @@ function fromFiles(core: CoreModule, files: readonly NamedFile[], setup: Setup):
     const read = core.read_scenario(scenario.name, scenario.text) as ScenarioRead;
     const own = terrainOf(recipe, grid);
     const terrain = own ?? cataloguedTerrain(scenario.name, read.terrain);
-    return fromScenario(read, shortName(scenario.name), terrain, { ...setup, overrides: {} });
+    return fromScenario(read, shortName((archive ?? scenario).name), terrain, { ...setup, overrides: {} });
   }
   const terrain = terrainOf(recipe, grid);
-  const [first] = files;
+  const [first] = given;
   if (!terrain || !first) {
-    const expected = 'a scenario or recipe (.toml), heights (.png, .asc, .tif) or a saved experiment (.json)';
+    const expected =
+      'a scenario or recipe (.toml), heights (.png, .asc, .tif), a saved experiment (.json), or a .zip of them';
     throw new Error(`${first?.name ?? 'Nothing'}: expected ${expected}`);
   }
   return onLevelPlaces(core, terrain, shortName(recipe?.name ?? first.name), setup);
+}
+
+function limit({ name, bytes }: NamedFile, most: number): void {
+  if (bytes.length > most) throw new Error(`${name}: ${bytes.length} bytes: expected at most ${most}`);
 }
 
 function terrainOf(

@@ -302,6 +302,14 @@ export type Command =
   | { type: 'watch'; surfaces: boolean }
   | { type: 'hidden'; hidden: boolean };
 
+/** What is new after a load. */
+export interface Loaded {
+  readonly ground: Ground;
+  readonly experiment: Experiment;
+  /** The scenario that it is named after, as that comes; nothing where there is none. */
+  readonly scenario: Experiment | undefined;
+}
+
 /** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */
 export type ToWorker = { type: 'request'; id: number; command: Command } | { type: 'recycle'; buffers: FrameBuffers };
 
@@ -309,8 +317,9 @@ export type ToWorker = { type: 'request'; id: number; command: Command } | { typ
 export type FromWorker =
   /** Its thread runs: whatever keeps the page busy, the core loads beside it. */
   | { type: 'started' }
-  /** After a load, with the ground and the experiment. */
-  | { type: 'session'; info: SessionInfo; ground: Ground | undefined; experiment: Experiment | undefined }
+  /** The core is there, and opens what this request asks for. */
+  | { type: 'opening'; id: number }
+  | { type: 'session'; info: SessionInfo; loaded: Loaded | undefined }
   | { type: 'frame'; frame: Frame }
   | { type: 'ground'; patch: GroundPatch }
   | { type: 'done'; id: number; value: unknown }

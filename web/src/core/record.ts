@@ -3,7 +3,8 @@
  * when the scan was taken and what the planner decided on it. It grows with the run and is bounded.
  */
 
-import { MOTION } from './columns.ts';
+import { METRICS, MOTION } from './columns.ts';
+import type { Metrics } from './protocol.ts';
 
 /** What a row holds, in its order. The worker appends the last three, which the core cannot measure. */
 export const ROW = [
@@ -13,8 +14,7 @@ export const ROW = [
   'subgoal_x',
   'subgoal_y',
   'activity',
-  'mean_vibration_rad_s',
-  'mean_elevation_rate_cm_s',
+  ...METRICS,
   'scan_ms',
   'planner_ms',
   'motion_ms',
@@ -22,7 +22,7 @@ export const ROW = [
 
 export type RowName = (typeof ROW)[number];
 
-/** An hour of simulated time: 6 MB. */
+/** An hour of simulated time: 7 MB. */
 export const MAX_ROWS = 36_000;
 const FIRST_ROWS = 1024;
 const STRIDE = ROW.length;
@@ -81,6 +81,13 @@ export class RunRecord {
 
   get(row: number, name: RowName): number {
     return this.#values[row * STRIDE + OFFSET[name]] ?? Number.NaN;
+  }
+
+  /** The metrics from the start to this tick; nothing where the record does not have it. */
+  metricsAt(tick: number): Metrics | undefined {
+    const row = this.#rows > 0 ? tick - this.get(0, 'tick') : -1;
+    if (row < 0 || row >= this.#rows) return undefined;
+    return Object.fromEntries(METRICS.map((name) => [name, this.get(row, name)])) as unknown as Metrics;
   }
 
   /** The row whose time is nearest to this one; -1 in an empty record. */

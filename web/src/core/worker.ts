@@ -1,7 +1,7 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
 import { beginningAt } from './beginning.ts';
-import { experimentFrom, filesOf, preview } from './opening.ts';
+import { experimentFrom, filesOf, preview, scenarioOf } from './opening.ts';
 import {
   type Command,
   type Frame,
@@ -158,7 +158,7 @@ function openFromStart(): void {
 
 /** Says what is loaded now, on the ground that the page has. */
 function tellSession(): void {
-  if (session) post({ type: 'session', info: session.info, ground: undefined, experiment: undefined });
+  if (session) post({ type: 'session', info: session.info, loaded: undefined });
 }
 
 function notePlace(): void {
@@ -196,15 +196,17 @@ function showPatch(patch: GroundPatch): void {
   if (!running()) setTimeout(loop);
 }
 
-async function load(source: Source, play: boolean): Promise<void> {
+async function load(source: Source, play: boolean, id: number): Promise<void> {
   const core = await loading;
+  post({ type: 'opening', id });
   const experiment = await experimentFrom(core, source);
   const opened = Session.open(core, experiment);
   session?.free();
   session = opened;
   playing ||= play;
   const ground = session.ground();
-  post({ type: 'session', info: session.info, ground, experiment }, [ground.heights_m.buffer]);
+  const loaded = { ground, experiment, scenario: scenarioOf(core, source, experiment) };
+  post({ type: 'session', info: session.info, loaded }, [ground.heights_m.buffer]);
   openFromStart();
 }
 
@@ -212,11 +214,11 @@ async function load(source: Source, play: boolean): Promise<void> {
 async function carryOut(command: Command, id: number): Promise<unknown> {
   if (command.type === 'begin') {
     const { source, ...beginning } = await beginningAt(command.address);
-    await load(source, true);
+    await load(source, true, id);
     return beginning;
   }
   if (command.type === 'load') {
-    await load(command.source, command.play);
+    await load(command.source, command.play, id);
     return;
   }
   if (command.type === 'watch') {

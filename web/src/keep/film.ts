@@ -1,8 +1,8 @@
 /** Pictures and films of the 3D view. The view's canvas is see-through: here it stands before the page's sky. */
 
-/** What gives its pictures away while somebody wants them, beginning with the present one; `undefined` when there will be no more. */
+/** What gives its pictures away while somebody wants them, beginning with the present one; `undefined` when there will be no more. The present one is in full resolution if it is to be `fine`. */
 export interface Filmed {
-  film(film: ((picture: ImageBitmap | undefined) => void) | undefined): void;
+  film(film: ((picture: ImageBitmap | undefined) => void) | undefined, fine: boolean): void;
 }
 
 const FRAME_RATE_HZ = 30;
@@ -34,9 +34,9 @@ export class Camera {
     return this.#filming;
   }
 
-  /** The view as it is next drawn, as PNG. */
+  /** The view as it is next drawn, in full resolution, as PNG. */
   async picture(): Promise<Blob> {
-    await this.#next();
+    await this.#next(true);
     return new Promise((resolve, reject) => {
       this.#plate.toBlob(
         (blob) => (blob ? resolve(blob) : reject(new Error('The browser could not make a picture of the view.'))),
@@ -51,7 +51,7 @@ export class Camera {
     if (!mimeType) throw new Error('This browser records no WebM video.');
     this.#filming = true;
     try {
-      await this.#next();
+      await this.#next(false);
     } catch (error) {
       this.#filming = false;
       throw error;
@@ -78,17 +78,17 @@ export class Camera {
   }
 
   /** Waits for the next drawing. */
-  #next(): Promise<void> {
+  #next(fine: boolean): Promise<void> {
     return new Promise((resolve, reject) => {
       this.#waiting = { resolve, reject };
-      this.#watch();
+      this.#watch(fine);
     });
   }
 
   /** Reads the view while anybody needs it. */
-  #watch(): void {
+  #watch(fine = false): void {
     const needed = this.#recorder !== undefined || this.#waiting !== undefined;
-    this.#source.film(needed ? (picture) => (picture ? this.#take(picture) : this.#end()) : undefined);
+    this.#source.film(needed ? (picture) => (picture ? this.#take(picture) : this.#end()) : undefined, fine);
   }
 
   #take(picture: ImageBitmap): void {

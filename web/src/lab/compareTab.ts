@@ -99,7 +99,7 @@ export class CompareTab implements Tab {
   #tellChoice(): void {
     const full = this.#chosen.length >= MOST;
     for (const { box } of this.#boxes) box.disabled = full && !box.checked;
-    const how = `They drive the same course from its start, with the same seed and parameters. At most ${MOST} at once.`;
+    const how = `They drive the same course from its start, with the same seed and parameters. At most ${MOST} at once. One that is still catching up is compared with the robot in view at the time it has got to.`;
     setText(this.#note, how);
   }
 
@@ -160,7 +160,8 @@ export class CompareTab implements Tab {
     const ended = frame.outcome !== 'running';
     const shown = ({ lastTick }: GhostRun) => (ended ? lastTick : Math.min(frame.tick, lastTick));
     this.#stage?.ghostSteps(this.#trails.steps(running.map(([, run]) => shown(run))));
-    if (!this.element.hidden)
-      this.#table.show(frame, new Map(running.map(([rival, run]) => [rival.planner, run.at(shown(run))])));
+    if (this.element.hidden) return;
+    const results = new Map(running.map(([rival, run]) => [rival.planner, run.at(shown(run))]));
+    this.#table.show(frame, this.#app.record, results);
   }
 }

@@ -1,11 +1,13 @@
 /** The robot of the page beside its ghosts: outcome, time and the six metrics, with what is different. */
 
-import type { Frame, SessionInfo } from '../core/protocol.ts';
+import type { Frame, Metrics, Outcome, SessionInfo } from '../core/protocol.ts';
+import type { RunRecord } from '../core/record.ts';
 import { METRIC_ROWS } from '../panel/metrics.ts';
 import { OUTCOME_WORDS } from '../panel/status.ts';
 import type { TrialResult } from '../trials/protocol.ts';
 import { html, setText } from '../ui/dom.ts';
 import { clock, fixed } from '../ui/format.ts';
+import { counterpart, isBehind } from './inStep.ts';
 import { RIVALS, type Rival } from './planners.ts';
 
 interface Column {
@@ -42,25 +44,40 @@ export class ComparisonTable {
     this.element.replaceChildren(caption, html('thead', '', [head]), html('tbody', '', rows));
   }
 
-  show(frame: Frame, results: ReadonlyMap<string, TrialResult>): void {
+  /** A ghost that is behind is compared with what `record` has of its own last tick. */
+  show(frame: Frame, record: RunRecord, results: ReadonlyMap<string, TrialResult>): void {
     for (const { planner, cells } of this.#columns) {
-      const result = planner === undefined ? frame : results.get(planner);
-      if (!result) continue;
-      const [outcome, time, ...metrics] = cells;
-      if (outcome) {
-        setText(outcome, OUTCOME_WORDS[result.outcome]);
-        outcome.dataset.outcome = result.outcome;
+      if (planner === undefined) {
+        fill(cells, frame.outcome, clock(frame.time_s), (key, decimals) => fixed(frame.metrics[key], decimals));
+        continue;
       }
-      if (time) setText(time, clock(result.time_s));
-      for (const [index, { key, decimals }] of METRIC_ROWS.entries()) {
-        const cell = metrics[index];
-        if (!cell) continue;
-        const value = fixed(result.metrics[key], decimals);
-        const difference = result.metrics[key] - frame.metrics[key];
-        const sign = difference > 0 ? '+' : '';
-        setText(cell, planner === undefined ? value : `${value} (${sign}${fixed(difference, decimals)})`);
-      }
+      const ghost = results.get(planner);
+      if (!ghost) continue;
+      const own = counterpart(ghost, frame, record);
+      const time = `${clock(ghost.time_s)}${isBehind(ghost, frame) ? ', catching up' : ''}`;
+      fill(cells, ghost.outcome, time, (key, decimals) => {
+        const difference = own ? ghost.metrics[key] - own[key] : Number.NaN;
+        const gap = Number.isNaN(difference) ? '–' : `${difference > 0 ? '+' : ''}${fixed(difference, decimals)}`;
+        return `${fixed(ghost.metrics[key], decimals)} (${gap})`;
+      });
     }
+  }
+}
+
+function fill(
+  [outcomeCell, timeCell, ...cells]: readonly HTMLElement[],
+  outcome: Outcome,
+  time: string,
+  metric: (key: keyof Metrics, decimals: number) => string,
+): void {
+  if (outcomeCell) {
+    setText(outcomeCell, OUTCOME_WORDS[outcome]);
+    outcomeCell.dataset.outcome = outcome;
+  }
+  if (timeCell) setText(timeCell, time);
+  for (const [index, { key, decimals }] of METRIC_ROWS.entries()) {
+    const cell = cells[index];
+    if (cell) setText(cell, metric(key, decimals));
   }
 }
 

@@ -49,6 +49,8 @@ export class Lab {
     document.querySelector('.app')?.append(this.#drawer);
     this.#select(0);
     if (app.info) this.session(app.info);
+    // While the run stands still, no other frame comes.
+    if (app.frame) this.frame(app.frame);
   }
 
   toggle(): void {

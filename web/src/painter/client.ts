@@ -55,11 +55,11 @@ export class PainterClient {
     });
   }
 
-  /** Gives each picture to `film` from now on, or to nobody. */
-  film(film: ((picture: ImageBitmap | undefined) => void) | undefined): void {
+  /** Gives each picture to `film` from now on, the first of them in full resolution if it is to be `fine`, or to nobody. */
+  film(film: ((picture: ImageBitmap | undefined) => void) | undefined, fine: boolean): void {
     if (film && !this.#available) throw new Error('there is no 3D view');
     this.#film = film;
-    this.send({ type: 'film', wanted: film !== undefined });
+    this.send({ type: 'film', wanted: film !== undefined, fine });
   }
 
   #receive(message: FromPainter): void {

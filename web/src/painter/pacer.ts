@@ -12,14 +12,18 @@ const PAUSE_MS = 1500;
 export class Pacer {
   /** Whether a processor draws in place of a graphics card. */
   readonly software: boolean;
+  /** Of pictures while something moves. */
   pixelRatio: number;
+  /** Of a picture that stays. */
+  readonly finest: number;
   #cost_ms = 16;
   #drawn_ms: number | undefined;
   #last_ms = 0;
 
   constructor(software: boolean, devicePixelRatio: number) {
     this.software = software;
-    this.pixelRatio = software ? LEAST_PIXEL_RATIO : Math.min(devicePixelRatio, MOST_PIXEL_RATIO);
+    this.finest = Math.min(devicePixelRatio, MOST_PIXEL_RATIO);
+    this.pixelRatio = software ? LEAST_PIXEL_RATIO : this.finest;
   }
 
   /** Whether it is time to draw; `now_ms` is that of the animation frame. */

@@ -23,6 +23,8 @@ import { Waypoints } from './waypoints.ts';
 
 /** Triangles of finer grids cost more than they show; a processor draws far fewer of them than a graphics card. */
 const GRID_VERTICES = { hardware: 512, software: 160 };
+/** What has stood for so long is drawn once more, as finely as the screen shows it. */
+const STILL_MS = 400;
 /** The way not taken again, or not yet. */
 const PALE = 0.35;
 
@@ -47,8 +49,11 @@ export class Painter {
   readonly #overlays: Overlays;
   readonly #relief: Relief;
   #size_px = { width: 1, height: 1 };
-  /** Whether canvas and camera have this size and the pacer's resolution. */
+  /** Whether canvas and camera have this size. */
   #fits = false;
+  /** Pixels of the last picture for each of the page's, and when it was drawn. */
+  #pixelRatio = 0;
+  #drawn_ms = 0;
   #scenery: Scenery | undefined;
   #colouring: Colouring = 'elevation';
   /** The robot as it is drawn; nothing until it stands on the present ground. */
@@ -57,6 +62,8 @@ export class Painter {
   #dirty = true;
   #first: 'to come' | 'under way' | 'drawn' = 'to come';
   #filming = false;
+  /** Whether the next picture is to be a fine one, whatever moves. */
+  #fine = false;
   /** Who waits until nothing changes. */
   #resting: number[] = [];
 
@@ -142,6 +149,7 @@ export class Painter {
         break;
       case 'film':
         this.#filming = message.wanted;
+        this.#fine = message.fine;
         break;
     }
   }
@@ -223,29 +231,34 @@ export class Painter {
     this.#relief.robot(pose.x, pose.y, pose.yaw, this.#scenery?.occupancy_radius_m ?? 0);
   }
 
-  #resize(): void {
+  #resize(pixelRatio: number): void {
     const { width, height } = this.#size_px;
-    this.#renderer.setPixelRatio(this.#pacer.pixelRatio);
+    this.#pixelRatio = pixelRatio;
+    this.#renderer.setPixelRatio(pixelRatio);
     this.#renderer.setSize(width, height, false);
     this.#camera.aspect = width / height;
     this.#camera.updateProjectionMatrix();
     // Returns keep a size in metres.
     const heightAtOneMetre = 2 * Math.tan((this.#camera.fov * Math.PI) / 360);
-    this.#returns.scale((height * this.#pacer.pixelRatio) / heightAtOneMetre);
+    this.#returns.scale((height * pixelRatio) / heightAtOneMetre);
     this.#fits = true;
   }
 
   #loop(now_ms: number): void {
     requestAnimationFrame((next_ms) => this.#loop(next_ms));
     if (this.#first === 'under way') this.#completeFirst();
-    if (!this.#dirty && !this.#relief.relighting) {
-      for (const id of this.#resting.splice(0)) this.#post({ type: 'rested', id });
-    }
+    const stands = !this.#dirty && !this.#relief.relighting;
+    const coarse = this.#robot !== undefined && this.#pixelRatio < this.#pacer.finest;
+    if (stands && !coarse) for (const id of this.#resting.splice(0)) this.#post({ type: 'rested', id });
+    const sharpen = stands && coarse && (this.#resting.length > 0 || now_ms - this.#drawn_ms > STILL_MS);
     // No picture of the ground without the robot, which comes right after it.
-    if (!this.#robot || !this.#pacer.due(now_ms) || !this.#dirty) return;
+    if (!this.#robot || !this.#pacer.due(now_ms) || !(this.#dirty || sharpen)) return;
     this.#dirty = false;
+    this.#drawn_ms = now_ms;
+    const pixelRatio = sharpen || this.#fine ? this.#pacer.finest : this.#pacer.pixelRatio;
+    this.#fine = false;
     // Only now, as it empties the canvas: until there is another picture, the last one stays.
-    if (!this.#fits) this.#resize();
+    if (!this.#fits || pixelRatio !== this.#pixelRatio) this.#resize(pixelRatio);
     const { position } = this.#camera;
     this.#subgoals.attach(this.#sensor, position);
     this.#places.face(position);
@@ -254,10 +267,8 @@ export class Painter {
     this.#tellRefusals();
     if (this.#first === 'to come') this.#first = 'under way';
     if (this.#filming) this.#sendPicture();
-    if (this.#pacer.drew(now_ms)) {
-      this.#fits = false;
-      this.#dirty = true;
-    }
+    // The time that a fine picture takes says nothing of the others.
+    if (pixelRatio === this.#pacer.pixelRatio && this.#pacer.drew(now_ms)) this.#dirty = true;
   }
 
   #tellRefusals(): void {

@@ -79,8 +79,8 @@ export type ToPainter =
   /** Other robots in place of those before, each in its colour. */
   | { type: 'ghosts'; colours: readonly string[] }
   | { type: 'ghostSteps'; steps: readonly GhostStep[] }
-  /** Whether each picture is sent to the page, too. */
-  | { type: 'film'; wanted: boolean }
+  /** Whether each picture is sent to the page, too, and whether the first of them is as fine as the screen shows it. */
+  | { type: 'film'; wanted: boolean; fine: boolean }
   /** Answered once everything before it is drawn and nothing changes by itself any more. */
   | { type: 'rest'; id: number };
 

@@ -8,7 +8,7 @@ import { TakeAway } from '../keep/takeAway.ts';
 import { byId, setText } from '../ui/dom.ts';
 import { MetricsPanel } from './metrics.ts';
 import { TimePlots } from './plots/timePlots.ts';
-import { published } from './published.ts';
+import type { Published } from './published.ts';
 import { TimingPanel } from './timing.ts';
 
 /** How long a button says that it has done its work. */
@@ -41,9 +41,13 @@ export class Measure {
 
   session(info: SessionInfo): void {
     this.#info = info;
-    const paper = published(info.scenario);
-    this.#metrics.session(paper);
-    this.#plots.session(info, paper);
+    this.#plots.session(info);
+  }
+
+  /** What the paper reports for the course that is driven; nothing for any other. */
+  paper(paper: Published | undefined): void {
+    this.#metrics.paper(paper);
+    this.#plots.paper(paper);
   }
 
   frame(frame: Frame): void {

@@ -79,7 +79,7 @@ export class MetricsPanel {
   }
 
   /** What the paper reports for its own route, on which the scenario is modelled. */
-  session(paper: Published | undefined): void {
+  paper(paper: Published | undefined): void {
     for (const { key, decimals } of METRIC_ROWS) {
       const element = this.#papers.get(key);
       const spread = paper?.deviation ? ` ± ${fixed(paper.deviation[key], decimals)}` : '';

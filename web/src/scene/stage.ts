@@ -67,9 +67,9 @@ export class Stage {
     return new Promise((resolve) => this.#patient.push(resolve));
   }
 
-  /** Gives every picture, from the present one on, to `film`, which closes it, and `undefined` when there will be no more; or to nobody. */
-  film(film: ((picture: ImageBitmap | undefined) => void) | undefined): void {
-    this.#painter.film(film);
+  /** Gives every picture, from the present one on (that one in full resolution if it is to be `fine`), to `film`, which closes it, and `undefined` when there will be no more; or to nobody. */
+  film(film: ((picture: ImageBitmap | undefined) => void) | undefined, fine: boolean): void {
+    this.#painter.film(film, fine);
   }
 
   theme(theme: Theme): void {

@@ -32,8 +32,9 @@ export interface BrushSetting {
 }
 
 export interface ToolActions {
-  /** `added`: after the present goal, which is driven to first. */
-  setGoal(goal: Place, added: boolean): void;
+  setGoal(goal: Place): void;
+  /** A stop before the goal, after the others. */
+  addStop(place: Place): void;
   setStart(start: Heading): void;
   /** Begins a stroke, which hears of its touches and its end. */
   stroke(brush: Brush): { touch(place: Place): void; end(): void };
@@ -92,8 +93,8 @@ export class GroundTools {
     this.#ring();
   }
 
-  /** Whether goals are added to the route without the Shift key. */
-  adding(adding: boolean): void {
+  /** Whether the goal's tool sets stops, also without the Shift key. */
+  addStops(adding: boolean): void {
     this.#adding = adding;
   }
 
@@ -144,9 +145,7 @@ export class GroundTools {
     this.#stop();
     if (!done || !pressed || !cursor) return;
     if (isBrush(this.#tool)) this.#line(this.#tool, pressed, cursor);
-    if (this.#tool === 'goal') {
-      this.#actions.setGoal({ x: cursor.x, y: cursor.y }, this.#adding || event.shiftKey);
-    }
+    if (this.#tool === 'goal') this.#drivesTo(cursor, event.shiftKey);
     if (this.#tool === 'start') {
       const [east, north] = [cursor.x - pressed.x, cursor.y - pressed.y];
       const dragged = Math.hypot(east, north) > HEADING_DRAG_M;
@@ -154,6 +153,11 @@ export class GroundTools {
       this.#actions.setStart({ x: pressed.x, y: pressed.y, heading_rad });
     }
     if (event.pointerType === 'touch') this.#hideCursor();
+  }
+
+  #drivesTo({ x, y }: Place, shifted: boolean): void {
+    if (this.#adding || shifted) this.#actions.addStop({ x, y });
+    else this.#actions.setGoal({ x, y });
   }
 
   #key(event: KeyboardEvent): void {
@@ -189,7 +193,7 @@ export class GroundTools {
   #apply(shifted: boolean): void {
     const at = this.#cursor ?? this.#stage.robot;
     if (!at) return;
-    if (this.#tool === 'goal') this.#actions.setGoal({ x: at.x, y: at.y }, this.#adding || shifted);
+    if (this.#tool === 'goal') this.#drivesTo(at, shifted);
     else if (this.#tool === 'start') {
       this.#actions.setStart({ x: at.x, y: at.y, heading_rad: this.#stage.viewHeading_rad });
     } else if (isBrush(this.#tool)) {

@@ -6,6 +6,8 @@ import type { SessionInfo, Setting } from '../core/protocol.ts';
 import { TOOLS, type Tool } from '../scene/tools.ts';
 import { byId, html, setText } from './dom.ts';
 
+const STOPS_HINT = 'Press the ground for each stop on the way to the goal, in their order';
+
 export const SPEEDS: readonly number[] = [0.5, 1, 2, 4, Number.POSITIVE_INFINITY];
 
 export interface Actions {
@@ -20,7 +22,7 @@ export interface Actions {
   terrains(): void;
   share(): void;
   help(): void;
-  /** Whether further goals are added to the route. */
+  /** Whether the goal's tool sets stops on the way. */
   addStops(adding: boolean): void;
   clearStops(): void;
 }
@@ -33,6 +35,7 @@ export class Controls {
   readonly #seed = byId('seed', HTMLInputElement);
   readonly #play = byId('play', HTMLButtonElement);
   readonly #routeTools = byId('route-tools', HTMLElement);
+  readonly #routeAdd = byId('route-add', HTMLInputElement);
   readonly #routeClear = byId('route-clear', HTMLButtonElement);
   readonly #lesson = byId('scene-lesson', HTMLElement);
   readonly #hint = byId('tool-hint', HTMLElement);
@@ -57,8 +60,10 @@ export class Controls {
     this.#onClick('help', () => actions.help());
     this.#onClick('next', () => actions.next());
     this.#onClick('route-clear', () => actions.clearStops());
-    const add = byId('route-add', HTMLInputElement);
-    add.addEventListener('change', () => actions.addStops(add.checked));
+    this.#routeAdd.addEventListener('change', () => {
+      actions.addStops(this.#routeAdd.checked);
+      this.showTool('goal');
+    });
     for (const input of this.#radios('tool')) {
       input.addEventListener('change', () => actions.selectTool(TOOLS.find((tool) => tool === input.value) ?? 'look'));
     }
@@ -95,6 +100,7 @@ export class Controls {
       // A finger cannot hover: what to do with the tool is said in the view, too, without its key.
       if (input.checked) setText(this.#hint, input.labels?.[0]?.title.replace(/ \(.\)$/, '') ?? '');
     }
+    if (tool === 'goal' && this.#routeAdd.checked) setText(this.#hint, STOPS_HINT);
     this.#hint.hidden = tool === 'look';
     this.#lesson.hidden = tool !== 'look';
     this.#routeTools.hidden = tool !== 'goal';

@@ -35,6 +35,11 @@ export class Notice {
     this.#box.hidden = false;
   }
 
+  /** Hides this message, if it is the one shown. */
+  withdraw(message: string): void {
+    if (this.#text.textContent === message) this.hide();
+  }
+
   hide(): void {
     this.#box.hidden = true;
   }

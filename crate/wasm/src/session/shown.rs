@@ -14,10 +14,10 @@ use crate::encode;
 impl Session {
     /// What the record of a run keeps of a tick, read between [`Session::plan`] and [`Session::act`]: tick, time; x, y, z,
     /// roll, pitch, yaw; speed, turn rate; the commanded speed and turn rate; the subgoal's x and y, NaN without one; what
-    /// the planner does (0 driving, 1 arrived, 2 looking, 3 stopped, 4 going back); mean vibration and mean elevation rate so far.
+    /// the planner does (0 driving, 1 arrived, 2 looking, 3 stopped, 4 going back); the six metrics so far, in the order
+    /// of [`mapless_trials::Metrics`].
     pub fn row(&self) -> Vec<f64> {
         let (trial, step) = (&self.now.trial, self.now.trial.step());
-        let metrics = trial.metrics();
         let subgoal_m = trial.navigator().subgoal_m().unwrap_or(DVec2::NAN);
         let activity = match step.status {
             Status::Driving => 0.0,
@@ -34,9 +34,8 @@ impl Session {
             subgoal_m.x,
             subgoal_m.y,
             activity,
-            metrics.mean_vibration_rad_s,
-            metrics.mean_elevation_rate_cm_s,
         ]);
+        values.extend(trial.metrics().values());
         values
     }
 

@@ -4,17 +4,45 @@ use crate::height_field::HeightField;
 use glam::DVec2;
 use std::ops::Range;
 
+/// Samples that all features and strokes of a recipe may touch, each time counted anew: a few seconds of work, more than a
+/// day's sculpting, and fifteen features as large as the largest terrain.
+pub(super) const MAX_TOUCHED_SAMPLES: usize = 250_000_000;
+
+/// What a recipe has cost until now.
+#[derive(Default)]
+pub(super) struct Effort {
+    pub(super) samples: usize,
+}
+
+/// More samples, which is how many, than a recipe may touch.
+pub(super) struct TooMuch(pub(super) usize);
+
+impl Effort {
+    /// Notes that `samples` are about to be touched, unless that is too much.
+    pub(super) fn spend(&mut self, samples: usize) -> Result<(), TooMuch> {
+        self.samples = self.samples.saturating_add(samples);
+        if self.samples <= MAX_TOUCHED_SAMPLES { Ok(()) } else { Err(TooMuch(self.samples)) }
+    }
+}
+
 pub(super) struct Canvas {
     pub(super) columns: usize,
     pub(super) rows: usize,
     pub(super) cell_m: f64,
     pub(super) heights_m: Vec<f64>,
+    pub(super) effort: Effort,
 }
 
 impl Canvas {
     pub(super) fn from_field(field: &HeightField) -> Self {
         let heights_m = field.heights_m().iter().map(|&height| f64::from(height)).collect();
-        Self { columns: field.columns(), rows: field.rows(), cell_m: field.cell_m(), heights_m }
+        Self {
+            columns: field.columns(),
+            rows: field.rows(),
+            cell_m: field.cell_m(),
+            heights_m,
+            effort: Effort::default(),
+        }
     }
 
     pub(super) fn extent_m(&self) -> DVec2 {
@@ -22,19 +50,26 @@ impl Canvas {
     }
 
     /// Visits every sample with its position and height.
-    pub(super) fn each(&mut self, change: impl FnMut(DVec2, &mut f64)) {
+    pub(super) fn each(&mut self, change: impl FnMut(DVec2, &mut f64)) -> Result<(), TooMuch> {
         let extent = self.extent_m();
-        self.each_within(DVec2::ZERO, extent, change);
+        self.each_within(DVec2::ZERO, extent, change)
     }
 
     /// Visits every sample in the box from `low` to `high` with its position and height.
-    pub(super) fn each_within(&mut self, low: DVec2, high: DVec2, mut change: impl FnMut(DVec2, &mut f64)) {
+    pub(super) fn each_within(
+        &mut self,
+        low: DVec2,
+        high: DVec2,
+        mut change: impl FnMut(DVec2, &mut f64),
+    ) -> Result<(), TooMuch> {
         let (columns, rows) = self.samples_within(low, high);
+        self.effort.spend(columns.len() * rows.len())?;
         for row in rows {
             for column in columns.clone() {
                 change(self.place(column, row), &mut self.heights_m[row * self.columns + column]);
             }
         }
+        Ok(())
     }
 
     /// The columns and rows of the box from `low` to `high`.

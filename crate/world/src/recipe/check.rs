@@ -1,5 +1,6 @@
 //! Checks of single values that name their table and line.
 
+use super::canvas::{MAX_TOUCHED_SAMPLES, TooMuch};
 use crate::sculpt::StrokeError;
 use crate::terrain::TerrainFault;
 use serde::Deserialize;
@@ -8,8 +9,10 @@ use serde::Deserialize;
 const FAR_M: f64 = 1e6;
 
 /// The table whose values are being checked.
-pub(super) struct Table {
-    prefix: String,
+pub(super) struct Table<'a> {
+    /// The recipe, where in it the table begins, and which of its kind it is; nothing at the top level. The line is counted
+    /// for a fault only: doing so for each of many tables takes long.
+    place: Option<(&'a str, usize, &'static str, usize)>,
 }
 
 /// A value for a whole line, or one for each of its points.
@@ -30,19 +33,28 @@ impl PerPoint {
     }
 }
 
-impl Table {
+impl<'a> Table<'a> {
     pub(super) fn top_level() -> Self {
-        Self { prefix: String::new() }
+        Self { place: None }
     }
 
     /// The table `[[kind]]` number `index + 1`, which begins at byte `start` of the recipe.
-    pub(super) fn at(text: &str, start: usize, kind: &str, index: usize) -> Self {
-        let line = text.bytes().take(start).filter(|&byte| byte == b'\n').count() + 1;
-        Self { prefix: format!("line {line}, {kind}[{}].", index + 1) }
+    pub(super) fn at(text: &'a str, start: usize, kind: &'static str, index: usize) -> Self {
+        Self { place: Some((text, start, kind, index)) }
     }
 
     pub(super) fn fault(&self, key: &str, value: impl ToString, expected: impl Into<String>) -> TerrainFault {
-        TerrainFault::value(format!("{}{key}", self.prefix), value, expected)
+        let prefix = self.place.map_or(String::new(), |(text, start, kind, index)| {
+            let line = text.bytes().take(start).filter(|&byte| byte == b'\n').count() + 1;
+            format!("line {line}, {kind}[{}].", index + 1)
+        });
+        TerrainFault::value(format!("{prefix}{key}"), value, expected)
+    }
+
+    /// Work that was given up, as it was too much.
+    pub(super) fn too_much(&self, TooMuch(samples): TooMuch) -> TerrainFault {
+        let expected = format!("at most {MAX_TOUCHED_SAMPLES} in all tables");
+        self.fault("samples touched", samples, expected)
     }
 
     /// The fault of a `[[stroke]]`.

@@ -1,6 +1,6 @@
 //! The features that add to the ground.
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, TooMuch};
 use super::check::{PerPoint, Table};
 use super::gradient_noise::GradientNoise;
 use super::line::Line;
@@ -15,8 +15,8 @@ pub(super) const GAUSSIAN_REACH: f64 = 6.0;
 pub(super) trait Feature {
     /// Checks every value.
     fn check(&self, table: &Table, canvas: &Canvas) -> Result<(), TerrainFault>;
-    /// Changes the ground.
-    fn apply(&self, canvas: &mut Canvas, seed: u64);
+    /// Changes the ground, until it is too much.
+    fn apply(&self, canvas: &mut Canvas, seed: u64) -> Result<(), TooMuch>;
 }
 
 #[derive(Deserialize)]
@@ -44,7 +44,7 @@ impl Feature for Hill {
         table.finite("heading_rad", self.heading_rad)
     }
 
-    fn apply(&self, canvas: &mut Canvas, _: u64) {
+    fn apply(&self, canvas: &mut Canvas, _: u64) -> Result<(), TooMuch> {
         let centre = DVec2::from_array(self.centre);
         let reach = DVec2::splat(GAUSSIAN_REACH * self.radius_m * self.stretch.max(1.0));
         let (sin, cos) = libm::sincos(self.heading_rad);
@@ -53,7 +53,7 @@ impl Feature for Hill {
             let along = (away.x * cos + away.y * sin) / self.stretch;
             let across = away.y * cos - away.x * sin;
             *height_m += self.height_m * libm::exp(-0.5 * (along * along + across * across));
-        });
+        })
     }
 }
 
@@ -74,13 +74,13 @@ impl Feature for Plateau {
         table.positive("flank_m", self.flank_m)
     }
 
-    fn apply(&self, canvas: &mut Canvas, _: u64) {
+    fn apply(&self, canvas: &mut Canvas, _: u64) -> Result<(), TooMuch> {
         let centre = DVec2::from_array(self.centre);
         let reach = DVec2::splat(self.top_radius_m + self.flank_m);
         canvas.each_within(centre - reach, centre + reach, |at, height_m| {
             let down = (at.distance(centre) - self.top_radius_m) / self.flank_m;
             *height_m += self.height_m * (1.0 - smooth_step(down));
-        });
+        })
     }
 }
 
@@ -105,8 +105,8 @@ impl Feature for Ridge {
         table.positive("width_m", self.width_m)
     }
 
-    fn apply(&self, canvas: &mut Canvas, _: u64) {
-        add_along(canvas, &self.points, self.width_m, &self.height_m.values(self.points.len()), 1.0);
+    fn apply(&self, canvas: &mut Canvas, _: u64) -> Result<(), TooMuch> {
+        add_along(canvas, &self.points, self.width_m, &self.height_m.values(self.points.len()), 1.0)
     }
 }
 
@@ -125,18 +125,24 @@ impl Feature for Valley {
         table.positive("width_m", self.width_m)
     }
 
-    fn apply(&self, canvas: &mut Canvas, _: u64) {
-        add_along(canvas, &self.points, self.width_m, &self.depth_m.values(self.points.len()), -1.0);
+    fn apply(&self, canvas: &mut Canvas, _: u64) -> Result<(), TooMuch> {
+        add_along(canvas, &self.points, self.width_m, &self.depth_m.values(self.points.len()), -1.0)
     }
 }
 
 /// Adds `sign` times the heights at the points, with a Gaussian across the line.
-fn add_along(canvas: &mut Canvas, points: &[[f64; 2]], width_m: f64, heights_m: &[f64], sign: f64) {
+fn add_along(
+    canvas: &mut Canvas,
+    points: &[[f64; 2]],
+    width_m: f64,
+    heights_m: &[f64],
+    sign: f64,
+) -> Result<(), TooMuch> {
     let line = Line::through(points);
     line.each_near(canvas, GAUSSIAN_REACH * width_m, |nearest, height_m| {
         let crest_m = line.value(heights_m, nearest.way_m);
         *height_m += sign * crest_m * libm::exp(-0.5 * nearest.distance2_m2 / (width_m * width_m));
-    });
+    })
 }
 
 #[derive(Deserialize)]
@@ -159,7 +165,7 @@ impl Feature for Crater {
         table.not_negative("rim_height_m", self.rim_height_m)
     }
 
-    fn apply(&self, canvas: &mut Canvas, _: u64) {
+    fn apply(&self, canvas: &mut Canvas, _: u64) -> Result<(), TooMuch> {
         let centre = DVec2::from_array(self.centre);
         let reach = DVec2::splat(self.radius_m * (1.0 + GAUSSIAN_REACH * RIM_FLANK));
         canvas.each_within(centre - reach, centre + reach, |at, height_m| {
@@ -170,7 +176,7 @@ impl Feature for Crater {
                 let out = (radii - 1.0) / RIM_FLANK;
                 self.rim_height_m * libm::exp(-0.5 * out * out)
             };
-        });
+        })
     }
 }
 
@@ -204,13 +210,14 @@ impl Feature for Noise {
         Ok(())
     }
 
-    fn apply(&self, canvas: &mut Canvas, seed: u64) {
+    fn apply(&self, canvas: &mut Canvas, seed: u64) -> Result<(), TooMuch> {
         for octave in 0..self.octaves {
             let share = f64::from(1u32 << octave);
             let (amplitude_m, frequency) = (self.amplitude_m / share, share / self.wavelength_m);
             let octave_seed = crate::random::key(seed, u64::from(octave));
             let mut noise = GradientNoise::new(octave_seed);
-            canvas.each(|at, height_m| *height_m += amplitude_m * noise.at(at * frequency));
+            canvas.each(|at, height_m| *height_m += amplitude_m * noise.at(at * frequency))?;
         }
+        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Smooth lines through the points of a recipe.
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, TooMuch};
 use glam::DVec2;
 
 /// Pieces between two points of the recipe.
@@ -35,6 +35,8 @@ impl Piece {
 
 /// Samples along each side of a tile of the canvas, for which the pieces that may be nearest are found together.
 const TILE: usize = 4;
+/// Comparing a place with so many pieces takes as long as changing a sample.
+const PIECES_A_SAMPLE: usize = 4;
 /// What rounding may make of a distance.
 const SLACK_M: f64 = 1e-6;
 
@@ -105,7 +107,7 @@ impl Line {
         canvas: &mut Canvas,
         reach_m: f64,
         mut change: impl FnMut(Nearest, &mut f64),
-    ) {
+    ) -> Result<(), TooMuch> {
         let bound =
             |pick: fn(DVec2, DVec2) -> DVec2| self.vertices.iter().copied().reduce(pick).unwrap_or_default();
         let (low, high) = (bound(DVec2::min) - reach_m, bound(DVec2::max) + reach_m);
@@ -117,6 +119,7 @@ impl Line {
                 let columns = column..(column + TILE).min(all_columns.end);
                 let (first, last) = (canvas.place(column, row), canvas.place(columns.end - 1, rows.end - 1));
                 let (centre, radius_m) = ((first + last) / 2.0, first.distance(last) / 2.0);
+                canvas.effort.spend(self.pieces.len() / PIECES_A_SAMPLE)?;
                 distances_m.clear();
                 distances_m.extend(self.pieces.iter().map(|piece| piece.nearest(centre).0.sqrt()));
                 let nearest_m = distances_m.iter().copied().fold(f64::INFINITY, f64::min);
@@ -130,6 +133,7 @@ impl Line {
                         .filter(|(_, m)| **m <= farthest_m)
                         .map(|(one, _)| *one),
                 );
+                canvas.effort.spend(rows.len() * columns.len() * (1 + pieces.len() / PIECES_A_SAMPLE))?;
                 for (row, column) in
                     rows.clone().flat_map(|row| columns.clone().map(move |column| (row, column)))
                 {
@@ -139,6 +143,7 @@ impl Line {
                 }
             }
         }
+        Ok(())
     }
 }
 
@@ -164,6 +169,7 @@ fn locate(ways_m: &[f64], way_m: f64) -> (usize, f64) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::canvas::Effort;
     use super::*;
     use proptest::prelude::*;
 
@@ -201,8 +207,9 @@ mod tests {
         ) {
             let line = Line::through(&points);
             let (columns, rows, cell_m) = (61, 53, 0.5);
-            let mut canvas = Canvas { columns, rows, cell_m, heights_m: vec![f64::NAN; columns * rows] };
-            line.each_near(&mut canvas, reach_m, |nearest, height_m| *height_m = nearest.way_m);
+            let mut canvas = Canvas { columns, rows, cell_m, heights_m: vec![f64::NAN; columns * rows], effort: Effort::default() };
+            let done = line.each_near(&mut canvas, reach_m, |nearest, height_m| *height_m = nearest.way_m);
+            prop_assert!(done.is_ok());
             for (index, way_m) in canvas.heights_m.iter().enumerate() {
                 let expected = nearest(&line.pieces, canvas.place(index % columns, index / columns), reach_m);
                 prop_assert_eq!(way_m.to_bits(), expected.map_or(f64::NAN, |nearest| nearest.way_m).to_bits());

@@ -80,15 +80,12 @@ use crate::height_field::{HeightField, check_grid};
 use crate::import::{self, Scale};
 use crate::sculpt::{Stroke, StrokeTable};
 use crate::terrain::{Terrain, TerrainError, TerrainFault, split_name};
-use canvas::Canvas;
+use canvas::{Canvas, Effort};
 use check::Table;
 use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
 use mapless_toml::Located;
 use serde::Deserialize;
 use trail::Trail;
-
-/// Samples that all strokes of a recipe may touch, each time counted anew: some seconds of work, and more than a day's sculpting.
-const MAX_SCULPTED_SAMPLES: usize = 500_000_000;
 
 pub(crate) use features::smooth_step;
 pub(crate) use gradient_noise::GradientNoise;
@@ -144,13 +141,13 @@ pub(crate) fn load(
     let recipe: Recipe =
         mapless_toml::from_str(text).map_err(|error| TerrainFault::damaged("recipe", error).of(file))?;
     let mut canvas = recipe.ground(file, resolve)?;
-    let heights = recipe.shape(text, &mut canvas).and_then(|()| {
+    let field = recipe.shape(text, &mut canvas).and_then(|()| {
         let heights_m = canvas.heights_m.iter().map(|&height| height as f32).collect();
         let mut field = HeightField::new(canvas.columns, canvas.rows, canvas.cell_m, heights_m)?;
-        recipe.sculpt(text, &mut field)?;
+        recipe.sculpt(text, &mut field, canvas.effort)?;
         Ok(field)
     });
-    let field = heights.map_err(|fault| fault.of(file))?;
+    let field = field.map_err(|fault| fault.of(file))?;
     Ok(Terrain { name: recipe.name, description: recipe.description, field })
 }
 
@@ -184,11 +181,12 @@ impl Recipe {
                 let expected = format!("positive multiples of cell_m = {cell_m}");
                 return Err(TerrainFault::value("size_m", format!("{size_m:?}"), expected));
             }
-            *count = cells as usize + 1;
+            // The cast stops at the largest integer, beyond which there is no other.
+            *count = (cells as usize).saturating_add(1);
         }
         let [columns, rows] = samples;
         let count = check_grid(columns, rows, cell_m)?;
-        Ok(Canvas { columns, rows, cell_m, heights_m: vec![0.0; count] })
+        Ok(Canvas { columns, rows, cell_m, heights_m: vec![0.0; count], effort: Effort::default() })
     }
 
     /// Adds every feature to the ground.
@@ -197,7 +195,9 @@ impl Recipe {
         top.finite("base_m", self.base_m)?;
         top.finite("tilt", self.tilt[0])?;
         top.finite("tilt", self.tilt[1])?;
-        canvas.each(|at, height_m| *height_m += self.base_m + self.tilt[0] * at.x + self.tilt[1] * at.y);
+        let lift =
+            canvas.each(|at, height_m| *height_m += self.base_m + self.tilt[0] * at.x + self.tilt[1] * at.y);
+        lift.map_err(|much| top.too_much(much))?;
         add(text, "hill", &self.hill, self.seed, canvas)?;
         add(text, "plateau", &self.plateau, self.seed, canvas)?;
         add(text, "ridge", &self.ridge, self.seed, canvas)?;
@@ -208,16 +208,11 @@ impl Recipe {
     }
 
     /// Repeats the strokes. They work on the finished field, as they did when they were made.
-    fn sculpt(&self, text: &str, field: &mut HeightField) -> Result<(), TerrainFault> {
-        let mut samples = 0;
+    fn sculpt(&self, text: &str, field: &mut HeightField, mut effort: Effort) -> Result<(), TerrainFault> {
         for (index, table) in self.stroke.iter().enumerate() {
             let at = Table::at(text, table.begin, "stroke", index);
             let stroke = Stroke::try_from(&table.value).map_err(|error| at.stroke_fault(error))?;
-            samples += stroke.samples(field);
-            if samples > MAX_SCULPTED_SAMPLES {
-                let expected = format!("at most {MAX_SCULPTED_SAMPLES} in all strokes");
-                return Err(at.fault("samples touched", samples, expected));
-            }
+            effort.spend(stroke.samples(field)).map_err(|much| at.too_much(much))?;
             for brush in stroke.brushes() {
                 field.sculpt(brush).map_err(|fault| at.fault(fault.field, fault.value, fault.expected))?;
             }
@@ -237,7 +232,8 @@ fn add<F: Feature>(
     for (index, feature) in features.iter().enumerate() {
         let table = Table::at(text, feature.begin, kind, index);
         feature.value.check(&table, canvas)?;
-        feature.value.apply(canvas, crate::random::key(seed, index as u64));
+        let applied = feature.value.apply(canvas, crate::random::key(seed, index as u64));
+        applied.map_err(|much| table.too_much(much))?;
     }
     Ok(())
 }

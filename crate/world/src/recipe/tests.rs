@@ -1,6 +1,8 @@
 //! Recipes as a designer writes them.
 
+use super::canvas::MAX_TOUCHED_SAMPLES;
 use super::*;
+use crate::generate::{Difficulty, terrain_recipe};
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -197,6 +199,7 @@ fn sizes_are_checked_before_anything_is_allocated() {
     assert!(sized("[nan, 10.0]", "0.25").contains("expected positive multiples"));
     assert!(sized("[10.0, 10.0]", "nan").contains("expected positive multiples"));
     assert!(sized("[1e15, 1e15]", "1.0").contains("expected at most 16777216"));
+    assert!(sized("[1e30, 1e30]", "1.0").contains("expected at most 16777216"));
     assert!(sized("[10.0, 10.0]", "0.001").contains("spacing of 0.001 m"));
     assert!(build("name = \"t\"\n").unwrap_err().to_string().contains("size_m = absent"));
 }
@@ -272,10 +275,58 @@ fn strokes_repeat_what_was_done_by_hand() {
 #[test]
 fn strokes_without_end_are_refused() {
     let side = "name = \"a\"\nsize_m = [500.0, 500.0]\ncell_m = 0.5\n";
-    let points = vec!["[250.0, 250.0]"; 501].join(", ");
+    let points = vec!["[250.0, 250.0]"; 251].join(", ");
     let keys = format!("kind = \"lower\"\nradius_m = 900.0\nstrength_m = 0.0\npoints = [{points}]\n");
     let fault = build(&format!("{side}[[stroke]]\n{keys}")).unwrap_err().to_string();
     let expected =
-        "test.toml: line 4, stroke[1].samples touched = 502002501: expected at most 500000000 in all strokes";
+        "test.toml: line 4, stroke[1].samples touched = 252504252: expected at most 250000000 in all tables";
     assert_eq!(fault, expected);
+}
+
+#[test]
+fn features_without_end_are_refused() {
+    let side = "name = \"a\"\nsize_m = [800.0, 800.0]\ncell_m = 0.2\n";
+    let hill = "[[hill]]\ncentre = [1, 1]\nheight_m = 0\nradius_m = 1000\n";
+    let fault = build(&format!("{side}{}", hill.repeat(8000))).unwrap_err().to_string();
+    let expected =
+        "test.toml: line 60, hill[15].samples touched = 256128016: expected at most 250000000 in all tables";
+    assert_eq!(fault, expected);
+}
+
+#[test]
+fn lines_without_end_are_refused() {
+    let points = vec!["[0, 0], [800, 800]"; 25_000].join(", ");
+    let side = "name = \"a\"\nsize_m = [800.0, 800.0]\ncell_m = 0.2\n";
+    for keys in ["ridge]]\nheight_m = 0\nwidth_m = 1", "trail]]\nshoulder_m = 1\nwidth_m = 1"] {
+        let fault = build(&format!("{side}[[{keys}\npoints = [{points}]\n")).unwrap_err().to_string();
+        assert!(fault.contains("[1].samples touched = ") && fault.contains("at most 250000000"), "{fault}");
+    }
+}
+
+/// Nobody who makes terrain comes near the limit.
+#[test]
+fn shipped_and_generated_terrains_touch_few_samples() {
+    let effort = |text: &str| {
+        let recipe: Recipe = mapless_toml::from_str(text).unwrap();
+        let mut canvas = recipe.ground("", &mut |_| Err("none".to_owned())).unwrap();
+        recipe.shape(text, &mut canvas).unwrap();
+        canvas.effort.samples
+    };
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../terrains");
+    let mut texts = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            texts.push(std::fs::read_to_string(path).unwrap());
+        }
+    }
+    assert!(texts.len() >= 5);
+    for difficulty in Difficulty::ALL {
+        texts.extend((0..4).map(|seed| terrain_recipe("a", difficulty, seed)));
+    }
+    for text in texts {
+        let samples = effort(&text);
+        println!("{samples}");
+        assert!(samples < MAX_TOUCHED_SAMPLES / 10, "{samples}: {text}");
+    }
 }

@@ -1,6 +1,6 @@
 //! Trails: strips of ground, level across, that follow a smooth height profile of their own.
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, TooMuch};
 use super::check::{PerPoint, Table};
 use super::features::{Feature, smooth_step};
 use super::line::Line;
@@ -35,9 +35,9 @@ impl Feature for Trail {
         self.smoothing_m.map_or(Ok(()), |smoothing_m| table.not_negative("smoothing_m", smoothing_m))
     }
 
-    fn apply(&self, canvas: &mut Canvas, _: u64) {
+    fn apply(&self, canvas: &mut Canvas, _: u64) -> Result<(), TooMuch> {
         let line = Line::through(&self.points);
-        let profile_m = self.profile_m(canvas, &line);
+        let profile_m = self.profile_m(canvas, &line)?;
         line.each_near(canvas, self.width_m / 2.0 + self.shoulder_m, |nearest, height_m| {
             let distance_m = nearest.distance2_m2.sqrt();
             let own_share = 1.0 - smooth_step((distance_m - self.width_m / 2.0) / self.shoulder_m);
@@ -46,14 +46,15 @@ impl Feature for Trail {
             let trail_m =
                 profile_m[before] + (profile_m[before + 1] - profile_m[before]) * (place - before as f64);
             *height_m += (trail_m - *height_m) * own_share;
-        });
+        })
     }
 }
 
 impl Trail {
     /// The heights of the trail at even steps along the line, about one cell each.
-    fn profile_m(&self, canvas: &Canvas, line: &Line) -> Vec<f64> {
+    fn profile_m(&self, canvas: &mut Canvas, line: &Line) -> Result<Vec<f64>, TooMuch> {
         let steps = ((line.length_m() / canvas.cell_m) as usize).max(1);
+        canvas.effort.spend(steps)?;
         let step_m = line.length_m() / steps as f64;
         let given = self.height_m.as_ref().map(|height_m| height_m.values(self.points.len()));
         let raw = (0..=steps).map(|step| {
@@ -65,7 +66,7 @@ impl Trail {
         });
         let half_window = (self.smoothing_m.unwrap_or(4.0 * self.width_m) / (2.0 * step_m)).round() as usize;
         // Two boxes make a triangle, whose mean has no kinks in its slope.
-        average(&average(&raw.collect::<Vec<_>>(), half_window / 2), half_window / 2)
+        Ok(average(&average(&raw.collect::<Vec<_>>(), half_window / 2), half_window / 2))
     }
 }
 

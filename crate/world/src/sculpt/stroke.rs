@@ -89,7 +89,8 @@ impl Stroke {
     #[must_use]
     pub fn samples(&self, field: &HeightField) -> usize {
         let covered = self.brushes.iter().filter_map(|brush| covered(field, brush));
-        covered.map(SampleRect::samples).sum()
+        // Where an integer has 32 bits, a few hundred touches of the largest field are more than it holds.
+        covered.map(SampleRect::samples).fold(0, usize::saturating_add)
     }
 
     /// The touches, in their order.

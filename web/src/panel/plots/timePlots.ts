@@ -59,16 +59,23 @@ export class TimePlots {
     this.#listen();
   }
 
-  session(info: SessionInfo, published: Published | undefined): void {
+  session(info: SessionInfo): void {
     this.#references = {
+      ...this.#references,
       roll: { limit: DEGREES * info.limits.roll_rad },
       pitch: { limit: DEGREES * info.limits.pitch_rad },
-      elevation_rate: published ? { paper: published.mean.mean_elevation_rate_cm_s } : {},
-      vibration: published ? { paper: published.mean.mean_vibration_rad_s } : {},
-      curvature: {},
     };
     this.#period_s = info.period_s;
     this.#zoomed = undefined;
+    this.#schedule();
+  }
+
+  paper(published: Published | undefined): void {
+    this.#references = {
+      ...this.#references,
+      elevation_rate: published ? { paper: published.mean.mean_elevation_rate_cm_s } : {},
+      vibration: published ? { paper: published.mean.mean_vibration_rad_s } : {},
+    };
     this.#schedule();
   }
 
