@@ -97,3 +97,22 @@ test('the reading under a dial keeps to one line', async ({ mapless: page }) => 
     expect(lines, `${width} px`).toEqual([true, true]);
   }
 });
+
+test('what is pointed at can be closed, however long its title', async ({ mapless: page }) => {
+  await until(page, (now) => now.tick > 5);
+  await still(page);
+  for (const width of [320, 390, 820, 1440]) {
+    await page.setViewportSize({ width, height: 844 });
+    await page.locator('#variance').focus();
+    await page.keyboard.press('ArrowRight');
+    const card = page.locator('#detail');
+    const [title, chip] = [card.locator('.detail-title'), card.locator('.detail-chip')];
+    await title.evaluate((one) => one.replaceChildren('Place already seen, 179° right'));
+    await chip.evaluate((one) => one.replaceChildren('candidate'));
+    const [outer, close] = [await card.boundingBox(), await card.getByRole('button', { name: 'Close' }).boundingBox()];
+    if (!outer || !close) throw new Error('The card is not shown.');
+    expect(close.x + close.width, `${width} px`).toBeLessThanOrEqual(outer.x + outer.width);
+    expect(Math.min(close.width, close.height), `${width} px`).toBeGreaterThanOrEqual(40);
+    expect(await card.evaluate((one) => one.scrollWidth <= one.clientWidth), `${width} px`).toBe(true);
+  }
+});
