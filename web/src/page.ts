@@ -2,7 +2,7 @@
 
 import { publish } from './api.ts';
 import { App } from './app.ts';
-import { begin } from './begin.ts';
+import { begin, leadOut } from './begin.ts';
 import { Autosave } from './core/autosave.ts';
 import { entry, following } from './core/catalogue.ts';
 import { countOverrides } from './core/overrides.ts';
@@ -127,7 +127,9 @@ const app = new App(core, {
     undoButtons.show(bench);
     // A link in the address is no longer what is shown.
     if (bench.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
-    if (app.touched && bench.experiment) autosave.save(bench.experiment);
+    if (!bench.experiment) return;
+    if (app.touched) autosave.save(bench.experiment);
+    app.attempt(leadOut(bench.experiment));
   },
   notice: (message) => notice.show(message),
   clearNotice: () => notice.hide(),
