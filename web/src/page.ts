@@ -157,6 +157,7 @@ const tools = stage
   ? new GroundTools(view, stage, {
       setGoal: (goal, added) => app.attempt(added ? app.addGoal(goal) : app.setGoal(goal)),
       setStart: (start) => app.attempt(app.setStart(start)),
+      pressed: (onGround) => controls.showHint(onGround),
       moveView: (right, ahead) => thinking.moveView(right, ahead),
       stroke(brush) {
         const stroke = app.bench.stroke(brush);

@@ -35,6 +35,8 @@ export interface ToolActions {
   /** `added`: after the present goal, which is driven to first. */
   setGoal(goal: Place, added: boolean): void;
   setStart(start: Heading): void;
+  /** Somebody pressed with a tool in hand, on the ground or beside it. */
+  pressed(onGround: boolean): void;
   /** By shares of the distance to what is looked at. */
   moveView(right: number, ahead: number): void;
   /** Begins a stroke, which hears of its touches and its end. */
@@ -116,6 +118,7 @@ export class GroundTools {
     }
     if (this.#tool === 'look' || event.button !== 0) return;
     const at = this.#stage.pick(event.clientX, event.clientY);
+    this.#actions.pressed(at !== undefined);
     if (!at) return;
     this.#pointer = event.pointerId;
     this.#canvas.setPointerCapture(event.pointerId);

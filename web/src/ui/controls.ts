@@ -90,14 +90,19 @@ export class Controls {
   }
 
   showTool(tool: Tool): void {
-    for (const input of this.#radios('tool')) {
-      input.checked = input.value === tool;
-      // A finger cannot hover: what to do with the tool is said in the view, too, without its key.
-      if (input.checked) setText(this.#hint, input.labels?.[0]?.title.replace(/ \(.\)$/, '') ?? '');
-    }
+    for (const input of this.#radios('tool')) input.checked = input.value === tool;
+    this.showHint(true);
     this.#hint.hidden = tool === 'look';
     this.#lesson.hidden = tool !== 'look';
     this.#routeTools.hidden = tool !== 'goal';
+  }
+
+  /** What to do with the tool in hand, or that somebody pressed where no ground is. */
+  showHint(onGround: boolean): void {
+    // A finger cannot hover: the tool's title is said in the view, too, without its key.
+    const title = this.#radios('tool').find(({ checked }) => checked)?.labels?.[0]?.title ?? '';
+    setText(this.#hint, onGround ? title.replace(/ \(.\)$/, '') : 'There is no ground: press the terrain');
+    this.#hint.classList.toggle('is-missed', !onGround);
   }
 
   showSpeed(speed: number): void {
