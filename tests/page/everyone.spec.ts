@@ -1,6 +1,6 @@
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { expect, still, test } from './page.ts';
+import { expect, still, test, until } from './page.ts';
 
 const GRAVE = ['serious', 'critical'];
 
@@ -14,32 +14,52 @@ async function faults(page: Page): Promise<string[]> {
     .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
 }
 
-for (const scheme of ['light', 'dark'] as const) {
-  for (const [device, viewport] of [
-    ['desktop', { width: 1440, height: 900 }],
-    ['phone', { width: 390, height: 844 }],
-  ] as const) {
-    test(`axe finds nothing serious: ${device}, ${scheme}, also in the open sheets and the drawer`, async ({
-      mapless: page,
-    }) => {
-      await page.setViewportSize(viewport);
-      await page.emulateMedia({ colorScheme: scheme, reducedMotion: 'reduce' });
-      await still(page);
-      expect(await faults(page)).toEqual([]);
-      for (const button of ['How it works, and keys', 'Enlarge the plots', 'Terrains', 'Share and save']) {
-        await page.getByRole('button', { name: button }).click();
-        await expect(page.locator('dialog[open]')).toBeVisible();
-        expect(await faults(page), button).toEqual([]);
+const DEVICES = {
+  desktop: { viewport: { width: 1440, height: 900 } },
+  phone: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true },
+};
+
+for (const [device, options] of Object.entries(DEVICES)) {
+  test.describe(device, () => {
+    test.use(options);
+    for (const scheme of ['light', 'dark'] as const) {
+      test(`axe finds nothing serious in ${scheme}, also in what opens over the page`, async ({ mapless: page }) => {
+        await page.emulateMedia({ colorScheme: scheme, reducedMotion: 'reduce' });
+        await until(page, (now) => now.tick > 5);
+        await still(page);
+        expect(await faults(page)).toEqual([]);
+        for (const button of ['How it works, and keys', 'Enlarge the plots', 'Terrains', 'Share and save']) {
+          await page.getByRole('button', { name: button }).click();
+          await expect(page.locator('dialog[open]')).toBeVisible();
+          expect(await faults(page), button).toEqual([]);
+          await page.keyboard.press('Escape');
+        }
+        await page.locator('#variance').focus();
+        await page.keyboard.press('ArrowRight');
+        await page.evaluate(() => window.dispatchEvent(new ErrorEvent('error', { message: 'made up' })));
+        await expect(page.locator('#notice')).toBeVisible();
+        await expect(page.locator('.detail-close')).toBeVisible();
+        expect(await faults(page), 'what is pointed at, and a notice').toEqual([]);
+        await page.locator('#notice-close').click();
         await page.keyboard.press('Escape');
-      }
-      await page.getByRole('button', { name: /^Parameters, comparison/ }).click();
-      for (const tab of ['Parameters', 'Compare', 'Seeds']) {
-        await page.getByRole('tab', { name: tab }).click();
-        await expect(page.getByRole('tabpanel', { name: tab })).toBeVisible();
-        expect(await faults(page), tab).toEqual([]);
-      }
-    });
-  }
+        for (const [key, opened] of [
+          ['x', '#layers'],
+          ['h', '#tour'],
+        ] as const) {
+          await page.keyboard.press(key);
+          await expect(page.locator(opened)).toBeVisible();
+          expect(await faults(page), opened).toEqual([]);
+          await page.keyboard.press('Escape');
+        }
+        await page.getByRole('button', { name: /^Parameters, comparison/ }).click();
+        for (const tab of ['Parameters', 'Compare', 'Seeds']) {
+          await page.getByRole('tab', { name: tab }).click();
+          await expect(page.getByRole('tabpanel', { name: tab })).toBeVisible();
+          expect(await faults(page), tab).toEqual([]);
+        }
+      });
+    }
+  });
 }
 
 test('the first stop of the keyboard leads past the controls to the view', async ({ mapless: page }) => {

@@ -90,3 +90,18 @@ test('a goal off the terrain is refused in words', async ({ mapless: page }) => 
   expect(refusal).toContain('goal = (-5.000, 3.000)');
   expect((await state(page)).goal).toEqual(old.goal);
 });
+
+test('a press beside the ground says so, and the next one on it works', async ({ mapless: page }) => {
+  await page.keyboard.press('o');
+  await page.keyboard.press('2');
+  await still(page);
+  const old = await state(page);
+  const box = await page.locator('#view').boundingBox();
+  if (!box) throw new Error('The view has no place.');
+  const hint = page.locator('#tool-hint');
+  await page.mouse.click(box.x + 0.93 * box.width, box.y + 0.5 * box.height);
+  await expect(hint).toHaveText('There is no ground: press the terrain');
+  await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+  await until(page, (now) => moved(now.goal, old.goal));
+  await expect(hint).toHaveText('Press the ground where the robot should go');
+});

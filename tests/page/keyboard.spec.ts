@@ -62,6 +62,32 @@ test('the ground is reached by keyboard too: a goal and a hill', async ({ maples
   await expect.poll(height).toBeGreaterThan(before + 0.1);
 });
 
+test('the view moves by keyboard, and back', async ({ mapless: page }) => {
+  await page.locator('#view').focus();
+  await page.keyboard.press('2');
+  /** What lies in the middle of the view, found by dropping the goal there. */
+  const middle = async () => {
+    await still(page);
+    const before = await state(page);
+    await page.locator('#view').click();
+    await until(page, (now) => moved(now.goal, before.goal));
+    return (await state(page)).goal;
+  };
+  const steps = async (key: string) => {
+    await page.keyboard.press('1');
+    for (let step = 0; step < 3; step += 1) await page.keyboard.press(key);
+    await page.keyboard.press('2');
+  };
+  const first = await middle();
+  await steps('Shift+ArrowRight');
+  await expect(page.getByRole('button', { name: 'Follow the robot' })).toHaveAttribute('aria-pressed', 'false');
+  const right = await middle();
+  expect(Math.hypot(right.x - first.x, right.y - first.y)).toBeGreaterThan(1);
+  await steps('Shift+ArrowLeft');
+  const back = await middle();
+  expect(Math.hypot(back.x - first.x, back.y - first.y)).toBeLessThan(0.5);
+});
+
 test('every control can be reached and has a name', async ({ mapless: page }) => {
   await still(page);
   const nameless = await page.evaluate(() =>

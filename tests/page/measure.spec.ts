@@ -28,7 +28,6 @@ test('the plots show the run, and their cursor reads it', async ({ mapless: page
   for (const line of await lines.all()) {
     await expect(line).toHaveAttribute('d', /^M.*L.*L/);
   }
-  await expect(page.locator('.plot-limit')).toHaveCount(4);
   await expect(page.locator('.plot-paper')).toHaveCount(2);
   await cursor(page).focus();
   await page.keyboard.press('Home');
@@ -44,6 +43,23 @@ test('the plots show the run, and their cursor reads it', async ({ mapless: page
   expect(await time_s(page)).toBeCloseTo((timeline.end - 1) / 10);
   await page.evaluate(() => window.mapless?.seek(12));
   await expect.poll(() => time_s(page)).toBeCloseTo(1.2);
+});
+
+test('an angle fills the height of its plot, and its limit is there when it is near', async ({ mapless: page }) => {
+  await driveTo(page, 10);
+  await cursor(page).scrollIntoViewIfNeeded();
+  await expect(page.locator('.plots-figure')).toContainText('limit 30°');
+  await expect(page.locator('.plot-number').first()).toHaveText('−5');
+  await expect(page.locator('.plot-limit')).toHaveCount(0);
+  // A steep hill beside the start, under one side of the robot.
+  await page.evaluate(async () => {
+    const { x, y } = window.mapless?.state()?.start ?? { x: 0, y: 0 };
+    const points_cm = [Math.round(100 * x) + 300, Math.round(100 * y)];
+    await window.mapless?.sculpt({ kind: 'raise', radius_m: 7, strength_m: 3, points_cm });
+    await window.mapless?.restart();
+    await window.mapless?.step();
+  });
+  await expect(page.locator('.plot-limit')).toHaveCount(2);
 });
 
 test('the plots zoom by keys, wheel and buttons, and grow into a sheet', async ({ mapless: page }) => {

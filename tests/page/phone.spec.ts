@@ -1,3 +1,4 @@
+import type { Page } from '@playwright/test';
 import { drawnIn, expect, loaded, moved, state, still, test, until } from './page.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
@@ -42,8 +43,6 @@ test('a hill, a goal and a link by touch alone, each tool saying what to do', as
   const caption = page.locator('.scene-caption');
   await page.locator('label.tool', { hasText: 'Raise' }).tap();
   await expect(caption).toContainText('Hold or drag to raise the ground');
-  const [above, below] = [await caption.boundingBox(), await page.locator('#brush').boundingBox()];
-  expect((above?.y ?? 0) + (above?.height ?? 0)).toBeLessThan(below?.y ?? 0);
   const box = await page.locator('#view').boundingBox();
   if (!box) throw new Error('The view has no place.');
   const [x, y] = [box.x + 0.45 * box.width, box.y + 0.5 * box.height];
@@ -76,6 +75,7 @@ test('the head of the page fits windows of every width', async ({ mapless: page 
       const box = await page.locator(`#${id}`).boundingBox();
       expect(box && box.x >= 0 && box.x + box.width <= width && box.width >= 36, `#${id} at ${width}`).toBe(true);
     }
+    for (const id of ['preset', 'learning']) expect(await readable(page, id), `#${id} at ${width}`).toBe(true);
   }
 });
 
@@ -97,3 +97,116 @@ test('the reading under a dial keeps to one line', async ({ mapless: page }) => 
     expect(lines, `${width} px`).toEqual([true, true]);
   }
 });
+
+test('what is pointed at can be closed, however long its title', async ({ mapless: page }) => {
+  await until(page, (now) => now.tick > 5);
+  await still(page);
+  for (const width of [320, 390, 820, 1440]) {
+    await page.setViewportSize({ width, height: 844 });
+    await page.locator('#variance').focus();
+    await page.keyboard.press('ArrowRight');
+    const card = page.locator('#detail');
+    const [title, chip] = [card.locator('.detail-title'), card.locator('.detail-chip')];
+    await title.evaluate((one) => one.replaceChildren('Place already seen, 179° right'));
+    await chip.evaluate((one) => one.replaceChildren('candidate'));
+    const [outer, close] = [await card.boundingBox(), await card.getByRole('button', { name: 'Close' }).boundingBox()];
+    if (!outer || !close) throw new Error('The card is not shown.');
+    expect(close.x + close.width, `${width} px`).toBeLessThanOrEqual(outer.x + outer.width);
+    expect(Math.min(close.width, close.height), `${width} px`).toBeGreaterThanOrEqual(40);
+    expect(await card.evaluate((one) => one.scrollWidth <= one.clientWidth), `${width} px`).toBe(true);
+  }
+});
+
+/** Whether a chooser has room for what is chosen, beside its arrow. */
+function readable(page: Page, id: string): Promise<boolean> {
+  return page.locator(`#${id}`).evaluate((select: HTMLSelectElement) => {
+    const style = getComputedStyle(select);
+    const context = document.createElement('canvas').getContext('2d');
+    if (!context) return false;
+    context.font = style.font;
+    const words_px = context.measureText(select.selectedOptions[0]?.text ?? '').width;
+    const arrow_px = 20;
+    const room_px = select.clientWidth - Number.parseFloat(style.paddingLeft) - Number.parseFloat(style.paddingRight);
+    return words_px <= room_px - arrow_px;
+  });
+}
+
+/** What is wrong with where controls and messages are: two that overlap, or one that is cut off. */
+function misplaced(page: Page, wholly: boolean): Promise<string[]> {
+  return page.evaluate((wholly) => {
+    window.scrollTo(0, 0);
+    const parts = '.bar, .stage, .timeline';
+    const things = ':is(button, select, a, label, .scrub, .scene-caption, .brush, .detail, .result, .notice)';
+    const name = ({ id, className, textContent }: Element) => id || textContent?.trim() || className;
+    const shown = [...document.querySelectorAll(`:is(${parts}) ${things}`)].flatMap((one) => {
+      // A label stands for its control; what is scrolled out of the row of tools is out of the way.
+      if (one.matches('.field') || !one.checkVisibility({ visibilityProperty: true })) return [];
+      const { left, top, right, bottom } = one.getBoundingClientRect();
+      const row = one.closest('.tools')?.getBoundingClientRect();
+      const box = {
+        left: Math.max(left, row?.left ?? left),
+        top: Math.max(top, row?.top ?? top),
+        right: Math.min(right, row?.right ?? right),
+        bottom: Math.min(bottom, row?.bottom ?? bottom),
+      };
+      return box.right > box.left && box.bottom > box.top ? [{ one, ...box }] : [];
+    });
+    const { clientWidth, clientHeight } = document.documentElement;
+    const cut = shown
+      .filter(({ left, right, bottom }) => left < 0 || right > clientWidth || (wholly && bottom > clientHeight))
+      .map(({ one }) => `${name(one)} is cut off`);
+    const overlapping = shown.flatMap((a, index) =>
+      shown
+        .slice(index + 1)
+        .filter((b) => !a.one.contains(b.one) && !b.one.contains(a.one))
+        .filter((b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1)
+        .filter((b) => Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1)
+        .map((b) => `${name(a.one)} and ${name(b.one)}`),
+    );
+    return [...cut, ...overlapping];
+  }, wholly);
+}
+
+// The last is a window of 1280 px at 400 %; it scrolls.
+for (const [width, height] of [
+  [390, 844],
+  [375, 667],
+  [360, 640],
+  [320, 568],
+  [844, 390],
+  [740, 360],
+  [568, 320],
+  [700, 900],
+  [1100, 700],
+  [320, 256],
+] as const) {
+  test(`no control covers another at ${width} × ${height}, whatever the tool`, async ({ mapless: page }) => {
+    await page.setViewportSize({ width, height });
+    await until(page, (now) => now.tick > 5);
+    await still(page);
+    const found = () => misplaced(page, height > 320);
+    expect(await found()).toEqual([]);
+    // A brush with every setting, and the goal with stops to clear.
+    await page.keyboard.press('8');
+    expect(await found(), 'Height').toEqual([]);
+    await page.keyboard.press('2');
+    await page.locator('#route-clear').evaluate((button) => button.removeAttribute('hidden'));
+    expect(await found(), 'Goal').toEqual([]);
+    await page.keyboard.press('Escape');
+    await page.evaluate(() => window.dispatchEvent(new ErrorEvent('error', { message: 'made up' })));
+    expect(await found(), 'a notice').toEqual([]);
+    await page.locator('#notice-close').click();
+    await page.locator('#variance').focus();
+    await page.keyboard.press('ArrowRight');
+    await expect(page.locator('.detail-close')).toBeVisible();
+    expect(await found(), 'what is pointed at').toEqual([]);
+    await page.keyboard.press('Escape');
+    await page.locator('#result-words').evaluate((words) => words.replaceChildren('Tilt limit exceeded'));
+    await page.locator('#result').evaluate((result) => result.removeAttribute('hidden'));
+    expect(await found(), 'the result').toEqual([]);
+    for (const id of ['preset', 'learning']) expect(await readable(page, id), id).toBe(true);
+    await page.keyboard.press('p');
+    const close = await page.locator('.lab-close').boundingBox();
+    expect(close && close.x + close.width <= width && close.y + close.height <= height, 'the drawer').toBe(true);
+  });
+}

@@ -137,7 +137,28 @@ plain('a scenario by name, in another page’s frame', async ({ page }) => {
   expect(await state(page)).toMatchObject({ scenario: 'gsb', seed: 7, preset: 'paper' });
   await expect(page.locator('.transport')).toBeVisible();
   for (const part of ['.bar', '.panel', '.seen', '.tools', '.timeline']) await expect(page.locator(part)).toBeHidden();
-  await expect(page.locator('#open-page')).toHaveAttribute('href', /\?scenario=gsb&seed=7&preset=paper$/);
+});
+
+plain('the way out of a frame leads to what is shown in it', async ({ page, context }) => {
+  await page.goto('/?scenario=gsb&seed=7&preset=paper&embed');
+  await loaded(page);
+  await page.evaluate(() => window.mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } }));
+  const shown = await page.evaluate(() => window.mapless?.experiment());
+  const out = page.locator('#open-page');
+  await expect(out).toHaveAttribute('href', /\/#e=./);
+  const before = await out.getAttribute('href');
+  await page.setViewportSize({ width: 360, height: 300 });
+  const [link, layers] = [await out.boundingBox(), await page.locator('#layers-open').boundingBox()];
+  expect((layers?.y ?? 0) + (layers?.height ?? 0)).toBeLessThanOrEqual(link?.y ?? 0);
+  const [opened] = await Promise.all([context.waitForEvent('page'), out.click()]);
+  await loaded(opened);
+  expect(await opened.evaluate(() => window.mapless?.experiment())).toEqual(shown);
+  await expect(opened.locator('.panel')).toBeVisible();
+  // And so from a link in a frame.
+  await page.goto('about:blank');
+  await page.goto(`/?embed${new URL(before ?? '').hash}`);
+  await loaded(page);
+  await expect(out).toHaveAttribute('href', before ?? '');
 });
 
 plain('a generated task by name is driven as by the command line', async ({ page }) => {

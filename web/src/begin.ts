@@ -2,7 +2,8 @@
 
 import type { App } from './app.ts';
 import { CATALOGUE } from './core/catalogue.ts';
-import { FIRST_SETUP } from './core/experiment.ts';
+import { type Experiment, FIRST_SETUP } from './core/experiment.ts';
+import { linkTo } from './core/link.ts';
 import type { Beginning } from './core/protocol.ts';
 import { byId } from './ui/dom.ts';
 import type { Notice } from './ui/notice.ts';
@@ -14,8 +15,8 @@ export async function begin(
   begun: Promise<Beginning>,
   plainly: () => Promise<Beginning>,
 ): Promise<void> {
-  const options = new URLSearchParams(location.search);
-  if (options.has('embed')) embed(options);
+  // In another page's frame: the view alone, with a way out of it.
+  if (new URLSearchParams(location.search).has('embed')) document.documentElement.toggleAttribute('data-embed', true);
   try {
     welcome(app, notice, await app.begin(begun));
   } catch (error) {
@@ -37,9 +38,8 @@ function welcome(app: App, notice: Notice, { from, own, unread }: Beginning): vo
   }
 }
 
-/** In another page's frame: the view alone, with a way out of it. */
-function embed(options: URLSearchParams): void {
-  document.documentElement.toggleAttribute('data-embed', true);
-  options.delete('embed');
-  byId('open-page', HTMLAnchorElement).search = options.toString();
+/** The way out of another page's frame leads to what is shown there, however it came. */
+export async function leadOut(experiment: Experiment): Promise<void> {
+  if (!document.documentElement.hasAttribute('data-embed')) return;
+  byId('open-page', HTMLAnchorElement).href = await linkTo(location.href.split('?')[0] ?? '', experiment);
 }

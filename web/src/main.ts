@@ -7,6 +7,7 @@ import './style/measure.css';
 import './style/panels.css';
 import './style/thinking.css';
 import './style/ground.css';
+import './style/small.css';
 import { core } from './early.ts';
 
 if (document.readyState === 'loading') {

@@ -2,7 +2,7 @@
 
 import { publish } from './api.ts';
 import { App } from './app.ts';
-import { begin } from './begin.ts';
+import { begin, leadOut } from './begin.ts';
 import { Autosave } from './core/autosave.ts';
 import { entry, following } from './core/catalogue.ts';
 import { countOverrides } from './core/overrides.ts';
@@ -140,7 +140,9 @@ const app = new App(core, {
     showCourse(bench);
     // A link in the address is no longer what is shown.
     if (bench.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
-    if (app.touched && bench.experiment) autosave.save(bench.experiment);
+    if (!bench.experiment) return;
+    if (app.touched) autosave.save(bench.experiment);
+    app.attempt(leadOut(bench.experiment));
   },
   notice: (message) => notice.show(message),
   clearNotice: () => notice.hide(),
@@ -171,6 +173,8 @@ const tools = stage
       setGoal: (goal) => app.attempt(app.setGoal(goal)),
       addStop: (place) => app.attempt(app.addStop(place)),
       setStart: (start) => app.attempt(app.setStart(start)),
+      pressed: (onGround) => controls.showHint(onGround),
+      moveView: (right, ahead) => thinking.moveView(right, ahead),
       stroke(brush) {
         const stroke = app.bench.stroke(brush);
         return { touch: stroke.touch, end: () => app.attempt(stroke.end()) };

@@ -139,6 +139,12 @@ export class Thinking implements TourHost {
     this.#showCamera();
   }
 
+  /** Moves the view over the ground; it follows the robot no longer. */
+  moveView(right: number, ahead: number): void {
+    this.#stage?.move(right, ahead);
+    this.#showCamera();
+  }
+
   get imageIsLarge(): boolean {
     return this.#page.dataset.image === 'large';
   }

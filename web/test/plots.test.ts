@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { ROW, RunRecord } from '../src/core/record.ts';
 import { SERIES, sample } from '../src/panel/plots/series.ts';
-import { pan, ticks, zoom } from '../src/panel/plots/span.ts';
+import { levels, pan, ticks, zoom } from '../src/panel/plots/span.ts';
 
 /** A record whose rows have these values; time runs by tenths of a second. */
 function record(count: number, values: (tick: number) => Partial<Record<(typeof ROW)[number], number>>): RunRecord {
@@ -71,4 +71,20 @@ test('zoom keeps the time under the pointer, and stays within the run', () => {
 test('time ticks are round', () => {
   assert.deepEqual(ticks({ from_s: 0, to_s: 100 }, 5), [0, 20, 40, 60, 80, 100]);
   assert.deepEqual(ticks({ from_s: 61, to_s: 64 }, 3), [61, 62, 63, 64]);
+});
+
+test('the numbers of an axis are round, few, and at least one beside zero', () => {
+  assert.deepEqual(levels(-5.6, 5.6, 1.7), [-5, 0, 5]);
+  assert.deepEqual(levels(-33, 33, 6), [-20, 0, 20]);
+  assert.deepEqual(levels(0, 0.07, 1.7), [0, 0.05]);
+  assert.deepEqual(levels(0, 5.8, 6), [0, 1, 2, 3, 4, 5]);
+  for (const most of [0.0112, 0.5, 1.1, 1.9, 3, 7, 42, 99, 1000]) {
+    for (const least of [0, -most]) {
+      for (const count of [1.2, 1.7, 5]) {
+        const values = levels(least, most, count);
+        assert.ok(values.length >= 2 && values.length <= 2 * count + 3, `${least} to ${most}: ${values}`);
+        assert.ok(values.includes(0) && values.every((value) => value >= least && value <= most), `${values}`);
+      }
+    }
+  }
 });

@@ -58,7 +58,7 @@ export function drawProfile(context: Context, plot: Plot, profile: Float32Array,
   context.stroke(line);
 }
 
-/** The level of each segment; where the plot is large enough, also where it begins and ends, and how wide it is. */
+/** The level of each segment, with an arrow where it lies beyond the image; where the plot is large enough, also where it begins and ends, and how wide it is. */
 export function drawSegments(context: Context, plot: Plot, segments: readonly Segment[], theme: Theme): void {
   for (const segment of segments) {
     if (Number.isNaN(segment.elevation_rad)) continue;
@@ -67,10 +67,15 @@ export function drawSegments(context: Context, plot: Plot, segments: readonly Se
     context.lineWidth = valid ? 2.5 : 2;
     const dashes = valid ? [] : segment.verdict === 'too_narrow' ? [2, 2] : [7, 3];
     visitPlaces(plot, segment, (left, right) => {
-      const y = plot.y(segment.elevation_rad);
+      const { y, beyond } = plot.mark(segment.elevation_rad, 2);
       context.setLineDash(dashes);
       stroke(context, left + 1, y, right - 1, y);
       context.setLineDash([]);
+      for (const end of beyond === 0 ? [] : [left + 7, right - 7]) {
+        context.fillStyle = context.strokeStyle;
+        arrow(context, end, y + 6 * beyond, 6, beyond);
+        context.fill();
+      }
       if (!plot.detailed) return;
       for (const end of [left + 1, right - 1]) stroke(context, end, y - 5, end, y + 5);
       drawWidth(
@@ -89,7 +94,8 @@ function drawWidth(context: Context, plot: Plot, segment: Segment, x: number, th
   context.font = LABEL_FONT;
   const width = context.measureText(text).width + 8;
   if (plot.x(segment.begin_rad) - plot.x(segment.end_rad) < width + 4) return;
-  const y = Math.max(plot.y(segment.elevation_rad) - 24, plot.top + 9);
+  const { y: level, beyond } = plot.mark(segment.elevation_rad, 2);
+  const y = beyond === 1 ? level + 24 : Math.max(level - 24, plot.top + 9);
   context.fillStyle = css(theme.surface);
   context.globalAlpha = 0.8;
   context.beginPath();
@@ -102,17 +108,20 @@ function drawWidth(context: Context, plot: Plot, segment: Segment, x: number, th
   context.fillText(text, x, y + 0.5);
 }
 
+/** Subgoals as dots; those beyond the image as arrows at its edge. */
 export function drawSubgoals(context: Context, plot: Plot, subgoals: readonly Subgoal[], theme: Theme): void {
   const colourOf = costColours(subgoals);
   const ordered = [...subgoals].sort((a, b) => Number(a.chosen) - Number(b.chosen));
   const scale = plot.width < 460 ? 0.8 : plot.detailed ? 1.2 : 1;
   for (const one of ordered) {
-    const [x, y] = [plot.x(wrap(one.azimuth_rad)), plot.y(one.elevation_rad)];
     const radius = scale * (one.chosen ? 7 : colourOf(one) ? 5 : 3.2);
+    const x = plot.x(wrap(one.azimuth_rad));
+    const { y, beyond } = plot.mark(one.elevation_rad, radius + (one.chosen ? 5 : 1));
     context.fillStyle = css(colourOf(one) ?? theme.muted);
     context.lineWidth = 1.5;
     context.strokeStyle = '#0d1014';
-    circle(context, x, y, radius);
+    if (beyond === 0) circle(context, x, y, radius);
+    else arrow(context, x, y, 1.2 * radius, beyond);
     context.fill();
     context.stroke();
     if (!one.chosen) continue;
@@ -146,7 +155,7 @@ export function drawMarkedSubgoal(context: Context, plot: Plot, frame: Frame, ta
   if (!subgoal) return;
   context.strokeStyle = css(theme.accent);
   context.lineWidth = 3;
-  circle(context, plot.x(wrap(subgoal.azimuth_rad)), plot.y(subgoal.elevation_rad), plot.detailed ? 14 : 12);
+  circle(context, plot.x(wrap(subgoal.azimuth_rad)), plot.mark(subgoal.elevation_rad, 6).y, plot.detailed ? 14 : 12);
   context.stroke();
 }
 
@@ -191,4 +200,13 @@ function stroke(context: Context, x1: number, y1: number, x2: number, y2: number
 function circle(context: Context, x: number, y: number, radius: number): void {
   context.beginPath();
   context.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+/** An arrow head around a place, up (1) or down (-1). */
+function arrow(context: Context, x: number, y: number, size: number, up: number): void {
+  context.beginPath();
+  context.moveTo(x, y - up * size);
+  context.lineTo(x - size, y + 0.8 * up * size);
+  context.lineTo(x + size, y + 0.8 * up * size);
+  context.closePath();
 }

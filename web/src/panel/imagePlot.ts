@@ -8,6 +8,8 @@ import type { Theme } from '../ui/theme.ts';
 /** The occupancy surface's limits. */
 export const HALF_TURN = Math.PI;
 const TOP_RAD = (15 * Math.PI) / 180;
+/** What lies there is in the image, rounded as it may be. */
+const EDGE_RAD = TOP_RAD + 1e-6;
 const MARGIN = { left: 34, right: 10, top: 16, bottom: 20 };
 /** Room for the scale beside a large plot. */
 const SCALE_MARGIN = 86;
@@ -24,6 +26,8 @@ export interface Plot {
   azimuth_rad(x: number): number;
   x(azimuth_rad: number): number;
   y(elevation_rad: number): number;
+  /** The same, but no nearer to an edge than `margin`, and whether it lies beyond the upper (1) or the lower one (-1). */
+  mark(elevation_rad: number, margin: number): { readonly y: number; readonly beyond: -1 | 0 | 1 };
 }
 
 /** Azimuth and elevation ticks, and the horizon. */
@@ -111,6 +115,7 @@ export function layout(width: number, height: number): Plot {
   const top = MARGIN.top;
   const right = detailed ? SCALE_MARGIN : MARGIN.right;
   const inner = { width: width - left - right, height: height - top - MARGIN.bottom };
+  const y = (elevation_rad: number) => top + (inner.height * (TOP_RAD - elevation_rad)) / (2 * TOP_RAD);
   return {
     left,
     top,
@@ -118,7 +123,11 @@ export function layout(width: number, height: number): Plot {
     detailed,
     azimuth_rad: (x) => HALF_TURN - ((x - left) / inner.width) * 2 * HALF_TURN,
     x: (azimuth_rad) => left + (inner.width * (HALF_TURN - azimuth_rad)) / (2 * HALF_TURN),
-    y: (elevation_rad) => top + (inner.height * (TOP_RAD - elevation_rad)) / (2 * TOP_RAD),
+    y,
+    mark(elevation_rad, margin) {
+      const inside = Math.min(Math.max(y(elevation_rad), top + margin), top + inner.height - margin);
+      return { y: inside, beyond: elevation_rad > EDGE_RAD ? 1 : elevation_rad < -EDGE_RAD ? -1 : 0 };
+    },
   };
 }
 

@@ -90,7 +90,7 @@ export class VarianceImage {
     return (frame) => {
       let [best, nearest_px] = [-1, within_px];
       frame.subgoals.forEach((one, index) => {
-        const px = Math.hypot(plot.x(wrap(one.azimuth_rad)) - x, plot.y(one.elevation_rad) - y);
+        const px = Math.hypot(plot.x(wrap(one.azimuth_rad)) - x, plot.mark(one.elevation_rad, 6).y - y);
         if (px < nearest_px) [best, nearest_px] = [index, px];
       });
       return subgoalTarget(frame, best) ?? { subgoal: undefined, segment: segmentAt(frame, plot.azimuth_rad(x)) };

@@ -168,6 +168,13 @@ export class Stage {
     this.#moved = true;
   }
 
+  /** Moves the view over the ground, by shares of the distance to what is looked at. */
+  move(right: number, ahead: number): void {
+    if (!this.#field) return;
+    this.#viewpoint.move(right, ahead, this.#field);
+    this.#moved = true;
+  }
+
   /** The brush's ring, drawn out along the line from `from`; a radius of zero hides it. */
   brush(at: Place, from: Place, radius_m: number): void {
     this.#painter.send({ type: 'brush', at: { x: at.x, y: at.y }, from: { x: from.x, y: from.y }, radius_m });

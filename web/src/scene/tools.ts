@@ -36,6 +36,10 @@ export interface ToolActions {
   /** A stop before the goal, after the others. */
   addStop(place: Place): void;
   setStart(start: Heading): void;
+  /** Somebody pressed with a tool in hand, on the ground or beside it. */
+  pressed(onGround: boolean): void;
+  /** By shares of the distance to what is looked at. */
+  moveView(right: number, ahead: number): void;
   /** Begins a stroke, which hears of its touches and its end. */
   stroke(brush: Brush): { touch(place: Place): void; end(): void };
 }
@@ -47,6 +51,8 @@ const SHORTEST_LINE_M = 0.3;
 /** A start dragged less than this keeps the direction of view as its heading. */
 const HEADING_DRAG_M = 0.6;
 const LOOK_STEP_RAD = 0.12;
+/** In shares of the distance to what is looked at. */
+const MOVE_STEP = 0.08;
 
 export function isBrush(tool: Tool): tool is BrushName {
   return tool in BRUSHES;
@@ -113,6 +119,7 @@ export class GroundTools {
     }
     if (this.#tool === 'look' || event.button !== 0) return;
     const at = this.#stage.pick(event.clientX, event.clientY);
+    this.#actions.pressed(at !== undefined);
     if (!at) return;
     this.#pointer = event.pointerId;
     this.#canvas.setPointerCapture(event.pointerId);
@@ -164,7 +171,8 @@ export class GroundTools {
     const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (this.#tool === 'look') {
-      if (step) this.#stage.nudge(-(step[0] ?? 0) * LOOK_STEP_RAD, (step[1] ?? 0) * LOOK_STEP_RAD, 1);
+      if (step && event.shiftKey) this.#actions.moveView(MOVE_STEP * (step[0] ?? 0), MOVE_STEP * (step[1] ?? 0));
+      else if (step) this.#stage.nudge(-(step[0] ?? 0) * LOOK_STEP_RAD, (step[1] ?? 0) * LOOK_STEP_RAD, 1);
       else if (event.key === '+' || event.key === '=') this.#stage.nudge(0, 0, 0.88);
       else if (event.key === '-') this.#stage.nudge(0, 0, 1.14);
       else return;

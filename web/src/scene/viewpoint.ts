@@ -206,6 +206,21 @@ export class Viewpoint {
     );
   }
 
+  /** Moves what is looked at over the ground, by shares of the distance to it, and stays there while the robot drives on. */
+  move(right: number, ahead: number, field: HeightField): void {
+    if (this.#mode === 'eye') return;
+    const { target } = this.#controls;
+    const [from, heading_rad] = [target.clone(), this.heading_rad];
+    const distance_m = this.#camera.position.distanceTo(target);
+    const [sin, cos] = [distance_m * Math.sin(heading_rad), distance_m * Math.cos(heading_rad)];
+    target.x = MathUtils.clamp(from.x + ahead * cos + right * sin, 0, field.width_m);
+    target.y = MathUtils.clamp(from.y + ahead * sin - right * cos, 0, field.depth_m);
+    target.z += field.height(target.x, target.y) - field.height(from.x, from.y);
+    this.#camera.position.add(target).sub(from);
+    this.#enter('free');
+    this.#controls.update();
+  }
+
   /** Before each picture: out of the ground, and up while a hill hides the robot that it follows. */
   clear(field: HeightField): void {
     if (this.#mode === 'eye') return;

@@ -95,15 +95,21 @@ export class Controls {
   }
 
   showTool(tool: Tool): void {
-    for (const input of this.#radios('tool')) {
-      input.checked = input.value === tool;
-      // A finger cannot hover: what to do with the tool is said in the view, too, without its key.
-      if (input.checked) setText(this.#hint, input.labels?.[0]?.title.replace(/ \(.\)$/, '') ?? '');
-    }
-    if (tool === 'goal' && this.#routeAdd.checked) setText(this.#hint, STOPS_HINT);
+    for (const input of this.#radios('tool')) input.checked = input.value === tool;
+    this.showHint(true);
     this.#hint.hidden = tool === 'look';
     this.#lesson.hidden = tool !== 'look';
     this.#routeTools.hidden = tool !== 'goal';
+  }
+
+  /** What to do with the tool in hand, or that somebody pressed where no ground is. */
+  showHint(onGround: boolean): void {
+    // A finger cannot hover: the tool's title is said in the view, too, without its key.
+    const tool = this.#radios('tool').find(({ checked }) => checked);
+    const adds = tool?.value === 'goal' && this.#routeAdd.checked;
+    const hint = adds ? STOPS_HINT : (tool?.labels?.[0]?.title ?? '').replace(/ \(.\)$/, '');
+    setText(this.#hint, onGround ? hint : 'There is no ground: press the terrain');
+    this.#hint.classList.toggle('is-missed', !onGround);
   }
 
   showSpeed(speed: number): void {

@@ -4,7 +4,7 @@ import type { RunRecord } from '../../core/record.ts';
 import { html, setText, svg } from '../../ui/dom.ts';
 import { clock, fixed } from '../../ui/format.ts';
 import { SERIES, type Series, sample } from './series.ts';
-import { type Span, ticks } from './span.ts';
+import { levels, type Span, ticks } from './span.ts';
 
 /** What a quantity is held against, in the unit of its series. */
 export interface Reference {
@@ -16,16 +16,21 @@ export interface Reference {
 
 export type References = Partial<Record<Series['key'], Reference>>;
 
-export const MARGIN = { left: 4, right: 4, axis: 18 };
+/** At the left there is room for numbers. */
+const MARGIN = { left: 32, right: 4, axis: 18 };
 const HEAD = 17;
-/** Room above the largest value of a quantity without a limit. */
+/** Room above the largest value in sight. */
 const HEADROOM = 1.12;
+/** From this share of it on, a limit is in sight, too: a smaller angle would be a flat line under it. */
+const NEAR = 0.7;
+/** Height for each number of an axis. */
+const LEVEL_PX = 22;
 
 interface Band {
   readonly series: Series;
   readonly value: SVGTextElement;
   readonly name: SVGTextElement;
-  /** The limit, or the largest value in sight, after the name. */
+  /** The limit, in sight or not, or the largest value in sight, after the name. */
   readonly bound: SVGTSpanElement;
   readonly line: SVGPathElement;
   readonly marks: SVGGElement;
@@ -89,14 +94,21 @@ export class PlotFigure {
       const { limit, paper } = references[band.series.key] ?? {};
       const top = index * each + HEAD;
       const bottom = (index + 1) * each - 5;
-      const { points, highest } = sample(record, band.series, begin, end, this.#width);
-      const reach = limit === undefined ? HEADROOM * Math.max(highest, paper ?? 0, 1e-3) : HEADROOM * limit;
+      const { points, lowest, highest } = sample(record, band.series, begin, end, this.#width);
+      const largest = Math.max(highest, limit === undefined ? 0 : -lowest);
+      const near = limit !== undefined && largest > NEAR * limit;
+      const most = Math.max(largest, near ? limit : 0, paper ?? 0, band.series.little);
+      const reach = HEADROOM * most;
       const least = limit === undefined ? 0 : -reach;
       band.y = (value) => bottom - ((value - least) / (reach - least)) * (bottom - top);
       for (const text of [band.name, band.value]) text.setAttribute('y', (top - 5).toFixed(1));
       band.value.setAttribute('x', String(this.#width - MARGIN.right));
       band.line.setAttribute('d', this.#path(points, band.y));
-      band.marks.replaceChildren(...this.#marks(band.y, limit, paper));
+      const numbers = levels(least, reach, (bottom - top) / LEVEL_PX);
+      band.marks.replaceChildren(
+        ...this.#levels(band.y, numbers),
+        ...this.#marks(band.y, near ? limit : undefined, paper),
+      );
       setText(band.bound, boundText(band.series, limit, highest));
     });
     this.#drawAxis();
@@ -131,6 +143,21 @@ export class PlotFigure {
       }
     }
     return path;
+  }
+
+  /** Numbers beside the plot, and faint lines at them. */
+  #levels(y: (value: number) => number, values: readonly number[]): SVGElement[] {
+    const step = (values[1] ?? 1) - (values[0] ?? 0);
+    const decimals = Math.max(Math.ceil(-Math.log10(step) - 1e-9), 0);
+    return values.flatMap((value) => {
+      const at = y(value).toFixed(1);
+      return [
+        svg('path', { class: 'plot-level', d: `M ${MARGIN.left} ${at} H ${this.#width - MARGIN.right}` }),
+        svg('text', { class: 'plot-number', x: MARGIN.left - 5, y: at, dy: 3.5, 'text-anchor': 'end' }, [
+          fixed(value, decimals),
+        ]),
+      ];
+    });
   }
 
   #marks(y: (value: number) => number, limit: number | undefined, paper: number | undefined): SVGElement[] {

@@ -11,18 +11,21 @@ export interface Series {
   readonly name: string;
   readonly unit: string;
   readonly decimals: number;
+  /** Less than this is little: the plot's height is not filled with it. */
+  readonly little: number;
   /** In `unit`; NaN where the tick has none. */
   value(record: RunRecord, row: number): number;
 }
 
 export const SERIES: readonly Series[] = [
-  { key: 'roll', name: 'Roll', unit: '°', decimals: 1, value: (record, row) => DEGREES * record.get(row, 'roll') },
-  { key: 'pitch', name: 'Pitch', unit: '°', decimals: 1, value: (record, row) => DEGREES * record.get(row, 'pitch') },
+  angle('roll', 'Roll'),
+  angle('pitch', 'Pitch'),
   {
     key: 'elevation_rate',
     name: 'Elevation rate',
     unit: 'cm/s',
     decimals: 1,
+    little: 1,
     value: (record, row) => duringTick(record, row, 'mean_elevation_rate_cm_s'),
   },
   {
@@ -30,6 +33,7 @@ export const SERIES: readonly Series[] = [
     name: 'Vibration',
     unit: 'rad/s',
     decimals: 3,
+    little: 0.01,
     value: (record, row) => duringTick(record, row, 'mean_vibration_rad_s'),
   },
   {
@@ -37,12 +41,17 @@ export const SERIES: readonly Series[] = [
     name: 'Curvature',
     unit: 'rad/m',
     decimals: 2,
+    little: 0.1,
     value(record, row) {
       const speed_m_s = Math.abs(record.get(row, 'v_m_s'));
       return speed_m_s < LEAST_SPEED_M_S ? Number.NaN : Math.abs(record.get(row, 'omega_rad_s')) / speed_m_s;
     },
   },
 ];
+
+function angle(key: 'roll' | 'pitch', name: string): Series {
+  return { key, name, unit: '°', decimals: 1, little: 5, value: (record, row) => DEGREES * record.get(row, key) };
+}
 
 /** Mean over the tick that ends here, from the means since the start. */
 function duringTick(record: RunRecord, row: number, mean: RowName): number {

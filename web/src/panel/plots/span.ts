@@ -38,3 +38,16 @@ export function ticks({ from_s, to_s }: Span, count: number): number[] {
   }
   return times;
 }
+
+/** Round values between `least` and `most`, about `count` of them, and at least one beside zero. */
+export function levels(least: number, most: number, count: number): number[] {
+  const wanted = (most - least) / Math.max(count, 1);
+  const magnitude = 10 ** Math.floor(Math.log10(wanted));
+  const steps = [0.5, 1, 2, 5, 10].map((part) => part * magnitude);
+  const step = steps.find((one) => one >= wanted && one <= most) ?? steps.findLast((one) => one <= most) ?? wanted;
+  const values: number[] = [];
+  for (let index = Math.ceil(least / step - 1e-9) + 0; index * step <= most * (1 + 1e-9); index += 1) {
+    values.push(index * step);
+  }
+  return values;
+}
