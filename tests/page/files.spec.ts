@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
-import { expect, state, test, until } from './page.ts';
+import { expect, file, state, test, until } from './page.ts';
 
 const SIDE = 61;
 
@@ -61,10 +61,6 @@ function geotiff(): Buffer {
 
 async function open(page: Page, ...files: { name: string; mimeType: string; buffer: Buffer }[]): Promise<void> {
   await page.locator('#files').setInputFiles(files);
-}
-
-function file(name: string, content: string | Buffer) {
-  return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) };
 }
 
 /** The largest difference between the ground and `HEIGHTS` plus `offset_m`. */

@@ -3,12 +3,7 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import type { Page } from '@playwright/test';
 import { driven } from './commandLine.ts';
-import { driveTo, expect, loaded, shortCourse, state, test, until } from './page.ts';
-
-async function openLab(page: Page, tab: string): Promise<void> {
-  await page.getByRole('button', { name: /^Parameters, comparison/ }).click();
-  await page.getByRole('tab', { name: tab }).click();
-}
+import { changeFirstCore, driveTo, expect, loaded, openLab, shortCourse, state, test, until } from './page.ts';
 
 test('a parameter is found, changed, refused with the reason at its field, and reset', async ({ mapless: page }) => {
   await openLab(page, 'Parameters');
@@ -196,15 +191,9 @@ test.describe(() => {
 
   test('a panic is told with its seed, and all other seeds are driven', async ({ mapless: page }) => {
     test.setTimeout(400_000);
-    let served = 0;
-    await page.route('**/mapless_wasm_baselines*.js', async (route) => {
-      const response = await route.fetch();
-      const script = await response.text();
-      served += 1;
-      const broken = script.replace(/\btick\(\)\s*\{/, 'tick(){throw new WebAssembly.RuntimeError("unreachable");');
-      expect(broken).not.toBe(script);
-      await route.fulfill({ response, body: served === 1 ? broken : script });
-    });
+    const trap = 'tick(){throw new WebAssembly.RuntimeError("unreachable");';
+    const scripts = '**/mapless_wasm_baselines*.js';
+    await changeFirstCore(page, (script) => script.replace(/\btick\(\)\s*\{/, trap), scripts);
     await processors(page, 3);
     await page.reload();
     await loaded(page);

@@ -1,6 +1,7 @@
 /** What the page's tests share: opening it, and what is under the 3D view's pixels. */
 
-import { test as base, expect, type Page } from '@playwright/test';
+import { readFileSync } from 'node:fs';
+import { test as base, expect, type Locator, type Page } from '@playwright/test';
 import type { MaplessApi, MaplessState } from '../../web/src/api.ts';
 import type { Experiment } from '../../web/src/core/experiment.ts';
 
@@ -87,9 +88,136 @@ export async function shortCourse(page: Asked, ahead_m: number, left_m = 0): Pro
   await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
 }
 
+/** In pixels of the page. */
+interface Point {
+  x: number;
+  y: number;
+}
+
+/** A place within an element, in shares of its width and height. */
+export async function within(part: Locator, across: number, down: number): Promise<Point> {
+  const box = await part.boundingBox();
+  if (!box) throw new Error('It is not shown.');
+  return { x: box.x + across * box.width, y: box.y + down * box.height };
+}
+
+export async function tapIn(part: Locator, across: number, down: number): Promise<void> {
+  const { x, y } = await within(part, across, down);
+  await part.page().touchscreen.tap(x, y);
+}
+
+/** Fingers that go along these ways at the same time. */
+export async function drag(page: Page, ...ways: [from: Point, to: Point][]): Promise<void> {
+  const session = await page.context().newCDPSession(page);
+  for (let step = 0; step <= 5; step += 1) {
+    const touchPoints = ways.map(([from, to], id) => ({
+      x: from.x + (step / 5) * (to.x - from.x),
+      y: from.y + (step / 5) * (to.y - from.y),
+      id,
+    }));
+    await session.send('Input.dispatchTouchEvent', { type: step ? 'touchMove' : 'touchStart', touchPoints });
+  }
+  await session.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+  await session.detach();
+}
+
+/** Opens the drawer of parameters, comparison and seeds at one of its pages. */
+export async function openLab(page: Page, tab: string, press: 'click' | 'tap' = 'click'): Promise<void> {
+  await page.getByRole('button', { name: /^Parameters, comparison/ })[press]();
+  await page.getByRole('tab', { name: tab })[press]();
+}
+
+/** Presses a button that saves something and returns the file. */
+export async function download(
+  page: Page,
+  id: string,
+  press: 'click' | 'tap' = 'click',
+): Promise<{ name: string; bytes: Buffer }> {
+  const waiting = page.waitForEvent('download');
+  await page.locator(`#${id}`)[press]();
+  const file = await waiting;
+  return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+}
+
+/** A file for the page to open. */
+export function file(name: string, content: string | Buffer) {
+  return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) };
+}
+
+/** The first worker gets another script of the core, all later ones the right one; says how many have got one. */
+export async function changeFirstCore(
+  page: Page,
+  change: (script: string) => string,
+  scripts = '**/mapless_wasm*.js',
+): Promise<() => number> {
+  let served = 0;
+  await page.route(scripts, async (route) => {
+    const response = await route.fetch();
+    const script = await response.text();
+    const changed = change(script);
+    expect(changed).not.toBe(script);
+    served += 1;
+    await route.fulfill({ response, body: served === 1 ? changed : script });
+  });
+  return () => served;
+}
+
+/** The first worker's core traps in its first decision after a start was set; says how many workers there have been. */
+export function trapAfterStart(page: Page): Promise<() => number> {
+  return changeFirstCore(page, (script) => {
+    const broken = script
+      .replace(/\bset_start\(([\w$,\s]+)\)\s*\{/, 'set_start($1){globalThis.armed=true;')
+      .replace(/\bplan\(\)\s*\{/, 'plan(){if(globalThis.armed)throw new WebAssembly.RuntimeError("unreachable");');
+    expect(broken.length).toBeGreaterThan(script.length + 90);
+    return broken;
+  });
+}
+
+/** Expects all of it within the width of the window. */
+export async function fits(parts: Locator): Promise<void> {
+  const width = parts.page().viewportSize()?.width ?? 0;
+  for (const part of await parts.all()) {
+    const box = await part.boundingBox();
+    expect(box && box.x >= 0 && box.x + box.width <= width, String(part)).toBe(true);
+  }
+}
+
+/** How many lines of a text are cut off, scrolled away or behind something else. */
+function hiddenLines(text: Locator): Promise<number> {
+  return text.evaluate((one) => {
+    const range = document.createRange();
+    range.selectNodeContents(one);
+    const seen = (x: number, y: number) => document.elementFromPoint(x, y) === one;
+    return [...range.getClientRects()].filter(
+      ({ left, right, y, height }) => !seen(left + 1, y + height / 2) || !seen(right - 1, y + height / 2),
+    ).length;
+  });
+}
+
+/** Presses what is large enough for a thumb. */
+export async function press(part: Locator): Promise<void> {
+  const box = await part.boundingBox();
+  expect(Math.min(box?.width ?? 0, box?.height ?? 0), String(part)).toBeGreaterThanOrEqual(40);
+  await part.tap();
+}
+
+/** Expects a message over the view of which every line can be read, with nothing before it, and closes it. */
+export async function readAndClose(page: Page, words: string): Promise<void> {
+  const text = page.locator('#notice-text');
+  await expect(text).toContainText(words);
+  expect(await hiddenLines(text)).toBe(0);
+  await press(page.locator('#notice-close'));
+  await expect(text).toBeHidden();
+}
+
+/** What the page would share and keep. */
+export function ownOf(page: Asked): Promise<Experiment | undefined> {
+  return page.evaluate(() => window.mapless?.experiment());
+}
+
 /** Waits until the browser has kept the experiment for the next visit; returns it. */
 export async function kept(page: Asked): Promise<Experiment | undefined> {
-  const own = await page.evaluate(() => window.mapless?.experiment());
+  const own = await ownOf(page);
   const stored = () =>
     page.evaluate(
       () =>

@@ -1,5 +1,5 @@
 import type { Page } from '@playwright/test';
-import { drawnIn, expect, loaded, moved, state, still, test, until } from './page.ts';
+import { drawnIn, expect, loaded, moved, state, still, tapIn, test, until } from './page.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
 
@@ -31,9 +31,7 @@ test('the measurements scroll under the view', async ({ mapless: page }) => {
 test('a tap with a tool in hand sets the goal', async ({ mapless: page }) => {
   const old = await state(page);
   await page.getByRole('radio', { name: 'Goal' }).check();
-  const box = await page.locator('#view').boundingBox();
-  if (!box) throw new Error('The view has no place.');
-  await page.touchscreen.tap(box.x + 0.5 * box.width, box.y + 0.35 * box.height);
+  await tapIn(page.locator('#view'), 0.5, 0.35);
   await until(page, (now) => moved(now.goal, old.goal));
 });
 
@@ -43,15 +41,12 @@ test('a hill, a goal and a link by touch alone, each tool saying what to do', as
   const caption = page.locator('.scene-caption');
   await page.locator('label.tool', { hasText: 'Raise' }).tap();
   await expect(caption).toContainText('Hold or drag to raise the ground');
-  const box = await page.locator('#view').boundingBox();
-  if (!box) throw new Error('The view has no place.');
-  const [x, y] = [box.x + 0.45 * box.width, box.y + 0.5 * box.height];
-  await page.touchscreen.tap(x, y);
+  await tapIn(page.locator('#view'), 0.45, 0.5);
   await expect(page.locator('#undo')).toBeEnabled();
   await page.locator('label.tool', { hasText: 'Goal' }).tap();
   await expect(caption).toContainText('Press the ground where the robot should go');
   const old = await state(page);
-  await page.touchscreen.tap(x, y);
+  await tapIn(page.locator('#view'), 0.45, 0.5);
   await until(page, (now) => moved(now.goal, old.goal));
   await page.locator('label.tool', { hasText: 'Look' }).tap();
   await expect(caption).not.toContainText('Press');

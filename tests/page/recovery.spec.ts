@@ -1,23 +1,12 @@
 import { type Page, test as plain } from '@playwright/test';
-import { expect, loaded, state, test, until } from './page.ts';
+import { changeFirstCore, expect, loaded, state, test, trapAfterStart, until } from './page.ts';
 
 // A small view leaves a processor without graphics card its time. What these tests replace must come from the server.
 for (const one of [plain, test]) one.use({ viewport: { width: 720, height: 560 }, serviceWorkers: 'block' });
 
 plain('a panic loses neither the ground, the start nor the goal', async ({ page }) => {
   plain.setTimeout(300_000);
-  let served = 0;
-  // The first worker's core traps in its first decision after a start was set.
-  await page.route('**/mapless_wasm*.js', async (route) => {
-    const response = await route.fetch();
-    const script = await response.text();
-    served += 1;
-    const broken = script
-      .replace(/\bset_start\(([\w$,\s]+)\)\s*\{/, 'set_start($1){globalThis.armed=true;')
-      .replace(/\bplan\(\)\s*\{/, 'plan(){if(globalThis.armed)throw new WebAssembly.RuntimeError("unreachable");');
-    expect(broken.length).toBeGreaterThan(script.length + 90);
-    await route.fulfill({ response, body: served === 1 ? broken : script });
-  });
+  const served = await trapAfterStart(page);
   await page.goto('/');
   await loaded(page);
   await page.evaluate(() => window.mapless?.pause());
@@ -36,7 +25,7 @@ plain('a panic loses neither the ground, the start nor the goal', async ({ page 
   expect(raised).toBeGreaterThan(before + 0.2);
   await page.getByRole('button', { name: 'Play' }).click();
   await expect(page.locator('#notice-text')).toContainText('with your ground, start and goal');
-  await expect.poll(() => served, { timeout: 60_000 }).toBe(2);
+  await expect.poll(served, { timeout: 60_000 }).toBe(2);
   await until(page, (now) => now.tick === 0);
   await expect.poll(height, { timeout: 60_000 }).toBe(raised);
   expect(await state(page)).toMatchObject({
@@ -53,15 +42,11 @@ plain('a panic loses neither the ground, the start nor the goal', async ({ page 
 
 /** The first worker's core takes a minute for an experiment with other parameters, as a slow machine might. */
 async function slowCore(page: Page): Promise<void> {
-  let served = 0;
-  await page.route('**/mapless_wasm*.js', async (route) => {
-    const response = await route.fetch();
-    const script = await response.text();
-    served += 1;
-    const wait = 'const end=Date.now()+6e4;while(Date.now()<end);';
+  const wait = 'const end=Date.now()+6e4;while(Date.now()<end);';
+  await changeFirstCore(page, (script) => {
     const slow = script.replace(/\bset_parameters\(([\w$,\s]+)\)\s*\{/, `set_parameters($1){${wait}`);
     expect(slow.length).toBe(script.length + wait.length);
-    await route.fulfill({ response, body: served === 1 ? slow : script });
+    return slow;
   });
 }
 

@@ -1,5 +1,5 @@
 import { type Page, test as plain, type Worker } from '@playwright/test';
-import { drawnIn, expect, loaded, state, still, test, until } from './page.ts';
+import { changeFirstCore, drawnIn, expect, loaded, state, still, test, until } from './page.ts';
 
 // What these tests replace must come from the server, not from what the page keeps.
 for (const one of [plain, test]) one.use({ serviceWorkers: 'block' });
@@ -185,18 +185,10 @@ plain('a damaged wasm file is explained', async ({ page }) => {
 });
 
 plain('after a panic in the core the simulation starts anew, and says why', async ({ page }) => {
-  let served = 0;
   // The first worker gets a core whose fifth decision traps.
-  await page.route('**/mapless_wasm*.js', async (route) => {
-    const response = await route.fetch();
-    const script = await response.text();
-    served += 1;
-    const trap =
-      'if((globalThis.ticks=(globalThis.ticks??0)+1)===5){globalThis.maplessPanic="panicked at the fifth tick";throw new WebAssembly.RuntimeError("unreachable")}';
-    const broken = script.replace(/\bplan\(\)\s*\{/, `plan(){${trap}`);
-    expect(broken).not.toBe(script);
-    await route.fulfill({ response, body: served === 1 ? broken : script });
-  });
+  const trap =
+    'if((globalThis.ticks=(globalThis.ticks??0)+1)===5){globalThis.maplessPanic="panicked at the fifth tick";throw new WebAssembly.RuntimeError("unreachable")}';
+  await changeFirstCore(page, (script) => script.replace(/\bplan\(\)\s*\{/, `plan(){${trap}`));
   await page.goto('/');
   await loaded(page);
   await expect(page.locator('#notice-text')).toContainText('panicked at the fifth tick');

@@ -1,6 +1,6 @@
 import type { Page } from '@playwright/test';
 import { BRUSHES } from '../../web/src/scene/brushes.ts';
-import { expect, state, still, test, until } from './page.ts';
+import { expect, state, still, test, until, within } from './page.ts';
 
 /** Every fourth sample of the ground, row by row. */
 function ground(page: Page): Promise<number[]> {
@@ -16,12 +16,6 @@ function ground(page: Page): Promise<number[]> {
   });
 }
 
-async function middle(page: Page): Promise<{ x: number; y: number }> {
-  const box = await page.locator('#view').boundingBox();
-  if (!box) throw new Error('The view has no place.');
-  return { x: box.x + 0.5 * box.width, y: box.y + 0.36 * box.height };
-}
-
 async function strokes(page: Page): Promise<number> {
   return page.evaluate(() => window.mapless?.experiment()?.strokes.length ?? -1);
 }
@@ -30,7 +24,7 @@ test('every tool shapes the ground, and undoing leads back to the very heights',
   await still(page);
   const before = await ground(page);
   const states = [before];
-  const { x, y } = await middle(page);
+  const { x, y } = await within(page.locator('#view'), 0.5, 0.36);
   for (const [index, tool] of Object.keys(BRUSHES).entries()) {
     await page.locator(`input[name="tool"][value="${tool}"]`).check();
     if (tool === 'height') await page.locator('#brush-height').fill('9.5');
@@ -151,7 +145,7 @@ test.describe('on a phone', () => {
     await page.getByRole('radio', { name: 'Crater' }).check();
     // The row of tools scrolls, the view does not.
     expect(await page.locator('.stage').evaluate((stage) => stage.scrollLeft)).toBe(0);
-    const { x, y } = await middle(page);
+    const { x, y } = await within(page.locator('#view'), 0.5, 0.36);
     await page.touchscreen.tap(x, y + 60);
     await expect.poll(() => strokes(page)).toBe(1);
     expect(await ground(page)).not.toEqual(before);

@@ -9,6 +9,7 @@ const FRAME_RATE_HZ = 30;
 const BITS_PER_SECOND = 8_000_000;
 /** VP9 is smaller where the browser has it. */
 const KINDS = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'];
+const TOO_SHORT = 'It was stopped before its first picture.';
 
 /** Whether this browser records WebM. */
 export function canFilm(): boolean {
@@ -56,7 +57,7 @@ export class Camera {
       this.#filming = false;
       throw error;
     }
-    if (!this.#filming) throw new Error('It was stopped before its first picture.');
+    if (!this.#filming) throw new Error(TOO_SHORT);
     const stream = this.#plate.captureStream(FRAME_RATE_HZ);
     const recorder = new MediaRecorder(stream, { mimeType, videoBitsPerSecond: BITS_PER_SECOND });
     this.#recorder = recorder;
@@ -65,7 +66,11 @@ export class Camera {
       const parts: Blob[] = [];
       recorder.ondataavailable = ({ data }) => parts.push(data);
       recorder.onerror = () => reject(new Error('The browser stopped recording.'));
-      recorder.onstop = () => resolve(new Blob(parts, { type: 'video/webm' }));
+      recorder.onstop = () => {
+        const film = new Blob(parts, { type: 'video/webm' });
+        if (film.size > 0) resolve(film);
+        else reject(new Error(TOO_SHORT));
+      };
       recorder.start(1000);
     });
   }

@@ -53,7 +53,7 @@ export class TimelineBar {
     this.#slider.max = String(Math.max(timeline.end, timeline.first));
     this.#slider.disabled = timeline.end <= timeline.first;
     setText(this.#end, clock(timeline.end * this.#period_s));
-    this.#latest.hidden = tick >= timeline.end;
+    this.#latest.classList.toggle('is-away', tick >= timeline.end);
     this.#tick = tick;
     this.#follow();
   }

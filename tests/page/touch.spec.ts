@@ -1,0 +1,264 @@
+/** A phone in the hand: running, measuring, sharing, and what goes wrong, by taps and fingers. */
+
+import { type Page, test as plain } from '@playwright/test';
+import { clock } from '../../web/src/ui/format.ts';
+import {
+  download,
+  drag,
+  driveTo,
+  expect,
+  file,
+  fits,
+  kept,
+  loaded,
+  moved,
+  openLab,
+  ownOf,
+  press,
+  readAndClose,
+  shortCourse,
+  state,
+  still,
+  tapIn,
+  test,
+  trapAfterStart,
+  until,
+  within,
+} from './page.ts';
+
+// What a test replaces must come from the server.
+for (const one of [plain, test]) {
+  one.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, serviceWorkers: 'block' });
+}
+
+const button = (page: Page, name: string) => page.getByRole('button', { name, exact: true });
+const tool = (page: Page, name: string) => page.locator('label.tool', { hasText: name });
+
+test('taps pause, step, set the speed, play and restart', async ({ mapless: page }) => {
+  await press(button(page, 'Pause'));
+  await expect(page.locator('#outcome')).toHaveText('Paused');
+  await still(page);
+  const { tick } = await state(page);
+  await press(button(page, 'One tick'));
+  await expect(page.locator('#time')).toHaveText(clock((tick + 1) / 10));
+  await press(page.locator('.speeds label', { hasText: 'max' }));
+  await press(button(page, 'Play'));
+  await until(page, (now) => now.playing && now.speed > 4 && now.tick > tick + 80);
+  await press(page.locator('.speeds label', { hasText: '½×' }));
+  await press(button(page, 'Restart'));
+  await until(page, (now) => now.playing && now.speed === 0.5 && now.tick < tick + 80);
+});
+
+test('a finger goes back along the run, and another goal there begins another future', async ({ mapless: page }) => {
+  await driveTo(page, 40);
+  const { end } = (await state(page)).timeline;
+  const [scrub, now] = [page.locator('#scrub'), page.locator('#scrub-now')];
+  await drag(page, [await within(scrub, 0.97, 0.5), await within(scrub, 0.5, 0.5)]);
+  await until(page, ({ tick }) => Math.abs(tick - end / 2) < 0.05 * end);
+  await expect(now).toHaveText(clock((await state(page)).tick / 10));
+  await press(button(page, 'Go to the end'));
+  await expect(now).toHaveText(clock(end / 10));
+  await tapIn(scrub, 0.3, 0.5);
+  await until(page, ({ tick }) => Math.abs(tick - 0.3 * end) < 0.1 * end);
+  await still(page);
+  const there = await state(page);
+  await press(tool(page, 'Goal'));
+  await tapIn(page.locator('#view'), 0.55, 0.4);
+  await until(page, ({ goal }) => moved(goal, there.goal));
+  await expect(page.locator('#scrub-end')).toHaveText(clock(there.tick / 10));
+  await press(button(page, 'Play'));
+  await until(page, ({ tick }) => tick > there.tick + 3);
+  expect((await state(page)).timeline.changes).toEqual([there.tick]);
+  await expect(page.locator('#scrub-marks line')).toHaveCount(1);
+});
+
+test('a goal and a stop on the way, set by taps, are driven to', async ({ mapless: page }) => {
+  await shortCourse(page, 2);
+  await still(page);
+  const { goal: old } = await state(page);
+  await press(tool(page, 'Goal'));
+  await tapIn(page.locator('#view'), 0.5, 0.4);
+  await until(page, (now) => moved(now.goal, old));
+  const { goal } = await state(page);
+  await press(page.locator('#route-tools label'));
+  await expect(page.locator('#tool-hint')).toContainText('stop on the way to the goal');
+  await tapIn(page.locator('#view'), 0.5, 0.46);
+  await until(page, (now) => now.waypoints.length === 1);
+  expect(await state(page)).toMatchObject({ goal, waypointsPassed: 0 });
+  await expect(button(page, 'Clear stops')).toBeVisible();
+  await press(button(page, 'Play'));
+  await expect(page.locator('#result-words')).toHaveText('Goal reached');
+  expect((await state(page)).waypointsPassed).toBe(1);
+});
+
+test('a parameter is set in the drawer and reset', async ({ mapless: page }) => {
+  await openLab(page, 'Parameters', 'tap');
+  await page.getByRole('searchbox', { name: 'Search parameters' }).fill('on unknown');
+  const field = page.locator('.parameter:visible');
+  await expect(field).toHaveCount(1);
+  await fits(field);
+  const unknown = field.getByRole('checkbox');
+  const before = await unknown.isChecked();
+  await unknown.tap();
+  await until(page, ({ overrides }) => JSON.stringify(overrides).includes(`"subgoals_on_unknown":${!before}`));
+  await expect(page.locator('#lab-count')).toHaveText('1');
+  await press(field.getByRole('button', { name: /^Reset/ }));
+  await until(page, ({ overrides }) => Object.keys(overrides).length === 0);
+  expect(await unknown.isChecked()).toBe(before);
+  await expect(page.locator('#lab-count')).toBeHidden();
+  await press(page.locator('.lab-close'));
+  await expect(page.locator('.lab')).toBeHidden();
+});
+
+test('a ghost is chosen: it stands in the view, and its numbers fit beside the robot’s', async ({ mapless: page }) => {
+  await driveTo(page, 30);
+  const picture = async () => {
+    await press(page.locator('.lab-close'));
+    await still(page);
+    return page.locator('#view').screenshot();
+  };
+  const direct = page.locator('.rival', { hasText: 'Direct' });
+  await openLab(page, 'Compare', 'tap');
+  const alone = await picture();
+  await openLab(page, 'Compare', 'tap');
+  await press(direct);
+  const table = page.getByRole('table', { name: 'Metrics, and the difference' });
+  const ghost = (name: string) => table.getByRole('row', { name }).getByRole('cell').nth(1);
+  // It has caught up.
+  await expect(ghost('Time')).toHaveText(clock((await state(page)).time_s));
+  await expect(ghost('Distance')).toHaveText(/^\d+\.\d \([−+]?\d+\.\d\)$/);
+  await fits(table);
+  expect((await picture()).equals(alone)).toBe(false);
+  await openLab(page, 'Compare', 'tap');
+  await press(direct);
+  expect((await picture()).equals(alone)).toBe(true);
+});
+
+test('many seeds, cancelled half-way: what they found stays, and one is shown', async ({ mapless: page }) => {
+  await shortCourse(page, 3);
+  await openLab(page, 'Seeds', 'tap');
+  await page.getByLabel('How many').fill('200');
+  await press(button(page, 'Run'));
+  const rows = page.locator('.seeds-table tbody tr');
+  await expect(rows.first()).toBeVisible();
+  await press(button(page, 'Cancel'));
+  await expect(page.getByRole('status').filter({ hasText: /^Cancelled after \d+ of 200/ })).toBeVisible();
+  await expect(page.locator('.seeds-summary')).toContainText('Goal reached');
+  await fits(page.locator('.seeds-summary, .seeds-table'));
+  const show = rows.first().getByRole('button');
+  const seed = (await show.textContent()) ?? '';
+  await press(show);
+  await until(page, (now) => String(now.seed) === seed && now.playing);
+  await expect(page.locator('#seed')).toHaveValue(seed);
+});
+
+test('the plots open, zoom by two fingers, and take the run to where they are tapped', async ({ mapless: page }) => {
+  await driveTo(page, 60);
+  await press(page.locator('#plots-enlarge'));
+  const sheet = page.getByRole('dialog', { name: 'Over time' });
+  await fits(sheet);
+  await expect(sheet.locator('.plot-line')).toHaveCount(5);
+  const [plots, times] = [sheet.getByRole('slider'), () => sheet.locator('.plot-axis text').allTextContents()];
+  const whole = await times();
+  const [left, right] = [await within(plots, 0.45, 0.3), await within(plots, 0.55, 0.3)];
+  await drag(page, [left, await within(plots, 0.2, 0.3)], [right, await within(plots, 0.9, 0.3)]);
+  await expect.poll(times).not.toEqual(whole);
+  await press(sheet.getByRole('button', { name: 'Show all of the run' }));
+  expect(await times()).toEqual(whole);
+  await tapIn(plots, 0.3, 0.5);
+  const tick = Math.round(10 * Number(await plots.getAttribute('aria-valuenow')));
+  await until(page, (now) => now.tick === tick);
+  expect(Math.abs(tick / (await state(page)).timeline.end - 0.25)).toBeLessThan(0.1);
+  await press(sheet.getByRole('button', { name: 'Close' }));
+  await expect(page.locator('#scrub-now')).toHaveText(clock(tick / 10));
+  await expect(page.locator('#scrub')).toHaveValue(String(tick));
+});
+
+test('a copied link shows the same experiment on another phone', async ({ mapless: page, browser, baseURL }) => {
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.evaluate(() => window.mapless?.loadScenario('ht', { seed: 3 }));
+  const { x, y } = (await state(page)).start;
+  await page.evaluate((goal) => window.mapless?.setGoal(goal, [{ x: goal.x, y: goal.y - 4 }]), { x: x + 6, y: y + 6 });
+  await page.evaluate(() => window.mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } }));
+  await press(button(page, 'Share and save'));
+  await fits(page.locator('#link'));
+  await press(button(page, 'Copy link'));
+  await expect(page.locator('#share-state')).toHaveText('Copied.');
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  const other = await (await browser.newContext(baseURL ? { baseURL } : {})).newPage();
+  await other.goto(link);
+  await loaded(other);
+  expect(await other.evaluate(() => innerWidth)).toBe(390);
+  expect(await ownOf(other)).toEqual(await ownOf(page));
+  await expect(other.locator('#seed')).toHaveValue('3');
+  await expect(other.locator('#lab-count')).toHaveText('1');
+  await expect(other.locator('#scene-title')).toHaveText((await page.locator('#scene-title').textContent()) ?? '');
+  await other.context().close();
+});
+
+test('six metrics stand beside the paper’s; the trajectory and pictures are saved', async ({ mapless: page }) => {
+  await driveTo(page, 12);
+  const shown = page.locator('#metrics .metric');
+  await expect(shown).toHaveText(new Array(6).fill(/\d .*paper \d/));
+  await fits(shown);
+  const { metrics } = await state(page);
+  await expect(shown.first()).toContainText(`${metrics.distance_m.toFixed(1)} m`);
+  const csv = (await download(page, 'save-csv', 'tap')).bytes.toString().trim().split('\n');
+  // A head, the start, and a line for each tick.
+  expect(csv).toHaveLength((await state(page)).tick + 2);
+  const { name, bytes } = await download(page, 'save-picture', 'tap');
+  expect(name).toMatch(/\.png$/);
+  expect(bytes.readUInt32BE(16)).toBe(390);
+  expect(bytes.length).toBeGreaterThan(20_000);
+  expect((await download(page, 'save-plots', 'tap')).bytes.toString()).toContain('Curvature');
+});
+
+test('a file is opened and driven; a broken one says why and changes nothing', async ({ mapless: page }) => {
+  const level = ['ncols 31', 'nrows 31', 'cellsize 1', ...new Array(31).fill('0 '.repeat(31))].join('\n');
+  const open = async (name: string, content: string) => {
+    await press(button(page, 'Terrains'));
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), press(button(page, 'Open files…'))]);
+    await chooser.setFiles(file(name, content));
+  };
+  await open('level.asc', level);
+  await until(page, (now) => now.scenario === 'level' && now.tick > 3);
+  await expect(page.locator('#scene-title')).toContainText('level');
+  const own = await ownOf(page);
+  await open('a-file-with-a-rather-long-name-that-was-cut-short.asc', level.slice(0, 900));
+  await readAndClose(page, 'it ends after');
+  expect(await ownOf(page)).toEqual(own);
+  const { tick } = await state(page);
+  await until(page, (now) => now.tick > tick || now.outcome === 'reached');
+});
+
+plain('a broken link says so, and one’s own work is there', async ({ page }) => {
+  await page.goto('/');
+  await loaded(page);
+  await press(tool(page, 'Goal'));
+  const { goal } = await state(page);
+  await tapIn(page.locator('#view'), 0.5, 0.35);
+  await until(page, (now) => moved(now.goal, goal));
+  const own = await kept(page);
+  for (const [link, words] of [
+    ['#e=AAAA', 'damaged or was cut short'],
+    ['?scenario=hard-1-7', 'expected the name of a generated task'],
+  ] as const) {
+    await page.goto('about:blank');
+    await page.goto(`/${link}`);
+    await readAndClose(page, words);
+    expect(await ownOf(page)).toEqual(own);
+  }
+});
+
+plain('after a panic the message can be read, and a tap drives from the start that was set', async ({ page }) => {
+  await trapAfterStart(page);
+  await page.goto('/');
+  await loaded(page);
+  await press(tool(page, 'Start'));
+  const { start } = await state(page);
+  await tapIn(page.locator('#view'), 0.5, 0.5);
+  await readAndClose(page, 'with your ground, start and goal');
+  await until(page, (now) => now.tick === 0 && !now.playing && moved(now.start, start));
+  await press(button(page, 'Play'));
+  await until(page, (now) => now.tick > 3);
+});
