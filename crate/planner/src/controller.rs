@@ -72,6 +72,21 @@ impl Controller {
         Command { linear_m_s: forward.max(0.0) * ahead, angular_rad_s: turning }
     }
 
+    /// Drives a distance along an arc with so much of a turn, anticlockwise, for each metre; in reverse where so asked.
+    pub(crate) fn drive_arc(
+        &mut self,
+        distance_m: f64,
+        turn_rad_m: f64,
+        reverse: bool,
+        period_s: f64,
+    ) -> Command {
+        let forward = self.drive(distance_m, 0.0, period_s).linear_m_s;
+        let most_m_s = self.config.max_turn_rate_rad_s / turn_rad_m.abs();
+        let speed_m_s = forward.min(most_m_s);
+        let linear_m_s = if reverse { -speed_m_s } else { speed_m_s };
+        Command { linear_m_s, angular_rad_s: speed_m_s * turn_rad_m }
+    }
+
     /// The command as slow as a robot should drive that takes up `share` of a tilt limit. A turn in place leaves its wheels where they
     /// are, by and large, and is not slowed as much.
     pub(crate) fn slowed(&self, command: Command, share: f64) -> Command {

@@ -369,13 +369,17 @@ impl Planner {
         self.way.push(point(here_m));
         self.way.extend(self.retreat.way_back_m().map(point));
         let share = self.ways.share_here();
+        let period_s = self.config.period_s;
         self.command = match back {
+            Back::Brake => Command::STOP,
             Back::Turn { by_rad } => {
-                let turning = self.controller.drive(0.0, by_rad, self.config.period_s);
+                let turning = self.controller.drive(0.0, by_rad, period_s);
                 self.controller.slowed(Command { linear_m_s: 0.0, ..turning }, share)
             }
-            Back::Drive { bearing_rad, reverse } => {
-                self.drive_along(length_m(&self.way).max(LEAST_BACK_M), bearing_rad, reverse, share)
+            Back::Drive { turn_rad_m, reverse } => {
+                let distance_m = length_m(&self.way).max(LEAST_BACK_M);
+                let driving = self.controller.drive_arc(distance_m, turn_rad_m, reverse, period_s);
+                self.controller.slowed(driving, share)
             }
         };
         true

@@ -3,31 +3,40 @@
 //! Where it stands too steep, or nothing leads on, what it was told of the ground is not true or not enough. Where it has stood, and as it
 //! turned there, it can stand again: that way back needs no forecast.
 
-use core::f64::consts::{FRAC_PI_2, PI};
 use std::collections::VecDeque;
 
 use glam::DVec2;
 
 use crate::angle::wrap_rad;
 use crate::pose::Pose;
-use crate::subgoals::bearing_rad;
 
 /// Stances on the trail lie this far or this much of a turn apart, and so many are kept.
 const SPACING_M: f64 = 0.1;
 const SPACING_RAD: f64 = 0.15;
 const MOST_STANCES: usize = 200;
 /// Two stances this near to each other, with a radian for so many metres, are the same, unless one is among the next on the trail.
-const SAME_M: f64 = 0.12;
+const SAME_M: f64 = 0.08;
 const NEIGHBOURS: usize = 3;
 const RADIAN_M: f64 = 0.5;
-/// A stance this near is turned to, one farther away driven to; steering no more than this, so as not to turn where it drove straight.
-const TURN_M: f64 = 0.08;
-/// Where it may not turn from there, it drives on until the stance is no farther ahead or behind than this; one to its side cannot be
-/// driven to.
+/// The robot is at a stance that is no farther ahead or behind than this and, where it turned there, not turned further from it.
 const THERE_M: f64 = 0.03;
+const THERE_RAD: f64 = 0.05;
+/// From a stance to one nearer than this it turned.
+const TURN_M: f64 = 0.08;
 /// A smaller part of a turn is not worth while.
 const LEAST_TURN_RAD: f64 = 0.1;
-const MOST_STEERING_RAD: f64 = 0.4;
+/// It turns to how it stood within the way there or, where that is shorter, within this one, and in no sharper curve.
+const LEAST_WAY_M: f64 = 0.05;
+const MOST_TURN_RAD_M: f64 = 4.0;
+/// Each metre that it is beside the trail bends its way towards it by so much of a turn a metre, up to so much.
+const BESIDE_RAD_M2: f64 = 25.0;
+const MOST_BESIDE_RAD_M: f64 = 2.0;
+/// A robot this far from its trail has lost it.
+const LOST_M: f64 = 0.4;
+/// A robot that moves and turns less than this in a step stands still, and after so many steps it has had the time to.
+const STILL_M: f64 = 0.01;
+const STILL_RAD: f64 = 0.01;
+const MOST_BRAKING_TICKS: u32 = 20;
 /// A robot that is farther from where it last was did not drive there.
 const JUMP_M: f64 = 1.0;
 /// The direction in which it came is that from a place this far back or, where it came less far, from where it began, if that is no nearer than
@@ -56,15 +65,28 @@ impl Stance {
     fn away_m(&self, other: &Self) -> f64 {
         (self.place_m - other.place_m).length() + RADIAN_M * self.turned_rad(other)
     }
+
+    fn facing(&self) -> DVec2 {
+        let (sin, cos) = libm::sincos(self.yaw_rad);
+        DVec2::new(cos, sin)
+    }
+
+    /// Whether a robot that stands like this is past `stance` on its way to `next`.
+    fn is_past(&self, stance: &Self, next: &Self) -> bool {
+        let past_m = (self.place_m - stance.place_m).dot((next.place_m - stance.place_m).normalize_or_zero());
+        past_m > if self.turned_rad(stance) < SPACING_RAD { 0.0 } else { THERE_M }
+    }
 }
 
 /// The next move on the way back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Back {
+    /// To a stop, out of the drive that led here.
+    Brake,
     /// On the spot, anticlockwise.
     Turn { by_rad: f64 },
-    /// To a place at a bearing.
-    Drive { bearing_rad: f64, reverse: bool },
+    /// Along an arc, with so much of a turn, anticlockwise, for each metre driven.
+    Drive { turn_rad_m: f64, reverse: bool },
 }
 
 /// How the robot has last stood, and whether it goes back there.
@@ -72,25 +94,34 @@ pub(crate) enum Back {
 pub(crate) struct Retreat {
     /// The newest last.
     trail: VecDeque<Stance>,
+    last: Option<Stance>,
     began_at_m: Option<DVec2>,
+    /// For so many steps yet, or until it stands.
+    braking_ticks: u32,
 }
 
 impl Retreat {
     pub(crate) fn new() -> Self {
-        Self { trail: VecDeque::with_capacity(MOST_STANCES), began_at_m: None }
+        Self { trail: VecDeque::with_capacity(MOST_STANCES), last: None, began_at_m: None, braking_ticks: 0 }
     }
 
     pub(crate) fn clear(&mut self) {
         self.trail.clear();
-        self.began_at_m = None;
+        self.last = None;
+        self.end();
     }
 
     /// The robot is here, wherever it goes.
     pub(crate) fn be_at(&mut self, pose: &Pose) {
-        if self.is_on() {
+        let here = Stance::of(pose);
+        let last = self.last.replace(here);
+        if self.is_on() && self.braking_ticks == 0 {
             return;
         }
-        let here = Stance::of(pose);
+        let moves = last.is_some_and(|last| {
+            (here.place_m - last.place_m).length() > STILL_M || here.turned_rad(&last) > STILL_RAD
+        });
+        self.braking_ticks = if moves { self.braking_ticks.saturating_sub(1) } else { 0 };
         if let Some(last) = self.trail.back() {
             let moved_m = (here.place_m - last.place_m).length();
             if moved_m < SPACING_M && here.turned_rad(last) < SPACING_RAD {
@@ -129,44 +160,38 @@ impl Retreat {
             return None;
         }
         self.began_at_m = Some(here_m);
+        self.braking_ticks = MOST_BRAKING_TICKS;
         Some(came.normalize())
     }
 
-    /// The next move on the way back; `None`, and the end of it, when there is none left. Where the trail begins stays known. Beside where it
-    /// stood a turn may be too steep: `safe_turn_rad` says how much of one, anticlockwise, is not.
+    /// The next move on the way back; `None`, and the end of it, when there is none left or the trail is lost. Where the trail begins stays
+    /// known. Beside where it stood a turn may be too steep: `safe_turn_rad` says how much of one, anticlockwise, is not.
     pub(crate) fn next(&mut self, pose: &Pose, safe_turn_rad: impl Fn(f64) -> f64) -> Option<Back> {
+        if self.braking_ticks > 0 {
+            return Some(Back::Brake);
+        }
         let here = Stance::of(pose);
-        loop {
-            while let Some((last, before)) = self.trail.back().zip(self.trail.iter().nth_back(1)) {
-                let away_m = here.away_m(last);
-                if away_m > SAME_M && here.away_m(before) > away_m {
-                    break;
+        while let Some(&stance) = self.trail.back() {
+            if (stance.place_m - here.place_m).length() > LOST_M {
+                self.trail.clear();
+                break;
+            }
+            let before = self.trail.iter().nth_back(1);
+            if !before.is_some_and(|before| here.is_past(&stance, before)) {
+                let turns = before.is_some_and(|before| (before.place_m - stance.place_m).length() < TURN_M);
+                let enough_rad = if turns { THERE_RAD } else { SPACING_RAD };
+                let back = toward(&here, &stance, enough_rad, &safe_turn_rad);
+                if back.is_some() {
+                    return back;
                 }
-                self.trail.pop_back();
             }
-            let left = self.trail.back().filter(|last| here.away_m(last) > SAME_M);
-            let Some(&Stance { place_m, yaw_rad }) = left else {
-                self.end();
-                return None;
-            };
-            let bearing = bearing_rad(pose, place_m);
-            let reverse = bearing.abs() > FRAC_PI_2;
-            let straight = if reverse { PI } else { 0.0 };
-            let away_m = (place_m - here.place_m).length();
-            let is_abeam = (away_m * libm::cos(bearing)).abs() < THERE_M;
-            let turn_rad = wrap_rad(yaw_rad - pose.yaw_rad);
-            let by_rad = safe_turn_rad(turn_rad);
-            let may_turn = by_rad.abs() >= turn_rad.abs().min(LEAST_TURN_RAD);
-            if may_turn && (away_m < TURN_M || is_abeam && turn_rad.abs() > SPACING_RAD) {
-                return Some(Back::Turn { by_rad });
-            }
-            if !is_abeam {
-                let most_rad = if away_m < TURN_M { 0.0 } else { MOST_STEERING_RAD };
-                let steering = wrap_rad(bearing - straight).clamp(-most_rad, most_rad);
-                return Some(Back::Drive { bearing_rad: straight + safe_turn_rad(steering), reverse });
+            if before.is_none() {
+                break;
             }
             self.trail.pop_back();
         }
+        self.end();
+        None
     }
 
     /// The places on the way back, the nearest first.
@@ -177,12 +202,42 @@ impl Retreat {
     /// Goes on again.
     pub(crate) fn end(&mut self) {
         self.began_at_m = None;
+        self.braking_ticks = 0;
     }
+}
+
+/// The move from how the robot stands to how it stood; `None` where it is there, turned by less than `enough_rad`, or can neither drive nor
+/// turn there.
+fn toward(
+    here: &Stance,
+    stance: &Stance,
+    enough_rad: f64,
+    safe_turn_rad: impl Fn(f64) -> f64,
+) -> Option<Back> {
+    let way_m = stance.place_m - here.place_m;
+    let ahead_m = way_m.dot(here.facing());
+    let turn_rad = wrap_rad(stance.yaw_rad - here.yaw_rad);
+    if ahead_m.abs() > THERE_M {
+        let reverse = ahead_m < 0.0;
+        let beside_m = way_m.dot(stance.facing().perp());
+        let onto_rad_m = (BESIDE_RAD_M2 * beside_m).clamp(-MOST_BESIDE_RAD_M, MOST_BESIDE_RAD_M);
+        let turn_rad_m =
+            turn_rad / ahead_m.abs().max(LEAST_WAY_M) + if reverse { -onto_rad_m } else { onto_rad_m };
+        return Some(Back::Drive {
+            turn_rad_m: turn_rad_m.clamp(-MOST_TURN_RAD_M, MOST_TURN_RAD_M),
+            reverse,
+        });
+    }
+    // Where it stood it can stand again, whatever the ground around looks like.
+    let by_rad = if way_m.length() > THERE_M { safe_turn_rad(turn_rad) } else { turn_rad };
+    (turn_rad.abs() > enough_rad && by_rad.abs() >= turn_rad.abs().min(LEAST_TURN_RAD))
+        .then_some(Back::Turn { by_rad })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use core::f64::consts::PI;
     use glam::DVec3;
 
     fn pose(place_m: DVec2, yaw_rad: f64) -> Pose {
@@ -206,16 +261,19 @@ mod tests {
         retreat.be_at(pose);
     }
 
-    /// Goes all the way back; gives every pose on it.
-    fn go_back(retreat: &mut Retreat, pose: &mut Pose) -> Vec<Pose> {
+    /// Goes all the way back, out of a drive at this speed; gives every pose on it. A Husky gains a metre a second in a second.
+    fn go_back(retreat: &mut Retreat, pose: &mut Pose, speed_m_s: f64) -> Vec<Pose> {
         assert!(retreat.begin(pose.plan_m()).is_some());
         let mut poses = Vec::new();
+        let (mut speed_m_s, mut turn_rate_rad_s) = (speed_m_s, 0.0);
         while let Some(back) = retreat.next(pose, |turn_rad| turn_rad) {
-            let (speed_m_s, turn_rate_rad_s) = match back {
+            let (wanted_m_s, wanted_rad_s) = match back {
+                Back::Brake => (0.0, 0.0),
                 Back::Turn { by_rad } => (0.0, (5.0 * by_rad).clamp(-0.5, 0.5)),
-                Back::Drive { bearing_rad, reverse: true } => (-0.3, 2.0 * wrap_rad(bearing_rad - PI)),
-                Back::Drive { bearing_rad, reverse: false } => (0.3, 2.0 * bearing_rad),
+                Back::Drive { turn_rad_m, reverse } => (if reverse { -0.3 } else { 0.3 }, 0.3 * turn_rad_m),
             };
+            speed_m_s += f64::clamp(wanted_m_s - speed_m_s, -0.1, 0.1);
+            turn_rate_rad_s += f64::clamp(wanted_rad_s - turn_rate_rad_s, -0.2, 0.2);
             advance(retreat, pose, speed_m_s, turn_rate_rad_s);
             poses.push(*pose);
             assert!(poses.len() < 1000, "it does not get back");
@@ -242,40 +300,48 @@ mod tests {
                 came.push(robot);
             }
         }
-        for pose in go_back(&mut retreat, &mut robot) {
-            let stance = Stance::of(&pose);
-            let off_m =
-                came.iter().map(|pose| stance.away_m(&Stance::of(pose))).fold(f64::INFINITY, f64::min);
-            assert!(off_m < 0.2, "{off_m} m from how it stood: {pose:?}");
-        }
+        let off_m = |pose: &Pose| {
+            let stance = Stance::of(pose);
+            came.iter().map(|pose| stance.away_m(&Stance::of(pose))).fold(f64::INFINITY, f64::min)
+        };
+        let poses = go_back(&mut retreat, &mut robot, 0.0);
+        let worst_m = poses.iter().map(off_m).fold(0.0, f64::max);
+        assert!(worst_m < 0.1, "{worst_m} m from how it stood");
         assert!(robot.position_m.length() < 0.2 && !retreat.is_on());
     }
 
     #[test]
-    fn beside_where_it_stood_it_turns_no_farther_than_is_safe() {
-        // Ahead, a turn of a radian to the left, ahead; then back, but for the last 0.07 m.
+    fn it_stands_before_it_goes_back_and_goes_over_where_it_came_to_stand() {
         let (mut retreat, mut robot) = driven(20);
-        for _ in 0..20 {
-            advance(&mut retreat, &mut robot, 0.0, 0.5);
+        let poses = go_back(&mut retreat, &mut robot, 0.8);
+        let turned_at_m = poses.iter().map(|pose| pose.position_m.x).fold(0.0, f64::max);
+        assert!((1.2..1.4).contains(&turned_at_m), "{turned_at_m}");
+        assert!(poses.iter().all(|pose| pose.position_m.y.abs() < 0.01 && pose.yaw_rad.abs() < 0.05));
+        assert!(robot.position_m.length() < 0.2);
+    }
+
+    #[test]
+    fn beside_its_trail_it_gets_back_onto_it() {
+        for (beside_m, yaw_rad) in [(0.1, 0.0), (-0.1, 0.2), (0.05, -0.2)] {
+            for facing_back in [false, true] {
+                let (mut retreat, mut robot) = driven(40);
+                if facing_back {
+                    // The trail is driven forward after all.
+                    retreat = Retreat::new();
+                    robot = pose(DVec2::ZERO, PI);
+                    retreat.be_at(&robot);
+                    for _ in 0..40 {
+                        advance(&mut retreat, &mut robot, -0.5, 0.0);
+                    }
+                }
+                robot.position_m.y += beside_m;
+                robot.yaw_rad += yaw_rad;
+                let poses = go_back(&mut retreat, &mut robot, 0.0);
+                let off_m = |pose: &Pose| pose.position_m.y.abs();
+                let soon = poses.iter().filter(|pose| pose.position_m.x < 1.0).map(off_m).fold(0.0, f64::max);
+                assert!(soon < 0.03, "{soon} m after {beside_m} m and {yaw_rad}");
+            }
         }
-        for _ in 0..10 {
-            advance(&mut retreat, &mut robot, 0.5, 0.0);
-        }
-        assert!(retreat.begin(robot.plan_m()).is_some());
-        robot.position_m = DVec3::new(1.0, 0.0, 0.0) + 0.07 * DVec3::new(libm::cos(1.0), libm::sin(1.0), 0.0);
-        let part = |share: f64| move |turn_rad: f64| share * turn_rad;
-        let turn_rad = |back| if let Some(Back::Turn { by_rad }) = back { by_rad } else { f64::NAN };
-        let whole_rad = turn_rad(retreat.clone().next(&robot, part(1.0)));
-        assert!((-0.3..-0.1).contains(&whole_rad), "{whole_rad}");
-        assert!((turn_rad(retreat.clone().next(&robot, part(0.8))) - 0.8 * whole_rad).abs() < 1e-12);
-        // What is safe nowhere is tried where it stood, and then left out.
-        assert_eq!(retreat.next(&robot, part(0.0)), Some(Back::Drive { bearing_rad: PI, reverse: true }));
-        robot.position_m = DVec3::new(1.0, 0.0, 0.0);
-        let Some(Back::Drive { bearing_rad, .. }) = retreat.next(&robot, part(0.0)) else {
-            panic!("the stance is not left out");
-        };
-        assert!((bearing_rad - PI).abs() < 1e-12);
-        assert!(retreat.way_back_m().next().unwrap().x < 0.95);
     }
 
     #[test]
@@ -285,16 +351,61 @@ mod tests {
             advance(&mut retreat, &mut robot, 0.0, 0.5);
         }
         assert!(retreat.begin(robot.plan_m()).is_some());
+        retreat.be_at(&robot);
         robot.position_m.y -= 0.15;
         let mut moves = Vec::new();
         while let Some(back) = retreat.next(&robot, |_| 0.0) {
-            let Back::Drive { reverse, .. } = back else { panic!("{back:?} is not safe") };
-            advance(&mut retreat, &mut robot, if reverse { -0.3 } else { 0.3 }, 0.0);
+            let Back::Drive { turn_rad_m, reverse } = back else { panic!("{back:?} is not safe") };
+            advance(&mut retreat, &mut robot, if reverse { -0.3 } else { 0.3 }, 0.3 * turn_rad_m);
             moves.push(reverse);
             assert!(moves.len() < 100, "to and fro: {moves:?}");
         }
         let changes = moves.windows(2).filter(|pair| pair[0] != pair[1]).count();
         assert!(changes < 3, "{moves:?}");
+    }
+
+    #[test]
+    fn a_pose_that_trembles_does_not_hold_it() {
+        let (mut retreat, mut robot) = driven(20);
+        assert!(retreat.begin(robot.plan_m()).is_some());
+        let mut ticks = 0;
+        while retreat.next(&robot, |turn| turn) == Some(Back::Brake) {
+            robot.position_m.y = if ticks % 2 == 0 { 0.02 } else { -0.02 };
+            retreat.be_at(&robot);
+            ticks += 1;
+            assert!(ticks < 50, "it brakes for ever");
+        }
+        assert!(retreat.is_on());
+    }
+
+    #[test]
+    fn it_turns_where_it_turned_and_beside_that_no_farther_than_is_safe() {
+        // Ahead, a turn of a radian to the left.
+        let (mut retreat, mut robot) = driven(20);
+        for _ in 0..20 {
+            advance(&mut retreat, &mut robot, 0.0, 0.5);
+        }
+        assert!(retreat.begin(robot.plan_m()).is_some());
+        retreat.be_at(&robot);
+        let turn_rad = |back| if let Some(Back::Turn { by_rad }) = back { by_rad } else { f64::NAN };
+        let whole_rad = turn_rad(retreat.clone().next(&robot, |_| 0.0));
+        assert!((-0.2..-0.05).contains(&whole_rad), "{whole_rad} where it turned");
+        // To its left.
+        robot.position_m += 0.07 * DVec3::new(-libm::sin(1.0), libm::cos(1.0), 0.0);
+        assert!((turn_rad(retreat.clone().next(&robot, |turn| turn)) - whole_rad).abs() < 1e-12);
+        assert!((turn_rad(retreat.clone().next(&robot, |turn| 0.8 * turn)) - 0.8 * whole_rad).abs() < 1e-12);
+        // What is not safe is left out.
+        let next = retreat.next(&robot, |_| 0.0);
+        assert!(!matches!(next, Some(Back::Turn { .. })), "{next:?}");
+    }
+
+    #[test]
+    fn far_from_its_trail_it_does_not_drive_where_it_has_not_stood() {
+        let (mut retreat, mut robot) = driven(20);
+        assert!(retreat.begin(robot.plan_m()).is_some());
+        retreat.be_at(&robot);
+        robot.position_m.y -= 0.5;
+        assert_eq!((retreat.next(&robot, |turn| turn), retreat.is_on()), (None, false));
     }
 
     #[test]
@@ -304,7 +415,7 @@ mod tests {
         for _ in 0..ticks {
             advance(&mut retreat, &mut robot, 0.5, core::f64::consts::TAU / (0.1 * f64::from(ticks)));
         }
-        assert!(go_back(&mut retreat, &mut robot).iter().all(|pose| pose.position_m.y.abs() < 0.1));
+        assert!(go_back(&mut retreat, &mut robot, 0.0).iter().all(|pose| pose.position_m.y.abs() < 0.1));
         assert!(robot.position_m.length() < 0.3);
     }
 
@@ -312,6 +423,7 @@ mod tests {
     fn what_was_gone_back_is_no_trail_any_more() {
         let (mut retreat, mut robot) = driven(100);
         assert!((retreat.begin(robot.plan_m()).unwrap() - DVec2::X).length() < 1e-9);
+        retreat.be_at(&robot);
         while !retreat.has_gone_far(robot.plan_m()) {
             assert!(matches!(
                 retreat.next(&robot, |turn_rad| turn_rad),
@@ -328,7 +440,7 @@ mod tests {
     fn having_gone_all_the_way_back_it_still_knows_that_place() {
         let (mut retreat, mut robot) = driven(10);
         for _ in 0..5 {
-            go_back(&mut retreat, &mut robot);
+            go_back(&mut retreat, &mut robot, 0.0);
             for _ in 0..4 {
                 advance(&mut retreat, &mut robot, 0.5, 0.0);
             }
@@ -339,7 +451,7 @@ mod tests {
     #[test]
     fn it_goes_back_a_little_where_it_came_but_a_little() {
         let (mut retreat, mut robot) = driven(4);
-        go_back(&mut retreat, &mut robot);
+        go_back(&mut retreat, &mut robot, 0.0);
         assert!(robot.position_m.length() < 0.15, "{robot:?}");
     }
 
