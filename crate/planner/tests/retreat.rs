@@ -29,9 +29,12 @@ fn it_goes_back_from_where_it_stands_steeper_than_it_was_told_and_on_again_a_met
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
     drive(&mut planner, 3.0);
     let steep_rad = 0.75;
+    assert_eq!(step(&mut planner, 3.1, steep_rad), (Status::Retreating, 0.0), "it moves yet");
     let (status, speed_m_s) = step(&mut planner, 3.1, steep_rad);
     assert!(status == Status::Retreating && speed_m_s < 0.0, "{status:?}, {speed_m_s} m/s");
-    assert_eq!(step(&mut planner, 2.5, 0.0).0, Status::Retreating, "not yet a metre back");
+    for x_m in [3.0, 2.9, 2.8, 2.7, 2.6, 2.5, 2.4, 2.3, 2.2] {
+        assert_eq!(step(&mut planner, x_m, 0.0).0, Status::Retreating, "not yet a metre back");
+    }
     assert_eq!(step(&mut planner, 2.0, 0.0).0, Status::Driving);
 }
 
