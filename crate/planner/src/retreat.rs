@@ -253,6 +253,17 @@ mod tests {
         (retreat, robot)
     }
 
+    /// A robot that has driven a metre ahead, turned to the left for so many tenths of a second, and stands, about to go back.
+    fn turned(ticks: usize) -> (Retreat, Pose) {
+        let (mut retreat, mut robot) = driven(20);
+        for _ in 0..ticks {
+            advance(&mut retreat, &mut robot, 0.0, 0.5);
+        }
+        assert!(retreat.begin(robot.plan_m()).is_some());
+        retreat.be_at(&robot);
+        (retreat, robot)
+    }
+
     /// Moves as a robot does in a tenth of a second, with the trail told of it.
     fn advance(retreat: &mut Retreat, pose: &mut Pose, speed_m_s: f64, turn_rate_rad_s: f64) {
         pose.yaw_rad += 0.1 * turn_rate_rad_s;
@@ -346,12 +357,7 @@ mod tests {
 
     #[test]
     fn a_trail_to_its_side_does_not_hold_it() {
-        let (mut retreat, mut robot) = driven(20);
-        for _ in 0..10 {
-            advance(&mut retreat, &mut robot, 0.0, 0.5);
-        }
-        assert!(retreat.begin(robot.plan_m()).is_some());
-        retreat.be_at(&robot);
+        let (mut retreat, mut robot) = turned(10);
         robot.position_m.y -= 0.15;
         let mut moves = Vec::new();
         while let Some(back) = retreat.next(&robot, |_| 0.0) {
@@ -380,13 +386,7 @@ mod tests {
 
     #[test]
     fn it_turns_where_it_turned_and_beside_that_no_farther_than_is_safe() {
-        // Ahead, a turn of a radian to the left.
-        let (mut retreat, mut robot) = driven(20);
-        for _ in 0..20 {
-            advance(&mut retreat, &mut robot, 0.0, 0.5);
-        }
-        assert!(retreat.begin(robot.plan_m()).is_some());
-        retreat.be_at(&robot);
+        let (mut retreat, mut robot) = turned(20);
         let turn_rad = |back| if let Some(Back::Turn { by_rad }) = back { by_rad } else { f64::NAN };
         let whole_rad = turn_rad(retreat.clone().next(&robot, |_| 0.0));
         assert!((-0.2..-0.05).contains(&whole_rad), "{whole_rad} where it turned");
