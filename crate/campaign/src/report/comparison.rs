@@ -1,13 +1,24 @@
 //! Where a planner wins and loses, in sentences that the numbers write.
 
 use std::fmt::{self, Write as _};
+use std::ops::Range;
 
 use super::published::PublishedRow;
-use super::{METRICS, Results, failures, rate, stats, values};
+use super::{METRICS, Metric, Results, failures, rate, stats, values};
 use crate::results::TrialRow;
 
 /// Means that differ by less than this share are even.
 pub(super) const EVEN: f64 = 0.005;
+
+/// Those of [`METRICS`] that measure safety, and the last of them.
+const SAFETY: Range<usize> = 1..5;
+const ELEVATION_RATE: usize = 4;
+/// All the height gained and lost, which the elevation rate spreads over the time.
+const UP_AND_DOWN: Metric = Metric {
+    heading: "up and down, m",
+    decimals: 1,
+    of: |row| Some(0.01 * row.mean_elevation_rate_cm_s? * row.sim_time_s?),
+};
 
 /// One metric of two methods over several routes.
 pub(super) struct Contest {
@@ -43,6 +54,9 @@ pub(super) fn of_the_first(text: &mut String, results: &Results, published: &[Pu
             groups.iter().map(|group| (means(&results.of(first, group)), means(&results.of(other, group))));
         writeln!(text, "{}", against(first, &format!("`{other}`"), &contests(pairs)))?;
         writeln!(text, "{}", successes([first, other], [&all_of(results, first), &all_of(results, other)]))?;
+        if let Some(sentences) = where_higher(results, [first, other]) {
+            writeln!(text, "{sentences}")?;
+        }
     }
     writeln!(text, "{}", why(results, first))
 }
@@ -149,6 +163,42 @@ fn successes([one, other]: [&str; 2], [ones, others]: [&[&TrialRow]; 2]) -> Stri
     format!("- `{one}` {verdict}: {} against {} of `{other}`.", rate(ones), rate(others))
 }
 
+/// On which routes a planner is less safe than another by which metric, and how far up and down both go where it is by elevation rate.
+fn where_higher(results: &Results, [one, other]: [&str; 2]) -> Option<String> {
+    let mean = |planner: &str, route: &str, metric: &Metric| {
+        stats::mean(&values(&results.of(planner, route), metric))
+    };
+    let routes_of = |metric: &Metric| {
+        let mut routes = results.groups();
+        routes.retain(|route| {
+            let both = mean(one, route, metric).zip(mean(other, route, metric));
+            both.is_some_and(|(ours, theirs)| ours > (1.0 + EVEN) * theirs)
+        });
+        routes
+    };
+    let lists = METRICS[SAFETY].iter().filter_map(|metric| {
+        let routes = routes_of(metric);
+        (!routes.is_empty()).then(|| format!("in {} on {}", metric.name(), routes.join(", ")))
+    });
+    let lists: Vec<String> = lists.collect();
+    if lists.is_empty() {
+        return None;
+    }
+    let climbing = routes_of(&METRICS[ELEVATION_RATE]);
+    let over_all = |planner: &str, metric: &Metric| {
+        let means: Vec<f64> = climbing.iter().filter_map(|route| mean(planner, route, metric)).collect();
+        stats::mean(&means)
+    };
+    let went = |planner| Some((over_all(planner, &UP_AND_DOWN)?, over_all(planner, &METRICS[0])?));
+    let climbs = went(one).zip(went(other)).map_or_else(String::new, |((up, way), (their_up, their_way))| {
+        format!(
+            " On those of elevation rate it goes {up:.1} m up and down in the mean, on {way:.1} m of way, \
+             `{other}` {their_up:.1} m on {their_way:.1} m."
+        )
+    });
+    Some(format!("- `{one}` is higher than `{other}` {}.{climbs}", lists.join("; ")))
+}
+
 /// How the planner fails, and where most.
 fn why(results: &Results, planner: &str) -> String {
     let rows = all_of(results, planner);
@@ -197,6 +247,31 @@ mod tests {
             !generated.contains("published") && generated.contains("1 stuck; most on hard-1-0001 (1)"),
             "{generated}"
         );
+    }
+
+    #[test]
+    fn the_routes_that_are_lost_are_named_with_what_the_ways_climb() {
+        let driven = |planner, route, pitch_rad, rate_cm_s, way_m| TrialRow {
+            max_abs_pitch_rad: Some(pitch_rad),
+            mean_elevation_rate_cm_s: Some(rate_cm_s),
+            distance_m: Some(way_m),
+            sim_time_s: Some(100.0),
+            ..row(planner, route, "none", 1, "reached")
+        };
+        let rows = vec![
+            driven("default", "a", 0.2, 4.0, 50.0),
+            driven("vgf", "a", 0.1, 2.0, 60.0),
+            driven("default", "b", 0.3, 3.0, 50.0),
+            driven("vgf", "b", 0.2, 6.0, 50.0),
+        ];
+        let results = results(&["default", "vgf"], &["a", "b"], rows);
+        assert_eq!(
+            where_higher(&results, ["default", "vgf"]).unwrap(),
+            "- `default` is higher than `vgf` in max \\|pitch\\| on a, b; in elevation rate on a. On those of elevation rate \
+             it goes 4.0 m up and down in the mean, on 50.0 m of way, `vgf` 2.0 m on 60.0 m."
+        );
+        assert!(where_higher(&results, ["vgf", "default"]).unwrap().contains("in elevation rate on b"));
+        assert_eq!(where_higher(&results, ["default", "default"]), None);
     }
 
     #[test]
