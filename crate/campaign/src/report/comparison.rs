@@ -1,5 +1,6 @@
 //! Where a planner wins and loses, in sentences that the numbers write.
 
+use std::collections::HashSet;
 use std::fmt::{self, Write as _};
 use std::ops::Range;
 
@@ -50,8 +51,10 @@ pub(super) fn of_the_first(text: &mut String, results: &Results, published: &[Pu
     against_published(text, results, published, first)?;
     let groups = results.groups();
     for other in others {
-        let pairs =
-            groups.iter().map(|group| (means(&results.of(first, group)), means(&results.of(other, group))));
+        let pairs = groups.iter().map(|group| {
+            let [ours, theirs] = shared(results, [first, other], group);
+            (means(&ours), means(&theirs))
+        });
         writeln!(text, "{}", against(first, &format!("`{other}`"), &contests(pairs)))?;
         writeln!(text, "{}", successes([first, other], [&all_of(results, first), &all_of(results, other)]))?;
         if let Some(sentences) = where_higher(results, [first, other]) {
@@ -100,6 +103,19 @@ fn against_published(
 
 fn all_of<'a>(results: &'a Results, planner: &str) -> Vec<&'a TrialRow> {
     results.plain().filter(|row| row.planner == planner).collect()
+}
+
+/// The trials of both planners on those routes of a group that both reached: a mean over other routes is one of other ground, and a planner that
+/// reaches the hard ones, too, would seem the worse for it.
+fn shared<'a>(results: &'a Results, planners: [&str; 2], group: &str) -> [Vec<&'a TrialRow>; 2] {
+    let of_both = planners.map(|planner| results.of(planner, group));
+    let reached = of_both.each_ref().map(|rows| -> HashSet<&str> {
+        rows.iter().filter(|row| row.has_reached()).map(|row| row.route.as_str()).collect()
+    });
+    of_both.map(|mut rows| {
+        rows.retain(|row| reached.iter().all(|routes| routes.contains(row.route.as_str())));
+        rows
+    })
 }
 
 fn means(rows: &[&TrialRow]) -> [Option<f64>; 6] {
@@ -165,15 +181,15 @@ fn successes([one, other]: [&str; 2], [ones, others]: [&[&TrialRow]; 2]) -> Stri
 
 /// On which routes a planner is less safe than another by which metric, and how far up and down both go where it is by elevation rate.
 fn where_higher(results: &Results, [one, other]: [&str; 2]) -> Option<String> {
-    let mean = |planner: &str, route: &str, metric: &Metric| {
-        stats::mean(&values(&results.of(planner, route), metric))
+    let means = |group: &str, metric: &Metric| {
+        let [ours, theirs] =
+            shared(results, [one, other], group).map(|rows| stats::mean(&values(&rows, metric)));
+        ours.zip(theirs)
     };
     let routes_of = |metric: &Metric| {
         let mut routes = results.groups();
-        routes.retain(|route| {
-            let both = mean(one, route, metric).zip(mean(other, route, metric));
-            both.is_some_and(|(ours, theirs)| ours > (1.0 + EVEN) * theirs)
-        });
+        routes
+            .retain(|route| means(route, metric).is_some_and(|(ours, theirs)| ours > (1.0 + EVEN) * theirs));
         routes
     };
     let lists = METRICS[SAFETY].iter().filter_map(|metric| {
@@ -185,12 +201,13 @@ fn where_higher(results: &Results, [one, other]: [&str; 2]) -> Option<String> {
         return None;
     }
     let climbing = routes_of(&METRICS[ELEVATION_RATE]);
-    let over_all = |planner: &str, metric: &Metric| {
-        let means: Vec<f64> = climbing.iter().filter_map(|route| mean(planner, route, metric)).collect();
-        stats::mean(&means)
+    let over_all = |metric: &Metric| {
+        let (ours, theirs): (Vec<f64>, Vec<f64>) =
+            climbing.iter().filter_map(|route| means(route, metric)).unzip();
+        stats::mean(&ours).zip(stats::mean(&theirs))
     };
-    let went = |planner| Some((over_all(planner, &UP_AND_DOWN)?, over_all(planner, &METRICS[0])?));
-    let climbs = went(one).zip(went(other)).map_or_else(String::new, |((up, way), (their_up, their_way))| {
+    let both = over_all(&UP_AND_DOWN).zip(over_all(&METRICS[0]));
+    let climbs = both.map_or_else(String::new, |((up, their_up), (way, their_way))| {
         format!(
             " On those of elevation rate it goes {up:.1} m up and down in the mean, on {way:.1} m of way, \
              `{other}` {their_up:.1} m on {their_way:.1} m."
@@ -272,6 +289,25 @@ mod tests {
         );
         assert!(where_higher(&results, ["vgf", "default"]).unwrap().contains("in elevation rate on b"));
         assert_eq!(where_higher(&results, ["default", "default"]), None);
+    }
+
+    #[test]
+    fn planners_are_compared_on_what_both_reach() {
+        let names: Vec<String> = (0..20).map(|index| format!("hard-1-{index:04}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let driven = |planner, route, outcome, way_m| TrialRow {
+            distance_m: Some(way_m),
+            ..row(planner, route, "none", 1, outcome)
+        };
+        let rows = vec![
+            driven("default", names[0], "reached", 50.0),
+            driven("paper", names[0], "reached", 60.0),
+            driven("default", names[1], "reached", 200.0),
+            driven("paper", names[1], "tilt_limit", 5.0),
+        ];
+        let mut text = String::new();
+        of_the_first(&mut text, &results(&["default", "paper"], &names, rows), &[]).unwrap();
+        assert!(text.contains("wins in distance (lower on 1 of 1, -17 % on average)"), "{text}");
     }
 
     #[test]

@@ -33,7 +33,7 @@ const INTRODUCTION: &str = "A trial counts as reached when the robot arrives wit
     Rates have Wilson's 95 % interval. Metrics are the paper's, mean ± standard deviation over the trials that reached; lower is better in all of them. \
     The paper's numbers come from its own terrains in Gazebo, of which ours are models: they say how a method does among its kind, not which of two \
     methods on different ground is better. `vgf`, `vgf_tuned`, `putn` and `oracle` know the whole ground before they start and can go around what the others \
-    learn of when they see it. Below stands, for each campaign, how many trials reached and where its first planner wins and loses; its page has the rest.";
+    learn of when they see it. Two planners are compared over the routes that both reach. Below stands, for each campaign, how many trials reached and where its first planner wins and loses; its page has the rest.";
 
 /// A metric of the paper: what it is called, its decimals, and where it stands.
 struct Metric {
