@@ -20,6 +20,7 @@ mod files;
 mod hash;
 mod journal;
 mod navigators;
+mod pace;
 mod parameters;
 mod plan;
 pub mod report;

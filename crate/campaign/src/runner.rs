@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::error::CampaignError;
 use crate::hash::Hash;
 use crate::journal::{self, Entry, Header, Journal};
+use crate::pace::Pace;
 use crate::plan::{Plan, Shard, TrialSpec};
 use crate::results;
 use crate::trial::{self, Finished};
@@ -30,7 +31,7 @@ pub struct Progress<'a> {
     pub trials: usize,
     /// How many of them have run.
     pub done: usize,
-    /// Time left at the pace so far.
+    /// Time left, by what each planner's trials have taken so far.
     pub left: Duration,
     /// What came of the last one.
     pub last: &'a Entry,
@@ -67,17 +68,25 @@ pub fn run(
     let journal = Journal::open(folder, options.shard, &header, &tell)?;
     let before = journal::read_all(folder, &header)?;
 
-    let mine: Vec<&TrialSpec> = (plan.trials.iter().enumerate())
+    let mut mine: Vec<&TrialSpec> = (plan.trials.iter().enumerate())
         .filter(|(index, _)| options.shard.is_none_or(|shard| shard.holds(*index)))
         .map(|(_, spec)| spec)
         .collect();
+    // Every planner runs soon, so that the time left is known early.
+    mine.sort_by_key(|spec| (spec.seed, spec.route));
+    let mut pace = Pace::default();
+    for spec in &mine {
+        match before.get(&spec.id) {
+            Some(entry) => pace.know(&spec.planner, entry.timing.wall_s),
+            None => pace.expect(&spec.planner),
+        }
+    }
     let left: Vec<&TrialSpec> = mine.iter().copied().filter(|spec| !before.contains_key(&spec.id)).collect();
     let queue = Queue {
         plan,
-        folder,
+        options,
         left: Mutex::new(left.iter().copied()),
-        desk: Mutex::new(Desk { journal, done: 0, began: Instant::now() }),
-        had: mine.len() - left.len(),
+        desk: Mutex::new(Desk { journal, done: mine.len() - left.len(), pace }),
         trials: mine.len(),
     };
     let failed = thread::scope(|scope| {
@@ -120,19 +129,18 @@ pub fn run_one(plan: &Plan, id: &str) -> Result<(Entry, String), String> {
 /// What the workers share.
 struct Queue<'a, I> {
     plan: &'a Plan,
-    folder: &'a Path,
+    options: &'a Options,
     left: Mutex<I>,
-    desk: Mutex<Desk>,
-    /// Trials that had run before.
-    had: usize,
+    desk: Mutex<Desk<'a>>,
     trials: usize,
 }
 
 /// Where a worker hands in what it has done.
-struct Desk {
+struct Desk<'a> {
     journal: Journal,
+    /// Trials that have run, those before this process included.
     done: usize,
-    began: Instant,
+    pace: Pace<'a>,
 }
 
 impl<'a, I: Iterator<Item = &'a TrialSpec>> Queue<'a, I> {
@@ -140,7 +148,7 @@ impl<'a, I: Iterator<Item = &'a TrialSpec>> Queue<'a, I> {
     fn work(&self, show: &impl Fn(Progress<'_>)) -> Result<(), CampaignError> {
         while let Some(spec) = self.next() {
             let finished = trial::run(spec, &self.plan.routes[spec.route]);
-            let handed_in = self.hand_in(&finished, show);
+            let handed_in = self.hand_in(spec, &finished, show);
             if handed_in.is_err() {
                 while self.next().is_some() {}
             }
@@ -153,20 +161,25 @@ impl<'a, I: Iterator<Item = &'a TrialSpec>> Queue<'a, I> {
         self.left.lock().ok()?.next()
     }
 
-    fn hand_in(&self, finished: &Finished, show: &impl Fn(Progress<'_>)) -> Result<(), CampaignError> {
-        let Finished { entry, trajectory } = finished;
+    fn hand_in(
+        &self,
+        spec: &'a TrialSpec,
+        finished: &Finished,
+        show: &impl Fn(Progress<'_>),
+    ) -> Result<(), CampaignError> {
+        let (Finished { entry, trajectory }, Options { folder, jobs, .. }) = (finished, self.options);
         // Before the journal's line, which says that all of the trial is there.
         if let Some(trajectory) = trajectory {
-            results::write_trajectory(self.folder, &entry.result.id, trajectory)?;
+            results::write_trajectory(folder, &entry.result.id, trajectory)?;
         }
         let Ok(mut desk) = self.desk.lock() else {
-            return Err(CampaignError::write(self.folder, "another worker panicked"));
+            return Err(CampaignError::write(folder, "another worker panicked"));
         };
         desk.journal.append(entry)?;
         desk.done += 1;
-        let (trials, done) = (self.trials, self.had + desk.done);
-        let left = desk.began.elapsed().mul_f64((trials - done) as f64 / desk.done as f64);
-        show(Progress { trials, done, left, last: entry });
+        desk.pace.finish(&spec.planner, entry.timing.wall_s);
+        let (done, left) = (desk.done, desk.pace.left(*jobs));
+        show(Progress { trials: self.trials, done, left, last: entry });
         Ok(())
     }
 }
