@@ -115,8 +115,9 @@ fn jobs_shards_and_kills_change_no_byte() {
     // One trajectory on each route.
     assert_eq!(alone.len(), FILES.len() + 2);
 
-    folder.trials(&["--jobs", "3", "--out", "jobs"]);
-    assert_same(&alone, &folder.results("jobs"), "three jobs");
+    // No machine has so many threads.
+    folder.trials(&["--jobs", "1000000", "--out", "jobs"]);
+    assert_same(&alone, &folder.results("jobs"), "as many jobs as trials");
 
     let mut shards: Vec<_> = ["2/3", "1/3", "3/3"]
         .map(|shard| folder.command(&["trials", "small.toml", "--out", "shards", "--shard", shard]))
@@ -276,6 +277,33 @@ fn what_does_not_belong_together_is_refused() {
     folder.write("taken", "");
     let error = folder.refused(&["trials", "small.toml", "--out", "taken"]);
     assert!(error.starts_with("error: taken: cannot be written"), "{error}");
+}
+
+/// The quick form's planners, as its file names them, on the shortest of the paper's routes.
+#[test]
+fn every_planner_drives_in_a_campaign_and_stands_in_its_report() {
+    let folder = Folder::new();
+    let terrains = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../terrains");
+    let quick = mapless_campaign::Plan::read(&terrains.join("campaigns/quick.toml")).unwrap();
+    let planners = quick.campaign.planners;
+    let route = terrains.join("scenarios/ht.toml");
+    folder.write(
+        "small.toml",
+        &format!("planners = {planners:?}\nroutes = ['{}']\nseeds = [1]\n", route.display()),
+    );
+    folder.trials(&["--out", "out"]);
+    let output = folder.command(&["report", "out", "--out", "docs"]).output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let page = fs::read_to_string(folder.path("docs/results/small.md")).unwrap();
+    assert_eq!(planners.len(), 8);
+    for planner in &planners {
+        let reaches = !matches!(planner.as_str(), "flat" | "direct");
+        let success = format!("| `{planner}` | {} of 1 (", u8::from(reaches));
+        assert!(page.contains(&success), "{success}\n{page}");
+        let against = format!("- `default` against `{planner}`, on 1 route:");
+        assert_eq!(page.contains(&against), reaches && planner != "default", "{against}\n{page}");
+    }
+    assert!(!page.contains("error"), "{page}");
 }
 
 #[test]

@@ -47,8 +47,8 @@ def main():
             failed = failed or code != 0
     if failed:
         return 1
-    # Every trial has run: this only writes the final files, with the paths as they were named here.
-    command = [str(args.mapless), "trials", str(args.campaign), "--out", str(args.out)]
+    # Every trial has run: this only writes the final files, with the campaign and the folder as they were named here.
+    command = [paths[0], "trials", str(args.campaign), "--out", str(args.out)]
     return subprocess.run(command, check=False).returncode
 
 

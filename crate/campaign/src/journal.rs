@@ -9,7 +9,7 @@ use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use mapless_trials::{Metrics, Outcome};
+use mapless_trials::{Metrics, Outcome, statistics};
 
 use crate::error::{CampaignError, CampaignFault};
 use crate::plan::Shard;
@@ -54,15 +54,14 @@ impl Timing {
     /// Nearest-rank quantiles of the planner's steps; zeros where there were none.
     pub(crate) fn of(wall: Duration, mut steps: Vec<Duration>) -> Self {
         steps.sort_unstable();
-        let quantile = |percent: usize| {
-            let rank = (steps.len() * percent).div_ceil(100).max(1);
-            steps.get(rank - 1).map_or(0.0, |time| time.as_secs_f64() * 1e3)
+        let percentile = |percent| {
+            statistics::percentile(&steps, percent).map_or(0.0, |time: Duration| time.as_secs_f64() * 1e3)
         };
         Self {
             wall_s: wall.as_secs_f64(),
-            planner_p50_ms: quantile(50),
-            planner_p99_ms: quantile(99),
-            planner_max_ms: quantile(100),
+            planner_p50_ms: percentile(50),
+            planner_p99_ms: percentile(99),
+            planner_max_ms: percentile(100),
         }
     }
 }

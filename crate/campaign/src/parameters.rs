@@ -13,9 +13,10 @@ pub(crate) struct Parameter {
 /// Which parameters have which values; none in the base variation.
 pub(crate) type Variation = Vec<(String, Value)>;
 
-/// The variation as rows name it: `path=value`, separated by spaces; empty for the base.
+/// The variation as rows name it: `path=value`, separated by spaces; empty for the base. A value has no spaces: an array is written as JSON does.
 pub(crate) fn name(variation: &Variation) -> String {
-    let words: Vec<String> = variation.iter().map(|(path, value)| format!("{path}={value}")).collect();
+    let word = |(path, value): &(String, Value)| format!("{path}={}", value.to_string().replace(", ", ","));
+    let words: Vec<String> = variation.iter().map(word).collect();
     words.join(" ")
 }
 
@@ -86,6 +87,13 @@ mod tests {
         let parameters = [parameter("planner.a", &[1.0, 2.0]), parameter("planner.b", &[3.0])];
         let names: Vec<String> = one_at_a_time(&parameters).iter().map(name).collect();
         assert_eq!(names, ["", "planner.a=1.0", "planner.a=2.0", "planner.b=3.0"]);
+    }
+
+    #[test]
+    fn an_array_is_one_value() {
+        let scales = Value::Array(vec![Value::Float(0.15), Value::Float(0.04)]);
+        let variation = vec![("planner.perception.kernel.length_scales_rad".to_owned(), scales)];
+        assert_eq!(name(&variation), "planner.perception.kernel.length_scales_rad=[0.15,0.04]");
     }
 
     #[test]

@@ -41,9 +41,21 @@ pub struct Route {
 }
 
 impl Route {
-    /// Length of the shortest safe path; none where the oracle has none. It takes a while.
+    /// From the start over the waypoints to the goal as the crow flies, seen from above, metres.
+    pub(crate) fn straight_m(&self) -> f64 {
+        let Scenario { start, waypoints_m, goal_m, .. } = &self.loaded.scenario;
+        let ends = waypoints_m.iter().chain([goal_m]);
+        let begins = [start.position_m].into_iter().chain(waypoints_m.iter().copied());
+        begins.zip(ends).map(|(begin, end)| (*end - begin).length()).sum()
+    }
+
+    /// Length of the shortest safe path; none where the oracle has none, or where the way leads over waypoints, which it does not know. It takes a while.
     pub(crate) fn oracle_length_m(&self) -> Option<f64> {
-        let LoadedScenario { scenario: Scenario { start, goal_m, robot, .. }, terrain } = &self.loaded;
+        let LoadedScenario { scenario: Scenario { start, waypoints_m, goal_m, robot, .. }, terrain } =
+            &self.loaded;
+        if !waypoints_m.is_empty() {
+            return None;
+        }
         let start = PlanPose { position_m: start.position_m, yaw_rad: start.heading_rad };
         let path = shortest_path(&terrain.field, robot, start, *goal_m, &OracleConfig::default());
         path.ok().map(|path| path.length_m)
@@ -61,7 +73,7 @@ pub struct TrialSpec {
     pub route: usize,
     /// What the planner is told.
     pub truth: Truth,
-    /// `path=value` of every parameter that differs from the planner's own, separated by spaces.
+    /// `path=value` of every parameter that the campaign sets, separated by spaces.
     pub parameters: String,
     /// Seed of the sensor's noise.
     pub seed: u64,
@@ -249,6 +261,18 @@ mod tests {
         };
         assert_eq!(seeds("default").collect::<Vec<_>>(), [2, 7, 9, 2, 7, 9]);
         assert_eq!(seeds("paper").collect::<Vec<_>>(), [2, 7, 2, 7], "the first two in the file's order");
+    }
+
+    #[test]
+    fn over_waypoints_the_straight_way_has_legs_and_no_shortest_path_is_known() {
+        let text = "planners = [\"default\"]\nroutes = [\"routes/*.toml\"]\nseeds = [1]\n";
+        let route = |scenario: &str| plan(RECIPE, scenario, text).unwrap().routes.swap_remove(0);
+        let straight = route(SCENARIO);
+        assert!((straight.straight_m() - 5.0).abs() < 1e-12);
+        assert!(straight.oracle_length_m().is_some_and(|length_m| length_m >= 5.0));
+        let around = route(&format!("{SCENARIO}waypoints = [[4.0, 8.0], [9.0, 8.0]]\n"));
+        assert!((around.straight_m() - 11.0).abs() < 1e-12);
+        assert_eq!(around.oracle_length_m(), None);
     }
 
     #[test]

@@ -51,7 +51,7 @@ pub struct TrialRow {
     pub sim_time_s: Option<f64>,
     /// Planning periods.
     pub ticks: Option<u64>,
-    /// From start to goal as the crow flies, seen from above.
+    /// From the start over the waypoints to the goal as the crow flies, seen from above.
     pub straight_m: f64,
     /// Length of the shortest safe path, where it is known.
     pub oracle_length_m: Option<f64>,
@@ -102,7 +102,8 @@ struct TimingRow<'a> {
 /// Writes the final files; `entries` must hold every trial of the plan. The oracle looks for `jobs` paths at a time.
 pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path, jobs: usize) -> Result<(), CampaignError> {
     let done = plan.trials.iter().filter_map(|spec| Some((spec, entries.get(&spec.id)?)));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
+    let threads = jobs.min(plan.routes.len());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| CampaignError::write(folder, error))?;
     let oracle_lengths_m: Vec<Option<f64>> =
         pool.install(|| plan.routes.par_iter().map(Route::oracle_length_m).collect());
@@ -145,7 +146,6 @@ fn csv<T: serde::Serialize>(path: &Path, rows: &[T]) -> Result<Vec<u8>, Campaign
 
 fn row(plan: &Plan, spec: &TrialSpec, oracle_length_m: Option<f64>, result: &TrialResult) -> TrialRow {
     let route = &plan.routes[spec.route];
-    let scenario = &route.loaded.scenario;
     let metric = |value: fn(&Metrics) -> f64| result.metrics.as_ref().map(value);
     let json = spec.config.as_ref().as_ref().ok().and_then(|config| serde_json::to_string(config).ok());
     TrialRow {
@@ -167,7 +167,7 @@ fn row(plan: &Plan, spec: &TrialSpec, oracle_length_m: Option<f64>, result: &Tri
         curvature_change_rad_m: metric(|m| m.curvature_change_rad_m),
         sim_time_s: result.sim_time_s,
         ticks: result.ticks,
-        straight_m: (scenario.goal_m - scenario.start.position_m).length(),
+        straight_m: route.straight_m(),
         oracle_length_m,
         digest: result.digest.clone(),
         configuration: json.unwrap_or_default(),

@@ -90,7 +90,9 @@ pub fn run(
         trials: mine.len(),
     };
     let failed = thread::scope(|scope| {
-        let workers: Vec<_> = (0..options.jobs.max(1)).map(|_| scope.spawn(|| queue.work(&show))).collect();
+        let workers: Vec<_> = (0..options.jobs.clamp(1, left.len().max(1)))
+            .map(|_| scope.spawn(|| queue.work(&show)))
+            .collect();
         let ends: Vec<_> = workers.into_iter().map(std::thread::ScopedJoinHandle::join).collect();
         ends.into_iter().find_map(|end| match end {
             Ok(result) => result.err(),

@@ -4,7 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use comfy_table::{CellAlignment, Table, presets};
-use mapless_trials::{Metrics, Outcome};
+use mapless_trials::{Metrics, Outcome, statistics};
 
 use crate::run::AnyTrial;
 
@@ -117,11 +117,10 @@ impl PlannerTime {
     /// Nearest-rank quantiles: each is a time that was measured.
     fn of(mut times: Vec<Duration>) -> Self {
         times.sort_unstable();
-        let quantile = |percent: usize| {
-            let rank = (times.len() * percent).div_ceil(100).max(1);
-            times.get(rank - 1).map_or(0.0, |time| time.as_secs_f64() * 1e3)
+        let percentile = |percent| {
+            statistics::percentile(&times, percent).map_or(0.0, |time: Duration| time.as_secs_f64() * 1e3)
         };
-        Self { p50: quantile(50), p99: quantile(99) }
+        Self { p50: percentile(50), p99: percentile(99) }
     }
 }
 

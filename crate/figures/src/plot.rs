@@ -55,13 +55,15 @@ impl Plot {
         let all = || self.lines.iter().flat_map(|line| line.points.iter().copied());
         let zero = (self.scale == Scale::Linear).then_some(0.0);
         let (x_low, x_high) = range(all().map(|(x, _)| place(x)));
+        let (x_low, x_high) = widened(x_low, x_high);
         let (y_low, y_high) = range(all().map(|(_, y)| place(y)).chain(zero));
+        let (y_low, y_high) = widened(y_low, y_high);
         let step = |span: f64| match self.scale {
             Scale::Linear => step(span),
             Scale::Logarithmic => 1.0,
         };
         let y_step = step(y_high - y_low);
-        let (y_low, y_high) = ((y_low / y_step).floor() * y_step, (y_high / y_step).ceil() * y_step);
+        let (y_low, y_high) = widened((y_low / y_step).floor() * y_step, (y_high / y_step).ceil() * y_step);
         let x_at = |x: f64| LEFT + (place(x) - x_low) / (x_high - x_low) * (WIDTH - LEFT - RIGHT);
         let y_at = |y: f64| HEIGHT - BOTTOM - (place(y) - y_low) / (y_high - y_low) * (HEIGHT - TOP - BOTTOM);
         let value_at = |tick: f64| match self.scale {
@@ -145,6 +147,11 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
+/// A single value has a range around it, so that it has a place.
+fn widened(low: f64, high: f64) -> (f64, f64) {
+    if high > low { (low, high) } else { (low - 0.5, high + 0.5) }
+}
+
 /// A round distance between ticks, for about six of them.
 fn step(span: f64) -> f64 {
     let rough = (span / 6.0).max(f64::MIN_POSITIVE);
@@ -186,6 +193,16 @@ mod tests {
         .svg();
         assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
         assert!(svg.contains(">error</text>") && svg.contains("polyline") && !svg.contains("NaN"));
+    }
+
+    #[test]
+    fn a_level_line_and_a_single_point_have_a_place() {
+        for points in [vec![(0.0, 0.0), (1.0, 0.0)], vec![(2.0, 3.0)]] {
+            let line = Line { name: "roll".to_owned(), points };
+            let (x_label, y_label) = ("s".to_owned(), "rad".to_owned());
+            let svg = Plot { x_label, y_label, lines: vec![line], mark_x: None, scale: Scale::Linear }.svg();
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        }
     }
 
     #[test]

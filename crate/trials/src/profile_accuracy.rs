@@ -36,7 +36,7 @@ pub struct ProfileAccuracy {
     pub bias_rad: f64,
     /// The mean absolute error of the worst pose.
     pub worst_pose_error_rad: f64,
-    /// Seed of that pose among those of the terrain.
+    /// Number of that pose among those drawn, from zero; those where the robot could not stand count, too.
     pub worst_pose: u64,
     /// Columns, by truth and then by what was perceived, each in the order of [`ColumnKind`].
     pub confusion: [[usize; 3]; 3],

@@ -24,6 +24,13 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
     Some(if values.len() % 2 == 1 { upper } else { (values[middle - 1] + upper) / 2.0 })
 }
 
+/// The nearest-rank percentile of sorted values: one that is there. Nothing of none.
+#[must_use]
+pub fn percentile<T: Copy>(sorted: &[T], percent: usize) -> Option<T> {
+    let rank = (sorted.len() * percent).div_ceil(100).max(1);
+    sorted.get(rank - 1).copied()
+}
+
 /// Standard normal quantile of a two-sided 95 % interval.
 const Z: f64 = 1.959_963_984_540_054;
 
@@ -72,6 +79,14 @@ mod tests {
 
     fn close(a: f64, b: f64) {
         assert!((a - b).abs() < 5e-5, "{a} is not {b}");
+    }
+
+    #[test]
+    fn a_percentile_is_one_of_the_values() {
+        let hundreds: Vec<u32> = (1..=200).collect();
+        let of = |percent| percentile(&hundreds, percent);
+        assert_eq!((of(0), of(50), of(99), of(100)), (Some(1), Some(100), Some(198), Some(200)));
+        assert_eq!((percentile(&[7], 50), percentile::<u32>(&[], 50)), (Some(7), None));
     }
 
     #[test]

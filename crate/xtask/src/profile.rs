@@ -51,7 +51,7 @@ struct Job {
     terrain: String,
 }
 
-/// Measures the presets at `poses` poses on each terrain and other settings at a quarter of them, and writes the report with its figure.
+/// Measures the presets at `poses` poses on each terrain and other settings at as many, and writes the report with its figure.
 pub(crate) fn run(sh: &Shell, poses: usize) -> anyhow::Result<()> {
     cmd!(sh, "cargo build --release --package mapless-cli").run()?;
     let target = setup::target_dir(sh);
@@ -210,7 +210,7 @@ fn of_setting(measured: &BTreeMap<Job, Accuracy>, setting: usize) -> Accuracy {
 fn report(settings: &[Setting], measured: &BTreeMap<Job, Accuracy>, poses: usize) -> anyhow::Result<String> {
     let mut text = format!(
         "# The elevation profile against the truth\n\n\
-         Written by `cargo xtask profile --poses {poses}`: {poses} random poses (a quarter of them for settings other than the presets), at which \
+         Written by `cargo xtask profile --poses {poses}`: {poses} random poses, at which \
          the Husky can stand within its limits, on each of the five terrains and of five that are made of noise alone; range noise 0.02 m. The truth is the highest direction, at each of the 360 \
          azimuths, in which there is ground within 7 m of the sensor. A hole is ground taken for unknown between columns that were seen.\n\n\
          ## Preset `default`, terrain by terrain\n\n| terrain | {HEADINGS}\n"

@@ -38,8 +38,9 @@ pub(crate) fn run(sh: &Shell, names: &[String]) -> anyhow::Result<()> {
         TASKS.iter().filter(|(folder, ..)| texts.iter().any(|text| text.contains(folder)))
     {
         for difficulty in DIFFICULTIES {
-            let (folder, seed, count) =
-                (target.join(folder).join(difficulty), seed.to_string(), count.to_string());
+            // Campaign files name this folder, wherever cargo builds.
+            let folder = sh.current_dir().join("target").join(folder).join(difficulty);
+            let (seed, count) = (seed.to_string(), count.to_string());
             cmd!(
                 sh,
                 "{program} generate --seed {seed} --difficulty {difficulty} --count {count} --out {folder}"

@@ -27,7 +27,8 @@ impl TravelCost {
     }
 
     /// The cost of every node: the greatest that its own column or one around it lends it. A column lends to what is level
-    /// with the air above it, so the top of a cliff does not warn those at its foot.
+    /// with the air above it, so the top of a cliff does not warn those at its foot; with refused ground in the cost, which
+    /// has no level, it does.
     pub(crate) fn of_nodes(&self, map: &VoxelMap) -> Vec<f64> {
         let mut costs = vec![0.0_f64; map.nodes().len()];
         let reach = (self.spread_m / map.voxel_m()).ceil() as i64;
@@ -46,7 +47,6 @@ impl TravelCost {
                     let lent = source * (1.0 - distance_m / self.spread_m);
                     for node in map.nodes_in(column + across, row + up) {
                         let Node { level, .. } = map.nodes()[node];
-                        // Where refused ground lies does not matter.
                         if level > top || self.refused > 0.0 {
                             costs[node] = costs[node].max(lent);
                         }

@@ -11,6 +11,9 @@ use crate::results::TrialRow;
 /// Means that differ by less than this share are even.
 pub(super) const EVEN: f64 = 0.005;
 
+/// So many routes at most are named as those with the most failures.
+const MOST_NAMED: usize = 3;
+
 /// Those of [`METRICS`] that measure safety, and the last of them.
 const SAFETY: Range<usize> = 1..5;
 const ELEVATION_RATE: usize = 4;
@@ -232,15 +235,12 @@ fn why(results: &Results, planner: &str) -> String {
         }
     }
     routes.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
-    let most: Vec<String> =
-        routes.iter().take(3).map(|(route, count)| format!("{route} ({count})")).collect();
-    format!(
-        "- `{planner}` fails in {} of {} trials: {}; most on {}.",
-        failed.len(),
-        rows.len(),
-        failures(&rows),
-        most.join(", ")
-    )
+    // Where as many fail on the next route, the first three are not those with the most.
+    let next = routes.get(MOST_NAMED).map_or(0, |&(_, count)| count);
+    let most = routes.iter().take(MOST_NAMED).filter(|&&(_, count)| count > next);
+    let most: Vec<String> = most.map(|(route, count)| format!("{route} ({count})")).collect();
+    let most = if most.is_empty() { String::new() } else { format!("; most on {}", most.join(", ")) };
+    format!("- `{planner}` fails in {} of {} trials: {}{most}.", failed.len(), rows.len(), failures(&rows))
 }
 
 #[cfg(test)]
@@ -264,6 +264,21 @@ mod tests {
             !generated.contains("published") && generated.contains("1 stuck; most on hard-1-0001 (1)"),
             "{generated}"
         );
+    }
+
+    #[test]
+    fn of_routes_with_as_many_failures_none_is_named_the_worst() {
+        let failing = |counts: &[u64]| {
+            let names = ["a", "b", "c", "d", "e"];
+            let of_route = |(name, &count): (&str, &u64)| -> Vec<TrialRow> {
+                (0..count).map(|seed| row("flat", name, "none", seed, "stuck")).collect()
+            };
+            let rows = names.into_iter().zip(counts).flat_map(of_route).collect();
+            why(&results(&["flat"], &names, rows), "flat")
+        };
+        assert_eq!(failing(&[1, 1, 1, 1, 1]), "- `flat` fails in 5 of 5 trials: 5 stuck.");
+        assert!(failing(&[1, 3, 1, 1, 2]).ends_with("8 stuck; most on b (3), e (2)."));
+        assert!(failing(&[2, 2, 2, 1]).ends_with("; most on a (2), b (2), c (2)."));
     }
 
     #[test]

@@ -27,10 +27,11 @@ enum Cause {
     Decision,
     Control,
     DecisionOrControl,
+    Untold,
 }
 
 impl Cause {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Profile,
         Self::Ground,
         Self::Either,
@@ -38,6 +39,7 @@ impl Cause {
         Self::Decision,
         Self::Control,
         Self::DecisionOrControl,
+        Self::Untold,
     ];
 
     fn name(self) -> &'static str {
@@ -49,6 +51,7 @@ impl Cause {
             Self::Decision => "decision",
             Self::Control => "control or the route",
             Self::DecisionOrControl => "decision or control",
+            Self::Untold => "nothing: profile and ground were not told together",
         }
     }
 }
@@ -191,6 +194,7 @@ fn cause(results: &Results, told: &Told<'_>) -> Cause {
         (true, false, _) => Cause::Profile,
         (false, true, _) => Cause::Ground,
         (false, false, true) => Cause::Both,
+        (false, false, false) if !told.contains_key("both") => Cause::Untold,
         (false, false, false) => match oracle() {
             Some(oracle) if oracle.has_reached() => Cause::Decision,
             Some(_) => Cause::Control,
@@ -270,6 +274,19 @@ mod tests {
             assert!(text.contains(cause), "{text}");
             rows.pop();
         }
+    }
+
+    #[test]
+    fn what_was_not_told_everything_is_put_down_to_nothing() {
+        let mut rows = rows();
+        rows.retain(|row| row.truth == "none" || row.truth == "profile");
+        let text = written(rows);
+        assert!(
+            text.contains(
+                "2 to perception of the profile, 3 to nothing: profile and ground were not told together."
+            ),
+            "{text}"
+        );
     }
 
     #[test]

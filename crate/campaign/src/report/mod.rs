@@ -240,13 +240,20 @@ fn sections(
     let question = results.question().map_or_else(String::new, |question| format!("{question}; "));
     writeln!(text, "# Campaign `{name}`\n")?;
     writeln!(text, "{} trials: {question}{}; identity `{hash}`.", results.rows.len(), results.size())?;
-    tables::success(text, results)?;
+    let has_plain = results.plain().next().is_some();
     // One planner that is run again with something changed is compared with itself.
-    let compares = planners.len() > 1 || results.question().is_none();
+    let compares = has_plain && (planners.len() > 1 || results.question().is_none());
+    if has_plain {
+        tables::success(text, results)?;
+    } else {
+        writeln!(text, "\nNone of them has a planner as it is, with no parameter set and nothing told.")?;
+    }
     if compares {
         comparison::of_the_first(text, results, published)?;
     }
-    duration::section(text, results)?;
+    if has_plain {
+        duration::section(text, results)?;
+    }
     if compares {
         comparison::of_the_others(text, results, published)?;
         tables::metrics(text, results, published)?;
@@ -332,6 +339,25 @@ mod tests {
         write("c.md", "notes");
         let error = index(folder.path(), "cost.svg").unwrap_err().to_string();
         assert!(error.contains("c.md") && error.contains("begins with its title"), "{error}");
+    }
+
+    #[test]
+    fn a_campaign_of_combinations_alone_says_nothing_of_planners_as_they_are() {
+        let varied = |planner, outcome| TrialRow {
+            parameters: "planner.decision.steepness_weight=0.5".to_owned(),
+            ..row(planner, "a", "none", 1, outcome)
+        };
+        let rows = vec![varied("default", "stuck"), varied("paper", "reached")];
+        let mut text = String::new();
+        let (results, mut figures) =
+            (results(&["default", "paper"], &["a"], rows), figures::Figures::default());
+        sections(&mut text, &results, &[], &mut figures, "").unwrap();
+        assert!(text.contains("None of them has a planner as it is"), "{text}");
+        assert!(text.contains("| `default` | 0.5 | 0 of 1 "), "{text}");
+        assert!(
+            !text.contains("fails nowhere") && !text.contains("0 of 0") && !text.contains("How soon"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -47,7 +47,7 @@ pub(super) fn section(text: &mut String, results: &Results, published: &[Publish
     writeln!(
         text,
         "- Curvature change has no agreed sampling: the paper does not say how |ω / v| is sampled, nor what it does where v is near zero. \
-         Ours is taken at every planning period (0.1 s) with |v| of at least 0.05 m/s, so each start and each turn on the spot enters. \
+         Ours is taken at every step of the motion (0.01 s) with |v| of at least 0.05 m/s, so each start and each turn on the spot enters. \
          Compare it among planners here, not with the paper."
     )
 }

@@ -27,6 +27,13 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         "Failures first, then by the largest share of a tilt limit. The command runs a trial again and prints its digest; the page \
          shows it at the address that ends like this, where it has the route and drives that planner.\n"
     )?;
+    if results.manifest.routes.iter().any(|route| route.name.parse::<TaskName>().is_ok()) {
+        writeln!(
+            text,
+            "The routes are generated tasks: `cargo xtask results`, or `mapless generate` with the seed and the difficulty that their names begin with, writes them \
+             again, to where the campaign file says.\n"
+        )?;
+    }
     writeln!(
         text,
         "| planner | route | seed | outcome | of the tilt limit | command | page |\n|---|---|---:|---|---:|---|---|"

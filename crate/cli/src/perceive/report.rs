@@ -17,7 +17,7 @@ pub(crate) struct PerceptionReport {
     subject: String,
     /// Returns in the scan.
     returns: usize,
-    /// `driving`, `arrived`, `looking` or `stopped`.
+    /// `driving`, `arrived`, `retreating`, `looking` or `stopped`.
     status: &'static str,
     /// Why the planner stopped, where it did.
     reason: Option<String>,
