@@ -20,13 +20,14 @@ export interface Asked {
   ): Promise<Result>;
 }
 
-/** A page that fails its test when a script throws or a request leaves the page's own origin. */
+/** A page that fails its test when a script throws, three.js warns or a request leaves the page's own origin. */
 export const test = base.extend<{ mapless: Page }>({
   mapless: async ({ page, baseURL }, use) => {
     const faults: string[] = [];
     page.on('pageerror', (error) => faults.push(String(error)));
     page.on('console', (message) => {
-      if (message.type() === 'error') faults.push(message.text());
+      const text = message.text();
+      if (message.type() === 'error' || text.startsWith('THREE.')) faults.push(text);
     });
     page.on('request', (request) => {
       const { origin, protocol } = new URL(request.url());

@@ -21,7 +21,10 @@ self.onmessage = ({ data }: MessageEvent<ToPainter>) => {
     post({ type: 'unavailable' });
     return;
   }
-  // Each extension that three.js asks for waits for the graphics process, and nothing here needs one.
-  context.getExtension = () => null;
+  // Each extension that three.js asks for waits for the graphics process, and nothing here needs one; it warns where the one here is missing.
+  const floats = context.getExtension('EXT_color_buffer_float');
+  Object.assign(context, {
+    getExtension: (name: string) => (name === 'EXT_color_buffer_float' ? floats : null),
+  });
   painter = new Painter(context, data.canvas, data.theme, new Pacer(software, data.devicePixelRatio), post);
 };
