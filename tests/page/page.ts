@@ -26,8 +26,8 @@ export const test = base.extend<{ mapless: Page }>({
     const faults: string[] = [];
     page.on('pageerror', (error) => faults.push(String(error)));
     page.on('console', (message) => {
-      const text = message.text();
-      if (message.type() === 'error' || text.startsWith('THREE.')) faults.push(text);
+      const [type, text] = [message.type(), message.text()];
+      if (type === 'error' || (type === 'warning' && text.startsWith('THREE.'))) faults.push(text);
     });
     page.on('request', (request) => {
       const { origin, protocol } = new URL(request.url());

@@ -14,6 +14,7 @@ declare module '*/mapless_wasm_baselines.js' {
   export default start;
   export const Ground: import('../trials/wasm.ts').TrialsModule['Ground'];
   export const Runner: import('../trials/wasm.ts').TrialsModule['Runner'];
+  export const generated_task: import('../trials/wasm.ts').TrialsModule['generated_task'];
   export const wilson: import('../trials/wasm.ts').TrialsModule['wilson'];
   export const mean_and_deviation: import('../trials/wasm.ts').TrialsModule['mean_and_deviation'];
 }

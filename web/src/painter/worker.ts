@@ -21,10 +21,8 @@ self.onmessage = ({ data }: MessageEvent<ToPainter>) => {
     post({ type: 'unavailable' });
     return;
   }
-  // Each extension that three.js asks for waits for the graphics process, and nothing here needs one; it warns where the one here is missing.
-  const floats = context.getExtension('EXT_color_buffer_float');
-  Object.assign(context, {
-    getExtension: (name: string) => (name === 'EXT_color_buffer_float' ? floats : null),
-  });
+  // Each extension that three.js asks for waits for the graphics process, and nothing here needs one. It warns where it finds no float colour
+  // buffers, into which nothing here draws: told that they are there, it asks no more.
+  Object.assign(context, { getExtension: (name: string) => (name === 'EXT_color_buffer_float' ? {} : null) });
   painter = new Painter(context, data.canvas, data.theme, new Pacer(software, data.devicePixelRatio), post);
 };
