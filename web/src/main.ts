@@ -3,6 +3,7 @@
 import './style/tokens.css';
 import './style/layout.css';
 import './style/controls.css';
+import './style/messages.css';
 import './style/measure.css';
 import './style/panels.css';
 import './style/thinking.css';

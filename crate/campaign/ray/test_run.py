@@ -1,4 +1,4 @@
-"""run.py on a local cluster of two nodes, one of which is killed midway: the same bytes as without Ray.
+"""run.py on a local cluster of two nodes; the worker of one is killed midway with the program that it runs: the same bytes as without Ray.
 
     python test_run.py MAPLESS
 """
@@ -57,9 +57,9 @@ def journalled(folder):
     return sum(max(0, len(file.read_text().splitlines()) - 1) for file in folder.glob("journal*.jsonl"))
 
 
-def task_workers():
-    """Process ids of the workers that run a shard, with that of the node each belongs to."""
-    found = []
+def processes():
+    """Title and parent of every process, by its id."""
+    found = {}
     for folder in pathlib.Path("/proc").iterdir():
         if not folder.name.isdigit():
             continue
@@ -68,9 +68,18 @@ def task_workers():
             parent = int((folder / "stat").read_text().rsplit(")", 1)[1].split()[1])
         except (OSError, ValueError):
             continue
-        if title.startswith(b"ray::shard"):
-            found.append((int(folder.name), parent))
+        found[int(folder.name)] = (title, parent)
     return found
+
+
+def task_workers():
+    """Process ids of the workers that run a shard, with that of the node each belongs to."""
+    return [(process, parent) for process, (title, parent) in processes().items() if title.startswith(b"ray::shard")]
+
+
+def programs_of(worker):
+    """Process ids of the programs that a worker runs: they would go on without it."""
+    return [process for process, (_, parent) in processes().items() if parent == worker]
 
 
 class Run(unittest.TestCase):
@@ -102,7 +111,11 @@ class Run(unittest.TestCase):
         workers = task_workers()
         nodes = {parent for _, parent in workers}
         self.assertEqual(len(nodes), 2, "both nodes work")
-        os.kill(workers[0][0], signal.SIGKILL)
+        worker = workers[0][0]
+        programs = programs_of(worker)
+        self.assertEqual(len(programs), 1, "the worker runs its shard")
+        for process in [worker, *programs]:
+            os.kill(process, signal.SIGKILL)
         before = journalled(self.root / "ray")
         said, _ = driver.communicate(timeout=90)
         self.assertEqual(driver.returncode, 0, said)

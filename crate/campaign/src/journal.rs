@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use mapless_trials::{Metrics, Outcome, statistics};
+use serde::de::Error as _;
+use serde::{Deserialize as _, Deserializer};
 
 use crate::error::{CampaignError, CampaignFault};
 use crate::plan::Shard;
@@ -41,6 +43,7 @@ pub struct TrialResult {
 #[serde(deny_unknown_fields)]
 pub struct Timing {
     /// The whole trial, seconds.
+    #[serde(deserialize_with = "read_wall_s")]
     pub wall_s: f64,
     /// Median of the planner's steps, milliseconds.
     pub planner_p50_ms: f64,
@@ -52,18 +55,24 @@ pub struct Timing {
 
 impl Timing {
     /// Nearest-rank quantiles of the planner's steps; zeros where there were none.
-    pub(crate) fn of(wall: Duration, mut steps: Vec<Duration>) -> Self {
-        steps.sort_unstable();
-        let percentile = |percent| {
-            statistics::percentile(&steps, percent).map_or(0.0, |time: Duration| time.as_secs_f64() * 1e3)
-        };
-        Self {
-            wall_s: wall.as_secs_f64(),
-            planner_p50_ms: percentile(50),
-            planner_p99_ms: percentile(99),
-            planner_max_ms: percentile(100),
-        }
+    pub(crate) fn of(wall: Duration, steps: Vec<Duration>) -> Self {
+        let [planner_p50_ms, planner_p99_ms, planner_max_ms] =
+            statistics::percentiles_ms(steps, [50, 99, 100]);
+        Self { wall_s: wall.as_secs_f64(), planner_p50_ms, planner_p99_ms, planner_max_ms }
     }
+}
+
+/// No trial takes thirty years; the time left is counted from this.
+const LONGEST_WALL_S: f64 = 1e9;
+
+fn read_wall_s<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let wall_s = f64::deserialize(deserializer)?;
+    if !(0.0..=LONGEST_WALL_S).contains(&wall_s) {
+        return Err(D::Error::custom(format_args!(
+            "wall_s = {wall_s}: expected seconds, from 0 to {LONGEST_WALL_S:e}"
+        )));
+    }
+    Ok(wall_s)
 }
 
 /// One line of a journal.
@@ -242,6 +251,21 @@ mod tests {
         open(folder.path(), None).append(&one).unwrap();
         let entries = read_all(folder.path(), &header()).unwrap();
         assert_eq!(entries.into_values().collect::<Vec<_>>(), [one, two]);
+    }
+
+    #[test]
+    fn a_time_that_no_trial_takes_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        for wall_s in [-1.0, 1e300] {
+            let timing = Timing { wall_s, ..entry("one").timing };
+            let mut journal = open(folder.path(), None);
+            journal.append(&Entry { timing, ..entry("one") }).unwrap();
+            let error = read_all(folder.path(), &header()).unwrap_err().to_string();
+            for part in ["journal.jsonl", "line 2", "wall_s = ", "expected seconds"] {
+                assert!(error.contains(part), "{part} is not in: {error}");
+            }
+            fs::remove_file(journal.path).unwrap();
+        }
     }
 
     #[test]

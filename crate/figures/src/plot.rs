@@ -1,4 +1,4 @@
-//! A small line plot as SVG, readable in print and on a dark page.
+//! A small line plot as SVG, on a white sheet of its own, so that it is readable in print and on a dark page.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ const TOP: f64 = 16.0;
 const BOTTOM: f64 = 52.0;
 /// Labels of neighbouring lines keep this distance.
 const LABEL_HEIGHT: f64 = 15.0;
-/// Okabe and Ito's colours for everybody, but for black and yellow, which a dark or a white page hides, with two more.
+/// Okabe and Ito's colours for everybody, but for black, which is the text's, and yellow, which a white sheet hides, with two more.
 pub const COLOURS: [&str; 8] =
     ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1", "#888888"];
 
@@ -72,7 +72,7 @@ impl Plot {
         };
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"system-ui, sans-serif\" font-size=\"13\">\n\
-             <style>text {{ fill: #333 }} .axis {{ stroke: #999 }} @media (prefers-color-scheme: dark) {{ text {{ fill: #ddd }} .axis {{ stroke: #777 }} }}</style>\n"
+             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/><style>text {{ fill: #333 }} .axis {{ stroke: #999 }}</style>\n"
         );
         let mut draw = |text: String| {
             let _ = writeln!(svg, "{text}");

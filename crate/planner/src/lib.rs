@@ -75,6 +75,7 @@ mod sectors;
 pub mod segments;
 mod slopes;
 pub mod sparse_gp;
+mod step;
 pub mod subgoals;
 #[cfg(test)]
 mod testing;
@@ -84,5 +85,6 @@ pub use config::PlannerConfig;
 pub use controller::Command;
 pub use error::ConfigError;
 pub use navigator::{Decision, Navigator};
-pub use planner::{Insight, Planner, Status, Step, StopReason};
+pub use planner::Planner;
+pub use step::{Insight, Status, Step, StopReason};
 pub use ways::WayPoint;

@@ -3,8 +3,9 @@
 use glam::{DVec2, Vec3};
 
 use crate::controller::Command;
-use crate::planner::{Planner, Status};
+use crate::planner::Planner;
 use crate::pose::Pose;
+use crate::step::Status;
 
 /// What a navigator decided.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,5 +1,7 @@
 //! Statistics over many trials: what reports and the page print.
 
+use std::time::Duration;
+
 /// Mean and sample standard deviation; no deviation of a single value, nothing of none.
 #[must_use]
 pub fn mean_and_deviation(values: &[f64]) -> Option<(f64, Option<f64>)> {
@@ -29,6 +31,13 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
 pub fn percentile<T: Copy>(sorted: &[T], percent: usize) -> Option<T> {
     let rank = (sorted.len() * percent).div_ceil(100).max(1);
     sorted.get(rank - 1).copied()
+}
+
+/// Nearest-rank percentiles of measured times, in milliseconds; zeros where there are none.
+#[must_use]
+pub fn percentiles_ms<const N: usize>(mut times: Vec<Duration>, percents: [usize; N]) -> [f64; N] {
+    times.sort_unstable();
+    percents.map(|percent| percentile(&times, percent).map_or(0.0, |time| time.as_secs_f64() * 1e3))
 }
 
 /// Standard normal quantile of a two-sided 95 % interval.
@@ -87,6 +96,16 @@ mod tests {
         let of = |percent| percentile(&hundreds, percent);
         assert_eq!((of(0), of(50), of(99), of(100)), (Some(1), Some(100), Some(198), Some(200)));
         assert_eq!((percentile(&[7], 50), percentile::<u32>(&[], 50)), (Some(7), None));
+    }
+
+    #[test]
+    fn percentiles_of_times_are_measured_times() {
+        let times = (1..=200).rev().map(Duration::from_millis).collect();
+        for (found, expected) in percentiles_ms(times, [50, 99, 100]).into_iter().zip([100.0, 198.0, 200.0]) {
+            assert!((found - expected).abs() < 1e-9, "{found} is not {expected}");
+        }
+        let [of_none] = percentiles_ms(Vec::new(), [50]);
+        assert!(of_none.abs() < 1e-9);
     }
 
     #[test]

@@ -54,7 +54,7 @@ enum Command {
     },
     /// Run campaigns of terrains/campaigns, or what is left of them, and write their pages in docs/results and docs/RESULTS.md.
     Results {
-        /// Campaigns by name; paper, generated, faults and ablation when absent.
+        #[arg(help = format!("Campaigns by name; {} when absent", results::ALL.join(", ")))]
         campaigns: Vec<String>,
         /// The short form: as if quick and quick-generated were named.
         #[arg(long, conflicts_with = "campaigns")]

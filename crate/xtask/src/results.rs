@@ -11,7 +11,7 @@ const FOLDER: &str = "terrains/campaigns";
 /// The short form.
 pub(crate) const QUICK: [&str; 2] = ["quick", "quick-generated"];
 /// The full form, which has all that `docs/RESULTS.md` shows.
-const ALL: [&str; 5] = ["paper", "generated", "thousand", "faults", "ablation"];
+pub(crate) const ALL: [&str; 5] = ["paper", "generated", "thousand", "faults", "ablation"];
 /// Generated tasks: their folder under `target/`, by which campaign files name them, their seed, and how many there are of each difficulty.
 const TASKS: [(&str, u32, u32); 2] = [("generated/quick", 1, 10), ("generated/thousand", 500, 334)];
 const DIFFICULTIES: [&str; 3] = ["easy", "moderate", "hard"];

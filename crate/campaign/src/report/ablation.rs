@@ -22,6 +22,9 @@ const SYMBOLS: [(&str, &str); 6] = [
 ];
 /// A change of a metric is named where chance alone would bring trials to one side as often as this.
 const CHANCE: f64 = 0.05;
+/// Said where a route has one trial with each value.
+const ONE_SEED: &str =
+    " Each value has one trial a route, so one odd drive shifts a mean: the counts say more.";
 /// Of the metrics, distance, roll, pitch and vibration are drawn.
 const DRAWN: usize = 4;
 
@@ -44,9 +47,10 @@ pub(super) fn section(text: &mut String, results: &Results, figures: &mut Figure
             text,
             "\n## What the parameters buy\n\nThe same trials again, with one parameter set to another value than the planner's own. Each value is compared \
              with the planner's own over the trials that reach with both, so that none gains by failing where it is hard. A change of a metric is named \
-             where a sign test over these trials lets less than {:.0} % to chance, and differences below {:.1} % count for neither side; of many comparisons a few are named by chance all the same.\n",
+             where a sign test over these trials lets less than {:.0} % to chance, and differences below {:.1} % count for neither side; of many comparisons a few are named by chance all the same.{}\n",
             100.0 * CHANCE,
-            100.0 * EVEN
+            100.0 * EVEN,
+            if results.manifest.seeds.len() == 1 { ONE_SEED } else { "" }
         )?;
         for path in &alone {
             for planner in &results.manifest.planners {
@@ -88,8 +92,8 @@ fn parameter(text: &mut String, results: &Results, figures: &mut Figures, path: 
     }
     writeln!(
         text,
-        "**Bold** is the planner's own value. Means are over the trials that reached; the change in brackets is over those that reached with the \
-         planner's own value, too."
+        "**Bold** is the planner's own value. Means are over the trials that reached; the change in brackets is the mean of the ratios, trial by \
+         trial, over those that reached with the planner's own value, too."
     )?;
     heading(text, path.rsplit('.').next().unwrap_or_default())?;
     let mut drawn = Vec::new();

@@ -64,7 +64,7 @@ pub(super) fn of_the_first(text: &mut String, results: &Results, published: &[Pu
             writeln!(text, "{sentences}")?;
         }
     }
-    writeln!(text, "{}", why(results, first))
+    writeln!(text, "{}", failing(results, first))
 }
 
 /// The same of the other planners, beside the paper alone.
@@ -76,7 +76,7 @@ pub(super) fn of_the_others(text: &mut String, results: &Results, published: &[P
     writeln!(text, "\n## The other planners\n")?;
     for planner in others {
         against_published(text, results, published, planner)?;
-        writeln!(text, "{}", why(results, planner))?;
+        writeln!(text, "{}", failing(results, planner))?;
     }
     Ok(())
 }
@@ -212,15 +212,15 @@ fn where_higher(results: &Results, [one, other]: [&str; 2]) -> Option<String> {
     let both = over_all(&UP_AND_DOWN).zip(over_all(&METRICS[0]));
     let climbs = both.map_or_else(String::new, |((up, their_up), (way, their_way))| {
         format!(
-            " On those of elevation rate it goes {up:.1} m up and down in the mean, on {way:.1} m of way, \
-             `{other}` {their_up:.1} m on {their_way:.1} m."
+            " Where it is in elevation rate, it goes {up:.1} m up and down in the mean, on {way:.1} m of way; \
+             `{other}` goes {their_up:.1} m on {their_way:.1} m."
         )
     });
     Some(format!("- `{one}` is higher than `{other}` {}.{climbs}", lists.join("; ")))
 }
 
 /// How the planner fails, and where most.
-fn why(results: &Results, planner: &str) -> String {
+fn failing(results: &Results, planner: &str) -> String {
     let rows = all_of(results, planner);
     let failed: Vec<&&TrialRow> = rows.iter().filter(|row| !row.has_reached()).collect();
     if failed.is_empty() {
@@ -274,7 +274,7 @@ mod tests {
                 (0..count).map(|seed| row("flat", name, "none", seed, "stuck")).collect()
             };
             let rows = names.into_iter().zip(counts).flat_map(of_route).collect();
-            why(&results(&["flat"], &names, rows), "flat")
+            failing(&results(&["flat"], &names, rows), "flat")
         };
         assert_eq!(failing(&[1, 1, 1, 1, 1]), "- `flat` fails in 5 of 5 trials: 5 stuck.");
         assert!(failing(&[1, 3, 1, 1, 2]).ends_with("8 stuck; most on b (3), e (2)."));
@@ -299,8 +299,8 @@ mod tests {
         let results = results(&["default", "vgf"], &["a", "b"], rows);
         assert_eq!(
             where_higher(&results, ["default", "vgf"]).unwrap(),
-            "- `default` is higher than `vgf` in max \\|pitch\\| on a, b; in elevation rate on a. On those of elevation rate \
-             it goes 4.0 m up and down in the mean, on 50.0 m of way, `vgf` 2.0 m on 60.0 m."
+            "- `default` is higher than `vgf` in max \\|pitch\\| on a, b; in elevation rate on a. Where it is in elevation rate, \
+             it goes 4.0 m up and down in the mean, on 50.0 m of way; `vgf` goes 2.0 m on 60.0 m."
         );
         assert!(where_higher(&results, ["vgf", "default"]).unwrap().contains("in elevation rate on b"));
         assert_eq!(where_higher(&results, ["default", "default"]), None);

@@ -87,7 +87,8 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     }
     writeln!(
         text,
-        ". Chance is a sign test's: how likely as uneven a pair of mended and spoilt trials is where the truth makes no difference.\n"
+        ". Chance is a sign test's: how likely as uneven a pair of mended and spoilt trials is where the truth makes no difference. There is none where \
+         every trial failed untold, as of tasks that were chosen for it: any other drive, too, mends some of those.\n"
     )?;
     writeln!(
         text,
@@ -126,8 +127,12 @@ fn by_truth(text: &mut String, planner: &str, trials: &[&Told<'_>]) -> fmt::Resu
                 (rows.iter().filter(|row| row.has_reached() == reached).count(), rows.len())
             };
             let ((mended, failed), (spoilt, reached)) = (both(true, true), both(false, false));
-            let chance = stats::sign_test(mended, spoilt);
-            changes = format!(" {mended} of {failed} | {spoilt} of {reached} | {chance:.2} |");
+            let chance = if reached > 0 {
+                format!("{:.2}", stats::sign_test(mended, spoilt))
+            } else {
+                "–".to_owned()
+            };
+            changes = format!(" {mended} of {failed} | {spoilt} of {reached} | {chance} |");
         }
         writeln!(text, "| `{planner}` | {words} | {} | {} |{changes}", rate(&rows), failures(&rows))?;
     }
@@ -248,6 +253,17 @@ mod tests {
             assert!(text.contains(line), "not in the section: {line}\n{text}");
         }
         assert!(!text.contains("| `paper`"), "{text}");
+    }
+
+    #[test]
+    fn tasks_that_were_chosen_for_failing_say_nothing_of_chance() {
+        let mut rows = rows();
+        rows.retain(|row| !(row.seed == 1 || row.seed == 7));
+        let text = written(rows);
+        assert!(
+            text.contains("| `default` | the ground | 2 of 5 (12–77 %) | 3 stuck | 2 of 5 | 0 of 0 | – |\n"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -33,7 +33,10 @@ const INTRODUCTION: &str = "A trial counts as reached when the robot arrives wit
     Rates have Wilson's 95 % interval. Metrics are the paper's, mean ± standard deviation over the trials that reached; lower is better in all of them. \
     The paper's numbers come from its own terrains in Gazebo, of which ours are models: they say how a method does among its kind, not which of two \
     methods on different ground is better. `vgf`, `vgf_tuned`, `putn` and `oracle` know the whole ground before they start and can go around what the others \
-    learn of when they see it. Two planners are compared over the routes that both reach. Below stands, for each campaign, how many trials reached and where its first planner wins and loses; its page has the rest.";
+    learn of when they see it. Two planners are compared over the routes that both reach, by their means there: \
+    those within 0.5 % of each other are even, and `on average` is the mean of the ratios, route by route, which a few routes can turn against the count. Seeds draw the noise of the sensor, not the ground: \
+    the interval of many seeds on few routes says nothing of other ground. `timeout` and `stuck` are the trial's own ends, after 48 times what the straight way takes at full speed and a minute, and after a minute on one spot; \
+    a stop of the planner has its reason. Below stands, for each campaign, how many trials reached and where its first planner wins and loses; its page has the rest.";
 
 /// A metric of the paper: what it is called, its decimals, and where it stands.
 struct Metric {

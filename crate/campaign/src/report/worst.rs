@@ -30,8 +30,9 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     if results.manifest.routes.iter().any(|route| route.name.parse::<TaskName>().is_ok()) {
         writeln!(
             text,
-            "The routes are generated tasks: `cargo xtask results`, or `mapless generate` with the seed and the difficulty that their names begin with, writes them \
-             again, to where the campaign file says.\n"
+            "The routes are generated tasks, which `mapless generate` writes again, with the seed and the difficulty that their names begin with. Of a campaign of \
+             this repository, `cargo xtask results {}` writes them to where the campaign file says before its trials begin, and may be interrupted then.\n",
+            results.manifest.name
         )?;
     }
     writeln!(
