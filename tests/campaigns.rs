@@ -143,7 +143,7 @@ fn jobs_shards_and_kills_change_no_byte() {
     assert_eq!(timing.lines().count(), TRIALS + 1);
 }
 
-/// Starts the campaign ten times and kills it each time before its end: in turn at any moment of its first 200 ms and soon after the next trial
+/// Starts the campaign ten times and kills it each time before its end: in turn at any moment of its first 100 ms and soon after the next trial
 /// was written, the last times with pieces of a line behind it as a power failure may leave them.
 fn kill_ten_times(folder: &Folder) {
     // A small generator of its own, so that a failure can be repeated.
@@ -162,14 +162,14 @@ fn kill_ten_times(folder: &Folder) {
             .spawn()
             .unwrap();
         if round % 2 == 0 {
-            thread::sleep(Duration::from_millis(random() % 200));
+            thread::sleep(Duration::from_millis(random() % 100));
         } else {
             let begun = Instant::now();
             while folder.journalled("killed") <= before {
                 assert!(begun.elapsed() < Duration::from_secs(30), "round {round} got nowhere");
                 thread::sleep(Duration::from_millis(5));
             }
-            thread::sleep(Duration::from_millis(random() % 40));
+            thread::sleep(Duration::from_millis(random() % 20));
         }
         assert_eq!(child.try_wait().unwrap(), None, "round {round} ended before it could be killed");
         child.kill().unwrap();

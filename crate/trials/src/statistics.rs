@@ -27,8 +27,7 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
 }
 
 /// The nearest-rank percentile of sorted values: one that is there. Nothing of none.
-#[must_use]
-pub fn percentile<T: Copy>(sorted: &[T], percent: usize) -> Option<T> {
+fn percentile<T: Copy>(sorted: &[T], percent: usize) -> Option<T> {
     let rank = (sorted.len() * percent).div_ceil(100).max(1);
     sorted.get(rank - 1).copied()
 }

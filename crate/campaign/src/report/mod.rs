@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 use crate::error::CampaignError;
 use crate::files::write_atomically;
 use crate::results::{Manifest, TrialRow};
+use comparison::EVEN;
 use mapless_trials::statistics as stats;
 use mapless_world::generate::Difficulty;
 
@@ -29,14 +30,19 @@ const MANY_TRIALS: usize = 200;
 /// With more routes than this, a table has one row for all routes whose names begin alike.
 const MOST_ROUTES: usize = 12;
 
-const INTRODUCTION: &str = "A trial counts as reached when the robot arrives with |roll| and |pitch| within their limits all the way, as in the paper. \
+/// How `RESULTS.md` begins.
+fn introduction() -> String {
+    format!(
+        "A trial counts as reached when the robot arrives with |roll| and |pitch| within their limits all the way, as in the paper. \
     Rates have Wilson's 95 % interval. Metrics are the paper's, mean ± standard deviation over the trials that reached; lower is better in all of them. \
     The paper's numbers come from its own terrains in Gazebo, of which ours are models: they say how a method does among its kind, not which of two \
     methods on different ground is better. `vgf`, `vgf_tuned`, `putn` and `oracle` know the whole ground before they start and can go around what the others \
     learn of when they see it. Two planners are compared over the routes that both reach, by their means there: \
-    those within 0.5 % of each other are even, and `on average` is the mean of the ratios, route by route, which a few routes can turn against the count. Seeds draw the noise of the sensor, not the ground: \
-    the interval of many seeds on few routes says nothing of other ground. `timeout` and `stuck` are the trial's own ends, after 48 times what the straight way takes at full speed and a minute, and after a minute on one spot; \
-    a stop of the planner has its reason. Below stands, for each campaign, how many trials reached and where its first planner wins and loses; its page has the rest.";
+    those within {:.1} % of each other are even, and `on average` is the mean of the ratios, route by route, which a few routes can turn against the count. Seeds draw the noise of the sensor, not the ground: \
+    the interval of many seeds on few routes says nothing of other ground. `timeout` and `stuck` are how the trial itself ends what would go on for ever; a stop of the planner has its reason. Below stands, for each campaign, how many trials reached and where its first planner wins and loses; its page has the rest.",
+        100.0 * EVEN
+    )
+}
 
 /// A metric of the paper: what it is called, its decimals, and where it stands.
 struct Metric {
@@ -193,7 +199,7 @@ fn index(pages: &Path, figure: &str) -> Result<String, CampaignError> {
     let mut files = files.map_err(|error| CampaignError::read(pages, error))?;
     files.retain(|file| file.extension().is_some_and(|extension| extension == "md"));
     files.sort_unstable();
-    let mut text = format!("# Results\n\nWritten by `mapless report`. {INTRODUCTION}\n");
+    let mut text = format!("# Results\n\nWritten by `mapless report`. {}\n", introduction());
     for file in files {
         let page = std::fs::read_to_string(&file).map_err(|error| CampaignError::read(&file, error))?;
         let beginning = page.split("\n## ").next().unwrap_or_default();
