@@ -88,6 +88,7 @@ test('a goal and a stop on the way, set by taps, are driven to', async ({ maples
   await expect(button(page, 'Clear stops')).toBeVisible();
   await press(button(page, 'Play'));
   await expect(page.locator('#result-words')).toHaveText('Goal reached');
+  expect((await page.locator('#next').boundingBox())?.height, 'a target for a finger').toBeGreaterThanOrEqual(44);
   expect((await state(page)).waypointsPassed).toBe(1);
 });
 
