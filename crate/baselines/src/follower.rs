@@ -1,10 +1,11 @@
 //! Driving along a path with the paper's PID controller.
 
+use core::time::Duration;
+
 use glam::DVec2;
-use mapless::Command;
 use mapless::config::ControllerConfig;
 use mapless::control::controller::Controller;
-use mapless::pose::Pose;
+use mapless::{Command, Pose};
 
 /// How far before the robot along the path the point lies that it steers to, metres. Half of it is about how much a
 /// corner is cut.
@@ -22,7 +23,6 @@ const AT_END_M: f64 = 0.01;
 #[derive(Clone, Debug)]
 pub struct PathFollower {
     controller: Controller,
-    period_s: f64,
     points_m: Vec<DVec2>,
     /// Way along the path of the point nearest to the robot; `None` before the first step on this path.
     way_m: Option<f64>,
@@ -35,10 +35,10 @@ struct Nearest {
 }
 
 impl PathFollower {
-    /// A follower without a path. The configuration must have been validated; `period_s` is the time between steps.
+    /// A follower without a path. The configuration must have been validated.
     #[must_use]
-    pub fn new(controller: ControllerConfig, period_s: f64) -> Self {
-        Self { controller: Controller::new(controller), period_s, points_m: Vec::new(), way_m: None }
+    pub fn new(controller: ControllerConfig) -> Self {
+        Self { controller: Controller::new(controller), points_m: Vec::new(), way_m: None }
     }
 
     /// Takes a path, from the robot onwards, in place of the last. The controller drives on as it was, so that a planner
@@ -55,9 +55,9 @@ impl PathFollower {
         &self.points_m
     }
 
-    /// The command for a robot at `pose`. Where the path ends within 0.6 m of `goal_m`, the robot goes on to the goal;
+    /// The command for a robot at `pose`, `elapsed` after the one before. Where the path ends within 0.6 m of `goal_m`, the robot goes on to the goal;
     /// otherwise it stops at the end. Without a path, or with a pose or path that is not finite, it stands still.
-    pub fn step(&mut self, pose: &Pose, goal_m: DVec2) -> Command {
+    pub fn step(&mut self, pose: &Pose, goal_m: DVec2, elapsed: Duration) -> Command {
         let here_m = pose.plan_m();
         let finite = pose.is_finite() && self.points_m.iter().all(|point| point.is_finite());
         let Some(&end_m) = self.points_m.last().filter(|_| finite) else { return self.stop() };
@@ -75,7 +75,7 @@ impl PathFollower {
             return self.stop();
         }
         let left_m = nearest.distance_m + to_end_m + beyond_m;
-        self.controller.drive(left_m, libm::atan2(way_m.y, way_m.x) - pose.yaw_rad, self.period_s)
+        self.controller.drive(left_m, libm::atan2(way_m.y, way_m.x) - pose.yaw_rad, elapsed)
     }
 
     fn stop(&mut self) -> Command {
@@ -140,16 +140,17 @@ mod tests {
     use mapless_world::{DriveCommand, HeightField, Husky, HuskyConfig};
     use proptest::prelude::*;
 
+    const PERIOD: Duration = Duration::from_millis(100);
     const PERIOD_S: f64 = 0.1;
 
     fn follower(path_m: &[DVec2]) -> PathFollower {
-        let mut follower = PathFollower::new(ControllerConfig::default(), PERIOD_S);
+        let mut follower = PathFollower::new(ControllerConfig::default());
         follower.set_path(path_m.iter().copied());
         follower
     }
 
     fn pose(x: f64, y: f64, yaw_rad: f64) -> Pose {
-        Pose { position_m: DVec3::new(x, y, 0.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad }
+        Pose::from_roll_pitch_yaw(DVec3::new(x, y, 0.0), 0.0, 0.0, yaw_rad)
     }
 
     /// Drives a Husky on level ground along the path; gives its positions, ten a second.
@@ -161,7 +162,7 @@ mod tests {
         for _ in 0..(seconds / PERIOD_S) as usize {
             let state = *husky.state();
             let here = pose(state.position.x, state.position.y, state.yaw_rad);
-            let command = follower.step(&here, goal_m);
+            let command = follower.step(&here, goal_m, PERIOD);
             let command =
                 DriveCommand { speed_m_s: command.linear_m_s, turn_rate_rad_s: command.angular_rad_s };
             for _ in 0..10 {
@@ -185,7 +186,7 @@ mod tests {
         assert!((places_m[220].x - places_m[210].x - 0.8).abs() < 1e-6);
         let end_m = places_m[places_m.len() - 1];
         assert!(end_m.distance(path_m[1]) < 0.02, "{end_m}");
-        assert_eq!(follower(&path_m).step(&pose(30.0, 20.0, 0.0), DVec2::ZERO), Command::STOP);
+        assert_eq!(follower(&path_m).step(&pose(30.0, 20.0, 0.0), DVec2::ZERO, PERIOD), Command::STOP);
     }
 
     #[test]
@@ -223,11 +224,11 @@ mod tests {
     #[test]
     fn without_a_path_or_a_pose_it_stands_still() {
         let goal_m = DVec2::new(1.0, 1.0);
-        assert_eq!(follower(&[]).step(&pose(0.0, 0.0, 0.0), goal_m), Command::STOP);
+        assert_eq!(follower(&[]).step(&pose(0.0, 0.0, 0.0), goal_m, PERIOD), Command::STOP);
         let path_m = [DVec2::ZERO, DVec2::X];
-        assert_eq!(follower(&path_m).step(&pose(f64::NAN, 0.0, 0.0), goal_m), Command::STOP);
+        assert_eq!(follower(&path_m).step(&pose(f64::NAN, 0.0, 0.0), goal_m, PERIOD), Command::STOP);
         let broken_m = [DVec2::ZERO, DVec2::NAN, DVec2::X];
-        assert_eq!(follower(&broken_m).step(&pose(0.0, 0.0, 0.0), goal_m), Command::STOP);
+        assert_eq!(follower(&broken_m).step(&pose(0.0, 0.0, 0.0), goal_m, PERIOD), Command::STOP);
     }
 
     #[test]

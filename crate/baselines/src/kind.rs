@@ -3,15 +3,15 @@
 use core::fmt;
 use std::str::FromStr;
 
-use mapless::{ConfigError, Navigator, Planner, PlannerConfig};
-use mapless_trials::{Preset, Scenario, ScenarioFault};
+use mapless::{ConfigError, Planner, PlannerConfig};
+use mapless_trials::{Navigator, Preset, Scenario, ScenarioFault};
 use mapless_world::HeightField;
 
 use crate::cloud::MapError;
+use crate::ground_truth_planner::{GroundTruthPlanner, Truth};
 use crate::oracle::{Oracle, OracleConfig};
 use crate::putn::{Putn, PutnConfig};
 use crate::route::{RouteNavigator, RoutePlanner, Straight};
-use crate::true_sight::{TrueSight, Truth};
 use crate::vgf::{Vgf, VgfConfig};
 
 /// What drives the robot.
@@ -96,7 +96,7 @@ impl NavigatorKind {
         }
     }
 
-    /// The planner's configuration in a scenario. Navigators with a map take period, tolerance, controller and limits
+    /// The planner's configuration in a scenario. Navigators with a map take tolerance, controller and limits
     /// from it.
     ///
     /// # Errors
@@ -137,7 +137,7 @@ impl NavigatorKind {
         let map = |error| BuildError::Map { kind: self, error };
         Ok(match self {
             Self::Mapless(_) if truth == Truth::None => Box::new(Planner::new(config)?),
-            Self::Mapless(_) => Box::new(TrueSight::new(config, truth, field.clone())?),
+            Self::Mapless(_) => Box::new(GroundTruthPlanner::new(config, truth, field.clone())?),
             _ if truth != Truth::None => return Err(BuildError::PerceivesNothing(self)),
             Self::Direct => along(Straight, &config),
             Self::Vgf => along(Vgf::new(field, &VgfConfig::published()).map_err(map)?, &config),
@@ -177,15 +177,17 @@ mod tests {
     use super::*;
     use crate::testing::{field, undulating, walled};
     use glam::DVec2;
-    use mapless::StopReason;
-    use mapless_trials::{Outcome, Trial};
+    use mapless_trials::{NavigatorStop, Outcome, Trial};
 
     fn scenario() -> Scenario {
         let text = "terrain = \"a.toml\"\nstart = [3.0, 10.0, 0.3]\ngoal = [17.0, 11.0]\nseed = 1\n";
         Scenario::parse("a.toml", text).unwrap()
     }
 
-    fn drive(kind: NavigatorKind, height_m: impl Fn(DVec2) -> f64) -> (Outcome, Option<StopReason>, String) {
+    fn drive(
+        kind: NavigatorKind,
+        height_m: impl Fn(DVec2) -> f64,
+    ) -> (Outcome, Option<NavigatorStop>, String) {
         let (scenario, field) = (scenario(), field(20.0, height_m));
         let navigator = kind.build(&field, &scenario, 1).unwrap();
         let mut trial = Trial::with_navigator(field, &scenario, navigator, 1).unwrap();
@@ -217,7 +219,7 @@ mod tests {
     fn a_navigator_with_a_map_sees_that_a_wall_leaves_no_path() {
         for kind in [NavigatorKind::Vgf, NavigatorKind::VgfTuned, NavigatorKind::Putn] {
             let (outcome, reason, _) = drive(kind, walled);
-            assert_eq!((outcome, reason), (Outcome::NoSubgoal, Some(StopReason::NoPath)), "{kind}");
+            assert_eq!((outcome, reason), (Outcome::NoSubgoal, Some(NavigatorStop::NoPath)), "{kind}");
         }
     }
 

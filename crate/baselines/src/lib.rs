@@ -2,7 +2,7 @@
 //!
 //! [`NavigatorKind`] names every planner and builds it: this project's own in its configurations, and planners that have
 //! the whole map: the paper's baseline ([`vgf`]), plane-fitting RRT* ([`putn`]), driving straight at the goal
-//! ([`Straight`]) and the shortest safe path ([`Oracle`]). Generated tasks ([`Task`]) are those that the last one can solve. [`TrueSight`] gives the mapless planner the truth in place of what it perceives.
+//! ([`Straight`]) and the shortest safe path ([`Oracle`]). Generated tasks ([`Task`]) are those that the last one can solve. [`GroundTruthPlanner`] gives the mapless planner the truth in place of what it perceives.
 //!
 //! Everything here is a pure function of its arguments and gives the same bits natively and on wasm.
 
@@ -11,6 +11,7 @@
 
 mod cloud;
 mod follower;
+mod ground_truth_planner;
 mod kind;
 mod oracle;
 pub mod putn;
@@ -18,13 +19,12 @@ mod route;
 mod tasks;
 #[cfg(test)]
 mod testing;
-mod true_sight;
 pub mod vgf;
 
 pub use cloud::{Cloud, MapError};
 pub use follower::PathFollower;
+pub use ground_truth_planner::{GroundTruthPlanner, Truth};
 pub use kind::{BuildError, NavigatorKind, UnknownName};
 pub use oracle::{Oracle, OracleConfig, OracleError, OraclePath, PlanPose, shortest_path};
 pub use route::{RouteNavigator, RoutePlanner, Straight};
 pub use tasks::{NoTaskName, Task, TaskError, TaskName};
-pub use true_sight::{TrueSight, Truth};

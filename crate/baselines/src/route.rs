@@ -1,8 +1,10 @@
 //! Planners that plan a whole route, and what drives along it.
 
+use core::time::Duration;
+
 use glam::{DVec2, Vec3};
-use mapless::pose::Pose;
-use mapless::{Command, Decision, Navigator, PlannerConfig, Status, StopReason};
+use mapless::{Command, Goal, PlannerConfig, Pose, StopReason};
+use mapless_trials::{Activity, Decision, Navigator, NavigatorStop};
 
 use crate::follower::PathFollower;
 
@@ -28,20 +30,18 @@ impl RoutePlanner for Straight {
 pub struct RouteNavigator<R> {
     planner: R,
     follower: PathFollower,
-    period_s: f64,
     max_speed_m_s: f64,
     goal_tolerance_m: f64,
     goal_m: Option<DVec2>,
 }
 
 impl<R: RoutePlanner> RouteNavigator<R> {
-    /// Takes period, tolerance and controller from `config`, which must be valid.
+    /// Takes tolerance and controller from `config`, which must be valid.
     #[must_use]
     pub fn new(planner: R, config: &PlannerConfig) -> Self {
         Self {
             planner,
-            follower: PathFollower::new(config.controller, config.period_s),
-            period_s: config.period_s,
+            follower: PathFollower::new(config.controller),
             max_speed_m_s: config.controller.max_speed_m_s,
             goal_tolerance_m: config.goal_tolerance_m,
             goal_m: None,
@@ -54,38 +54,35 @@ impl<R: RoutePlanner> RouteNavigator<R> {
         self.follower.path_m()
     }
 
-    fn status(&mut self, pose: &Pose, goal_m: DVec2) -> Status {
-        if !(pose.is_finite() && goal_m.is_finite()) {
-            return Status::Stopped(StopReason::InvalidInput);
+    fn activity(&mut self, pose: &Pose, goal: &Goal) -> Activity {
+        let goal_m = goal.position_m;
+        if !(pose.is_finite() && goal.is_valid()) {
+            return Activity::Stopped(StopReason::InvalidInput.into());
         }
         let here_m = pose.plan_m();
-        if here_m.distance(goal_m) <= self.goal_tolerance_m {
-            return Status::Arrived;
+        if here_m.distance(goal_m) <= goal.tolerance_m.unwrap_or(self.goal_tolerance_m) {
+            return Activity::Arrived;
         }
         if self.goal_m != Some(goal_m) {
             self.goal_m = Some(goal_m);
             self.follower.set_path(self.planner.route(pose, goal_m).unwrap_or_default());
         }
-        if self.route_m().is_empty() { Status::Stopped(StopReason::NoPath) } else { Status::Driving }
+        if self.route_m().is_empty() { Activity::Stopped(NavigatorStop::NoPath) } else { Activity::Driving }
     }
 }
 
 impl<R: RoutePlanner> Navigator for RouteNavigator<R> {
-    fn navigate(&mut self, _points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision {
-        let status = self.status(pose, goal_m);
-        let command = match status {
-            Status::Driving => self.follower.step(pose, goal_m),
+    fn navigate(&mut self, _points_m: &[Vec3], pose: &Pose, goal: &Goal, elapsed: Duration) -> Decision {
+        let activity = self.activity(pose, goal);
+        let command = match activity {
+            Activity::Driving => self.follower.step(pose, goal.position_m, elapsed),
             _ => Command::STOP,
         };
-        Decision { status, command }
+        Decision { activity, command }
     }
 
     fn sight_m(&self) -> f64 {
         0.0
-    }
-
-    fn period_s(&self) -> f64 {
-        self.period_s
     }
 
     fn max_speed_m_s(&self) -> f64 {
@@ -103,30 +100,38 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
+    const PERIOD: Duration = Duration::from_millis(100);
+
     fn pose(x: f64, y: f64) -> Pose {
-        Pose { position_m: DVec3::new(x, y, 0.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 }
+        Pose::from_roll_pitch_yaw(DVec3::new(x, y, 0.0), 0.0, 0.0, 0.0)
     }
 
     #[test]
     fn a_new_goal_and_a_reset_plan_anew() {
         let mut navigator = RouteNavigator::new(Straight, &PlannerConfig::default());
         let [first, second] = [DVec2::new(9.0, 0.0), DVec2::new(0.0, 9.0)];
-        assert_eq!(navigator.navigate(&[], &pose(0.0, 0.0), first).status, Status::Driving);
-        navigator.navigate(&[], &pose(1.0, 0.0), first);
+        assert_eq!(
+            navigator.navigate(&[], &pose(0.0, 0.0), &Goal::at(first), PERIOD).activity,
+            Activity::Driving
+        );
+        navigator.navigate(&[], &pose(1.0, 0.0), &Goal::at(first), PERIOD);
         assert_eq!(navigator.route_m(), [DVec2::ZERO, first]);
-        navigator.navigate(&[], &pose(2.0, 0.0), second);
+        navigator.navigate(&[], &pose(2.0, 0.0), &Goal::at(second), PERIOD);
         assert_eq!(navigator.route_m(), [DVec2::new(2.0, 0.0), second]);
         navigator.reset();
-        navigator.navigate(&[], &pose(3.0, 0.0), second);
+        navigator.navigate(&[], &pose(3.0, 0.0), &Goal::at(second), PERIOD);
         assert_eq!(navigator.route_m(), [DVec2::new(3.0, 0.0), second]);
     }
 
     #[test]
     fn it_stops_with_a_reason() {
         let mut navigator = RouteNavigator::new(Straight, &PlannerConfig::default());
-        let decision = navigator.navigate(&[], &pose(0.0, 0.0), DVec2::NAN);
-        assert_eq!(decision.status, Status::Stopped(StopReason::InvalidInput));
+        let decision = navigator.navigate(&[], &pose(0.0, 0.0), &Goal::at(DVec2::NAN), PERIOD);
+        assert_eq!(decision.activity, Activity::Stopped(StopReason::InvalidInput.into()));
         assert_eq!(decision.command, Command::STOP);
-        assert_eq!(navigator.navigate(&[], &pose(1.0, 1.0), DVec2::new(1.2, 1.3)).status, Status::Arrived);
+        assert_eq!(
+            navigator.navigate(&[], &pose(1.0, 1.0), &Goal::at(DVec2::new(1.2, 1.3)), PERIOD).activity,
+            Activity::Arrived
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! Ground for tests.
 
 use glam::DVec2;
-use mapless::pose::Pose;
+use mapless::Pose;
 use mapless_world::HeightField;
 
 /// A square of ground of this side, sampled every 0.2 m.
@@ -25,5 +25,5 @@ pub(crate) fn walled(place: DVec2) -> f64 {
 
 /// A pose at a place seen from above, heading east.
 pub(crate) fn at(place_m: DVec2) -> Pose {
-    Pose { position_m: place_m.extend(0.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 }
+    Pose::from_roll_pitch_yaw(place_m.extend(0.0), 0.0, 0.0, 0.0)
 }

@@ -1,8 +1,10 @@
 //! Scans, and the planner's step on them.
 
+use core::time::Duration;
+
 use glam::{DVec2, DVec3, Vec3};
-use mapless::pose::Pose;
-use mapless::{Planner, PlannerConfig, Status};
+use mapless::Pose;
+use mapless::{Goal, Planner, PlannerConfig, Status};
 use mapless_world::{Caster, HeightField, Scan, SensorConfig, SensorPose, Vlp16};
 
 use crate::BenchError;
@@ -86,14 +88,15 @@ pub(crate) struct Tick {
     planner: Planner,
     points_m: Vec<Vec3>,
     pose: Pose,
-    goal_m: DVec2,
 }
 
 impl Tick {
     fn new(points_m: Vec<Vec3>, position_m: DVec3) -> Result<Self, BenchError> {
-        let pose = Pose { position_m, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
+        let pose = Pose::from_roll_pitch_yaw(position_m, 0.0, 0.0, 0.0);
         let goal_m = position_m.truncate() + DVec2::new(50.0, 0.0);
-        Ok(Self { planner: Planner::new(PlannerConfig::default())?, points_m, pose, goal_m })
+        let mut planner = Planner::new(PlannerConfig::default())?;
+        planner.set_goal(Goal::at(goal_m));
+        Ok(Self { planner, points_m, pose })
     }
 
     /// On level ground with 1823 occupied cells.
@@ -119,7 +122,7 @@ impl Tick {
 
 impl Work for Tick {
     fn run(&mut self) -> Result<(), BenchError> {
-        match self.planner.step(&self.points_m, &self.pose, self.goal_m).status {
+        match self.planner.step(&self.points_m, &self.pose, Duration::from_millis(100)).status {
             // In the pit there is nowhere to go; the whole of the perception runs all the same.
             Status::Stopped(mapless::StopReason::NoSubgoal) => Ok(()),
             Status::Stopped(reason) => Err(BenchError::Stopped(reason)),

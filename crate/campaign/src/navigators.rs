@@ -1,8 +1,8 @@
 //! The planners a campaign can name, and how each is made.
 
-use mapless::{Navigator, PlannerConfig};
+use mapless::PlannerConfig;
 use mapless_baselines::{NavigatorKind, Truth};
-use mapless_trials::Scenario;
+use mapless_trials::{Navigator, Scenario};
 use mapless_world::HeightField;
 
 /// The planner of this name.

@@ -85,7 +85,7 @@ fn drive(
     })
 }
 
-fn write_state<N: mapless::Navigator>(text: &mut String, trial: &Trial<N>) {
+fn write_state<N: mapless_trials::Navigator>(text: &mut String, trial: &Trial<N>) {
     let values: String = trial.motion().iter().map(|value| format!(",{value:.6}")).collect();
     // A String takes whatever is written to it.
     let _ = writeln!(text, "{:.3}{values}", trial.time_s());

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use glam::DVec2;
-use mapless::{Decision, Navigator as _, Status};
+use mapless_trials::{Decision, Navigator as _};
 
 use crate::picture::Picture;
 use crate::report::Report;
@@ -46,19 +46,13 @@ impl Log {
 
     /// Adds the state and the decision of one planning period, before the robot moves.
     pub(crate) fn decided(&mut self, trial: &AnyTrial, decision: &Decision) -> anyhow::Result<()> {
-        let Decision { status, command } = decision;
+        let Decision { activity, command } = decision;
         let subgoal_m = trial.navigator().subgoal_m();
         self.path_m.push(trial.robot().position);
         self.subgoals_m.extend(subgoal_m);
         let subgoal = subgoal_m.map_or(",".to_owned(), |place| format!("{:.6},{:.6}", place.x, place.y));
-        let status = match status {
-            Status::Driving => "driving",
-            Status::Arrived => "arrived",
-            Status::Backtracking => "retreating",
-            Status::Searching => "looking",
-            Status::Stopped(_) => "stopped",
-        };
-        let decision = format!("{:.6},{:.6},{subgoal},{status}", command.linear_m_s, command.angular_rad_s);
+        let decision =
+            format!("{:.6},{:.6},{subgoal},{}", command.linear_m_s, command.angular_rad_s, activity.name());
         self.row(&format!("{},{decision}", state(trial)))
     }
 

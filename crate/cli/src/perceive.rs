@@ -6,22 +6,23 @@
 mod report;
 mod rows;
 
+use core::time::Duration;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use glam::{DVec2, DVec3};
-use mapless::pose::Pose;
+use mapless::Pose;
 use mapless::skyline::surface::PredictedSurface;
-use mapless::{Planner, Step};
+use mapless::{Goal, Planner, Step};
 use mapless_scans::read_scan;
 
 use crate::picture::{OccupancyPicture, VarianceImage};
 use crate::setup::PlannerChoice;
 use report::PerceptionReport;
 
-const POSE: Pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
+const POSE: Pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, 0.0, 0.0);
 const GOAL_M: DVec2 = DVec2::new(50.0, 0.0);
 
 #[derive(clap::Args)]
@@ -48,8 +49,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let config = args.planner.apply(args.planner.planner.planner_config());
     let mut planner = Planner::new(config)?;
     let variance_threshold = planner.config().perception.variance_threshold;
-    let report =
-        PerceptionReport::new(subject(args), points_m.len(), &planner.step(&points_m, &POSE, GOAL_M));
+    planner.set_goal(Goal::at(GOAL_M));
+    let step = planner.step(&points_m, &POSE, Duration::ZERO);
+    let report = PerceptionReport::new(subject(args), points_m.len(), &step);
     if let Some(folder) = &args.out {
         let predicted = planner.predicted_surface()?.clone();
         draw(folder, &report, &planner.last_step(), &predicted, variance_threshold)?;

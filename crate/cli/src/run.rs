@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, ensure};
-use mapless::Navigator;
 use mapless::gp::learning::LearningMode;
 use mapless_baselines::{NavigatorKind, Truth};
-use mapless_trials::{LoadedScenario, Outcome, Trial};
+use mapless_trials::{LoadedScenario, Navigator, Outcome, Trial};
 
 use crate::log::Log;
 use crate::progress::Progress;

@@ -1,14 +1,19 @@
 //! Scans and ground for unit tests.
 
+use core::time::Duration;
+
 use glam::{DVec2, Vec3};
 
 use crate::config::PlannerConfig;
 use crate::terrain::elevation_window::ElevationWindow;
 
+/// Time between two scans.
+pub(crate) const STEP: Duration = Duration::from_millis(100);
+
 /// Returns on the ground all around, up to two metres away; none where it has no height.
 pub(crate) fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> ElevationWindow {
     let mut ground = ElevationWindow::new(&PlannerConfig::default());
-    ground.advance();
+    ground.advance(STEP);
     for i in -40..=40 {
         for j in -40..=40 {
             let place_m = DVec2::new(f64::from(i), f64::from(j)) * 0.05;

@@ -6,9 +6,11 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+use core::time::Duration;
+
 use glam::DVec2;
-use mapless::pose::Pose;
-use mapless::{Planner, PlannerConfig, Status};
+use mapless::Pose;
+use mapless::{Goal, Planner, PlannerConfig, Status};
 use mapless_world::{Caster, DriveCommand, HeightField, Husky, HuskyConfig, Scan, SensorConfig, Vlp16};
 
 thread_local! {
@@ -63,20 +65,21 @@ fn drive(ticks: u64) -> Vec<usize> {
     let sensor = Vlp16::new(SensorConfig::default()).unwrap();
     let mut husky = Husky::new(HuskyConfig::default(), caster.field(), DVec2::splat(8.0), 0.7).unwrap();
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    planner.set_goal(Goal::at(DVec2::splat(33.0)));
     let mut scan = Scan::default();
     let mut allocations = Vec::new();
     for tick in 0..ticks {
         let state = *husky.state();
-        let pose = Pose {
-            position_m: husky.position(),
-            roll_rad: state.attitude.roll_rad,
-            pitch_rad: state.attitude.pitch_rad,
-            yaw_rad: state.yaw_rad,
-        };
+        let pose = Pose::from_roll_pitch_yaw(
+            husky.position(),
+            state.attitude.roll_rad,
+            state.attitude.pitch_rad,
+            state.yaw_rad,
+        );
         let sensor_pose = sensor.config().pose_on(state.position, state.yaw_rad, &state.attitude);
         sensor.scan(&caster, &sensor_pose, 1, tick, &mut scan);
         let before = ALLOCATIONS.get();
-        let step = planner.step(&scan.points, &pose, DVec2::splat(33.0));
+        let step = planner.step(&scan.points, &pose, Duration::from_millis(100));
         let during = ALLOCATIONS.get() - before;
         assert!(matches!(step.status, Status::Driving | Status::Searching), "{:?}", step.status);
         let command =

@@ -1,20 +1,23 @@
 //! When the planner turns back.
 
+use core::time::Duration;
+
 use glam::{DVec2, DVec3};
-use mapless::pose::Pose;
+use mapless::Pose;
 use mapless::skyline::profile::Column;
 use mapless::terrain::plane::Plane;
-use mapless::{PerceptionOverride, Planner, PlannerConfig, Status};
+use mapless::{Goal, PerceptionOverride, Planner, PlannerConfig, Status};
 
 const GOAL_M: DVec2 = DVec2::new(20.0, 0.0);
 
 /// Steps over level ground, as it is told, however steep the robot stands; gives what it does and its speed.
 fn step(planner: &mut Planner, x_m: f64, pitch_rad: f64) -> (Status, f64) {
-    let pose = Pose { position_m: DVec3::new(x_m, 0.0, 0.0), roll_rad: 0.0, pitch_rad, yaw_rad: 0.0 };
+    let pose = Pose::from_roll_pitch_yaw(DVec3::new(x_m, 0.0, 0.0), 0.0, pitch_rad, 0.0);
     let profile = |_: f64| Column::Ground { elevation_rad: 0.0 };
     let ground = |_: DVec2| Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 });
-    let overrides = PerceptionOverride { profile: Some(&profile), ground: Some(&ground) };
-    let step = planner.step_with(&[], &pose, GOAL_M, overrides);
+    let overrides = PerceptionOverride { profile: Some(&profile), terrain: Some(&ground) };
+    planner.set_goal(Goal::at(GOAL_M));
+    let step = planner.step_with(&[], &pose, Duration::from_millis(100), overrides);
     (step.status, step.command.linear_m_s)
 }
 

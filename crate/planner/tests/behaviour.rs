@@ -2,17 +2,20 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
+use core::time::Duration;
+
 use glam::{DVec2, DVec3, Vec3};
+use mapless::Pose;
 use mapless::config::InducingInputs;
 use mapless::decision::subgoals::Subgoal;
-use mapless::pose::Pose;
 use mapless::skyline::profile::Column;
 use mapless::skyline::segments::Verdict;
 use mapless::terrain::plane::Plane;
-use mapless::{Command, PerceptionOverride, Planner, PlannerConfig, Status, StopReason};
+use mapless::{Command, Goal, PerceptionOverride, Planner, PlannerConfig, Status, Step, StopReason};
 use proptest::prelude::*;
 
-const START: Pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
+const START: Pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, 0.0, 0.0);
+const PERIOD: Duration = Duration::from_millis(100);
 const AHEAD: DVec2 = DVec2::new(50.0, 0.0);
 
 /// A full scan, 16 rings × 1800 azimuths, from 0.8 m above the origin; `range_m` gives the range of a beam's unit direction.
@@ -31,6 +34,12 @@ fn scan(range_m: impl Fn(DVec3) -> Option<f64>) -> Vec<Vec3> {
     points
 }
 
+/// One step towards a goal.
+fn step<'a>(planner: &'a mut Planner, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Step<'a> {
+    planner.set_goal(Goal::at(goal_m));
+    planner.step(points_m, pose, PERIOD)
+}
+
 /// Level ground.
 fn level(direction: DVec3) -> Option<f64> {
     (direction.z < -0.01).then(|| 0.8 / -direction.z)
@@ -47,7 +56,7 @@ fn walled(radius_m: f64) -> impl Fn(DVec3) -> Option<f64> {
 /// Both presets, with less patience: a scan full of walls is the dearest there is.
 fn both_presets() -> [Planner; 2] {
     [PlannerConfig::default(), PlannerConfig::paper()].map(|mut config| {
-        config.decision.look_ticks = 3;
+        config.decision.spin_recovery_s = 0.3;
         Planner::new(config).unwrap()
     })
 }
@@ -55,7 +64,7 @@ fn both_presets() -> [Planner; 2] {
 #[test]
 fn level_ground_is_seen_level_all_around_and_driven_over() {
     for mut planner in both_presets() {
-        let step = planner.step(&scan(level), &START, AHEAD);
+        let step = step(&mut planner, &scan(level), &START, AHEAD);
         assert_eq!(step.status, Status::Driving);
         assert!(
             step.command.linear_m_s > 0.5 && step.command.angular_rad_s.abs() < 0.2,
@@ -72,12 +81,12 @@ fn level_ground_is_seen_level_all_around_and_driven_over() {
 fn a_wall_all_around_ends_in_a_named_stop() {
     for mut planner in both_presets() {
         let points = scan(walled(1.5));
-        let first = planner.step(&points, &START, AHEAD);
+        let first = step(&mut planner, &points, &START, AHEAD);
         assert!(first.segments.iter().all(|segment| segment.verdict == Verdict::Wall));
         assert_eq!(first.status, Status::Searching);
         assert!(first.command.linear_m_s.abs() < 1e-12 && first.command.angular_rad_s > 0.0);
-        for _ in 0..planner.config().decision.look_ticks {
-            planner.step(&points, &START, AHEAD);
+        for _ in 0..3 {
+            step(&mut planner, &points, &START, AHEAD);
         }
         let last = planner.last_step();
         assert_eq!(last.status, Status::Stopped(StopReason::NoSubgoal));
@@ -89,13 +98,13 @@ fn a_wall_all_around_ends_in_a_named_stop() {
 fn a_planner_that_gave_up_goes_on_once_the_world_has_changed() {
     let [mut planner, _] = both_presets();
     let points = scan(walled(1.5));
-    for _ in 0..=planner.config().decision.look_ticks {
-        planner.step(&points, &START, AHEAD);
+    for _ in 0..=3 {
+        step(&mut planner, &points, &START, AHEAD);
     }
     assert_eq!(planner.last_step().status, Status::Stopped(StopReason::NoSubgoal));
     // The walls are remembered until the planner is told to forget them.
     planner.reset();
-    assert_eq!(planner.step(&scan(level), &START, AHEAD).status, Status::Driving);
+    assert_eq!(step(&mut planner, &scan(level), &START, AHEAD).status, Status::Driving);
 }
 
 #[test]
@@ -103,19 +112,20 @@ fn a_goal_in_sight_is_driven_to_and_arrived_at() {
     for mut planner in both_presets() {
         let points = scan(level);
         let goal = DVec2::new(0.0, 4.0);
-        let step = planner.step(&points, &START, goal);
-        let chosen = step.subgoals[step.chosen.unwrap()];
+        let found = step(&mut planner, &points, &START, goal);
+        let chosen = found.subgoals[found.chosen.unwrap()];
         assert_eq!(chosen.segment, None);
         assert!((chosen.position_m.truncate() - goal).length() < 1e-9);
-        assert_eq!(planner.step(&points, &START, DVec2::new(0.3, 0.3)).status, Status::Arrived);
+        assert_eq!(step(&mut planner, &points, &START, DVec2::new(0.3, 0.3)).status, Status::Arrived);
     }
 }
 
 /// A planner that is told the ground.
 fn step_told(goal_m: DVec2, ground: impl Fn(DVec2) -> Option<Plane>) -> (Status, Option<Subgoal>) {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
-    let overrides = PerceptionOverride { ground: Some(&ground), ..PerceptionOverride::default() };
-    let step = planner.step_with(&scan(level), &START, goal_m, overrides);
+    let overrides = PerceptionOverride { terrain: Some(&ground), ..PerceptionOverride::default() };
+    planner.set_goal(Goal::at(goal_m));
+    let step = planner.step_with(&scan(level), &START, PERIOD, overrides);
     (step.status, step.chosen.map(|chosen| step.subgoals[chosen]))
 }
 
@@ -147,16 +157,16 @@ fn on_a_hilltop_whose_flanks_it_cannot_see_it_drives_to_the_edge() {
 fn what_makes_no_sense_is_answered_with_a_stop_and_its_reason() {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
     let points = scan(level);
-    let lost = Pose { yaw_rad: f64::NAN, ..START };
+    let lost = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, 0.0, f64::NAN);
     for (points, pose, goal, reason) in [
         (&points[..], lost, AHEAD, StopReason::InvalidInput),
         (&points[..], START, DVec2::new(f64::INFINITY, 0.0), StopReason::InvalidInput),
         (&[][..], START, AHEAD, StopReason::EmptyScan),
     ] {
-        let step = planner.step(points, &pose, goal);
+        let step = step(&mut planner, points, &pose, goal);
         assert_eq!((step.status, step.command), (Status::Stopped(reason), Command::STOP));
     }
-    assert_eq!(planner.step(&points, &START, AHEAD).status, Status::Driving);
+    assert_eq!(step(&mut planner, &points, &START, AHEAD).status, Status::Driving);
 }
 
 proptest! {
@@ -176,10 +186,10 @@ proptest! {
         roll in -0.5..0.5_f64, pitch in -0.7..0.7_f64, yaw in -10.0..10.0_f64,
         goal_x in -50.0..50.0_f64, goal_y in -50.0..50.0_f64,
     ) {
-        let pose = Pose { roll_rad: roll, pitch_rad: pitch, yaw_rad: yaw, ..START };
+        let pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, roll, pitch, yaw);
         for mut planner in both_presets() {
             let limits = planner.config().controller;
-            let step = planner.step(&points, &pose, DVec2::new(goal_x, goal_y));
+            let step = step(&mut planner, &points, &pose, DVec2::new(goal_x, goal_y));
             prop_assert!(step.command.linear_m_s.abs() <= limits.max_speed_m_s);
             prop_assert!(step.command.angular_rad_s.abs() <= limits.max_turn_rate_rad_s);
             if let Ok(surface) = planner.predicted_surface() {
@@ -214,7 +224,7 @@ proptest! {
             .filter(|p| p.x > 4.0 && f64::from(p.z) < 0.1 * gap as f64)
             .collect();
         let mut planner = Planner::new(config).unwrap();
-        let step = planner.step(&returns, &START, AHEAD);
+        let step = step(&mut planner, &returns, &START, AHEAD);
         prop_assert!(step.command.linear_m_s.is_finite() && step.command.angular_rad_s.is_finite());
         let named = matches!(step.status, Status::Stopped(StopReason::NoPerception(_) | StopReason::EmptyScan));
         prop_assert!(named || step.profile.len() == 360);

@@ -6,21 +6,23 @@
 mod digest;
 mod history;
 mod metrics;
+mod navigator;
 mod outcome;
 pub mod parameters;
-mod patience;
 mod places;
 mod profile_accuracy;
+mod progress_checker;
 mod scenario;
 pub mod statistics;
 mod trial;
 
 pub use history::History;
 pub use metrics::Metrics;
+pub use navigator::{Activity, Decision, Navigator, NavigatorStop};
 pub use outcome::Outcome;
-pub use patience::{BASE_TIME_LIMIT_S, MOST_STRAIGHT_TIMES};
 pub use places::StartPose;
 pub use profile_accuracy::{ColumnKind, ProfileAccuracy, profile_accuracy};
+pub use progress_checker::{BASE_TIME_LIMIT_S, MOST_STRAIGHT_TIMES};
 #[cfg(not(target_arch = "wasm32"))]
 pub use scenario::LoadedScenario;
 pub use scenario::{Preset, Scenario, ScenarioError, ScenarioFault};

@@ -1,12 +1,12 @@
 //! How well the elevation profile of a scan agrees with the true skyline of the ground.
 
 use core::f64::consts::TAU;
+use core::time::Duration;
 
 use glam::DVec2;
-use mapless::pose::Pose;
 use mapless::skyline::occupancy::{COLUMNS, column_azimuth_rad};
 use mapless::skyline::profile::Column;
-use mapless::{Planner, PlannerConfig, StopReason};
+use mapless::{Goal, Planner, PlannerConfig, Pose, StopReason};
 use mapless_world::random::{key, uniform};
 use mapless_world::{
     Caster, HuskyConfig, Scan, SensorConfig, SensorPose, Skyline, Vlp16, attitude_on, true_skyline,
@@ -76,7 +76,8 @@ pub fn profile_accuracy(
         };
         lidar.scan(caster, &sensor_pose, seed, attempt, &mut scan);
         let far_goal_m = pose.plan_m() + DVec2::new(100.0, 0.0);
-        let step = planner.step(&scan.points, &pose, far_goal_m);
+        planner.set_goal(Goal::at(far_goal_m));
+        let step = planner.step(&scan.points, &pose, Duration::from_secs_f64(sensor.period_s));
         sums.accuracy.poses += 1;
         if let mapless::Status::Stopped(StopReason::NoPerception(_)) = step.status {
             sums.accuracy.no_perception += 1;
@@ -104,12 +105,12 @@ fn random_pose(
     if attitude.roll_rad.abs() > robot.roll_limit_rad || attitude.pitch_rad.abs() > robot.pitch_limit_rad {
         return None;
     }
-    let pose = Pose {
-        position_m: place.extend(attitude.height_m),
-        roll_rad: attitude.roll_rad,
-        pitch_rad: attitude.pitch_rad,
+    let pose = Pose::from_roll_pitch_yaw(
+        place.extend(attitude.height_m),
+        attitude.roll_rad,
+        attitude.pitch_rad,
         yaw_rad,
-    };
+    );
     Some((pose, sensor.pose_on(place, yaw_rad, &attitude)))
 }
 

@@ -3,7 +3,7 @@
 //! ```toml
 //! terrain = "../cht.toml"       # a recipe, .png, .asc or .tif, relative to this file
 //! start = [5.0, 5.0, 0.8]       # x, y in metres, heading in radians
-//! goal = [60.0, 60.0]
+//! goal = [60.0, 60.0]           # x, y in metres; a third number is the heading to end with
 //! seed = 1
 //! waypoints = [[30.0, 20.0]]    # optional: driven to one after the other, before the goal
 //!
@@ -77,6 +77,8 @@ pub struct Scenario {
     pub waypoints_m: Vec<DVec2>,
     /// Where it should go in the end, seen from above, metres.
     pub goal_m: DVec2,
+    /// The heading that it should end with, anticlockwise from east, radians; any when absent.
+    pub goal_heading_rad: Option<f64>,
     /// Seed of the sensor's noise.
     pub seed: u64,
     /// The sensor.
@@ -122,7 +124,7 @@ struct File {
     #[serde(deserialize_with = "places::start")]
     start: StartPose,
     #[serde(deserialize_with = "places::goal")]
-    goal: DVec2,
+    goal: (DVec2, Option<f64>),
     #[serde(default, deserialize_with = "places::waypoints")]
     waypoints: Vec<DVec2>,
     seed: u64,
@@ -166,7 +168,8 @@ impl Scenario {
             terrain: parsed.terrain,
             start: parsed.start,
             waypoints_m: parsed.waypoints,
-            goal_m: parsed.goal,
+            goal_m: parsed.goal.0,
+            goal_heading_rad: parsed.goal.1,
             seed: parsed.seed,
             sensor: parsed.sensor,
             robot: parsed.robot,
@@ -299,6 +302,15 @@ mod tests {
     }
 
     #[test]
+    fn a_goal_may_have_a_heading() {
+        assert_eq!(Scenario::parse("x.toml", SCENARIO).unwrap().goal_heading_rad, None);
+        for goal in ["[3.0, 4.0, 1.5]", "{ heading = 1.5, x = 3, y = 4 }"] {
+            let scenario = Scenario::parse("x.toml", &SCENARIO.replace("[3.0, 4.0]", goal)).unwrap();
+            assert_eq!((scenario.goal_m, scenario.goal_heading_rad), (DVec2::new(3.0, 4.0), Some(1.5)));
+        }
+    }
+
+    #[test]
     fn the_planner_section_overrides_either_preset() {
         let text = format!("{SCENARIO}[planner.perception]\nsurface_radius_m = 6\n");
         let scenario = Scenario::parse("x.toml", &text).unwrap();
@@ -372,7 +384,10 @@ mod tests {
             error(&format!("{SCENARIO}[planner.decision]\nk_dir = 1\n")).contains("unknown field `k_dir`")
         );
         assert!(error(&SCENARIO.replace("2.0", "nan")).contains("y = NaN: expected a finite number"));
-        assert!(error(&SCENARIO.replace("[3.0, 4.0]", "[3.0]")).contains("expected 2 numbers: x, y"));
+        assert!(
+            error(&SCENARIO.replace("[3.0, 4.0]", "[3.0]"))
+                .contains("expected 2 or 3 numbers: x, y, heading")
+        );
         assert!(error(&SCENARIO.replace("[3.0, 4.0]", "{ x = 1 }")).contains("missing field `y`"));
         let text = format!("{SCENARIO}[planner.forecast]\nstep_m = -1.0\n");
         assert_eq!(error(&text), "x.toml: planner.forecast.step_m = -1: expected a positive number");

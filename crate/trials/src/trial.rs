@@ -1,12 +1,12 @@
 //! One trial: world → scan → planner → command → world.
 
+use core::time::Duration;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use mapless::gp::GpError;
-use mapless::pose::Pose;
 use mapless::skyline::surface::PredictedSurface;
-use mapless::{Command, Decision, Navigator, Planner, PlannerConfig, Status, Step, StopReason};
+use mapless::{Command, Goal, Planner, PlannerConfig, Pose, Step};
 use mapless_world::{
     Brush, Caster, DriveCommand, DriveError, HeightField, Husky, HuskyConfig, HuskyState, SampleRect, Scan,
     SensorConfig, Vlp16,
@@ -14,9 +14,10 @@ use mapless_world::{
 
 use crate::digest::TrajectoryDigest;
 use crate::metrics::{Metrics, MetricsRecorder, Sample};
+use crate::navigator::{Activity, Decision, Navigator, NavigatorStop};
 use crate::outcome::Outcome;
-use crate::patience::Patience;
 use crate::places::StartPose;
+use crate::progress_checker::ProgressChecker;
 use crate::scenario::{Preset, Scenario};
 
 /// Motion steps in one planning period.
@@ -55,11 +56,12 @@ pub struct Trial<N = Planner> {
     /// Waypoints behind the robot.
     passed: usize,
     goal_m: DVec2,
+    goal_heading_rad: Option<f64>,
     seed: u64,
     tick: u64,
     metrics: MetricsRecorder,
     digest: TrajectoryDigest,
-    patience: Patience,
+    progress: ProgressChecker,
     outcome: Option<Outcome>,
 }
 
@@ -169,18 +171,19 @@ impl<N: Navigator> Trial<N> {
             scan: Scan::default(),
             husky,
             navigator,
-            decision: Decision { status: Status::Searching, command: Command::STOP },
+            decision: Decision { activity: Activity::Searching, command: Command::STOP },
             start: scenario.start,
             waypoints_m: scenario.waypoints_m.clone(),
             passed: 0,
             goal_m: scenario.goal_m,
+            goal_heading_rad: scenario.goal_heading_rad,
             seed,
             tick: 0,
             digest: TrajectoryDigest::default(),
-            patience: Patience::default(),
+            progress: ProgressChecker::default(),
             outcome: None,
         };
-        trial.be_patient();
+        trial.allow_time();
         Ok(trial)
     }
 
@@ -222,32 +225,33 @@ impl<N: Navigator> Trial<N> {
     /// Lets the navigator decide on the last scan.
     pub fn plan(&mut self) -> Decision {
         let pose = self.pose();
-        self.decision = self.navigator.navigate(&self.scan.points, &pose, self.target_m());
+        let elapsed = Duration::from_secs_f64(self.period_s());
+        self.decision = self.navigator.navigate(&self.scan.points, &pose, &self.target(), elapsed);
         self.decision
     }
 
     /// Moves the robot by the last decision until the next scan is due.
     pub fn act(&mut self) -> Option<Outcome> {
-        let Decision { status, command } = self.decision;
-        self.outcome = match status {
-            Status::Arrived if self.passed < self.waypoints_m.len() => {
+        let Decision { activity, command } = self.decision;
+        self.outcome = match activity {
+            Activity::Arrived if self.passed < self.waypoints_m.len() => {
                 self.passed += 1;
-                self.be_patient();
+                self.allow_time();
                 self.drive(command)
             }
-            Status::Arrived => Some(Outcome::Reached),
-            Status::Stopped(_) => Some(Outcome::NoSubgoal),
-            Status::Driving | Status::Backtracking | Status::Searching => self.drive(command),
+            Activity::Arrived => Some(Outcome::Reached),
+            Activity::Stopped(_) => Some(Outcome::NoSubgoal),
+            Activity::Driving | Activity::Backtracking | Activity::Searching => self.drive(command),
         };
         self.tick += 1;
         let here_m = self.husky.state().position;
-        self.outcome = self.outcome.or_else(|| self.patience.lost(here_m, self.tick));
+        self.outcome = self.outcome.or_else(|| self.progress.fails(here_m, self.tick));
         self.outcome
     }
 
     fn drive(&mut self, command: Command) -> Option<Outcome> {
         let command = DriveCommand { speed_m_s: command.linear_m_s, turn_rate_rad_s: command.angular_rad_s };
-        let dt_s = self.navigator.period_s() / f64::from(MOTION_STEPS);
+        let dt_s = self.period_s() / f64::from(MOTION_STEPS);
         for _ in 0..MOTION_STEPS {
             if let Err(error) = self.husky.step(command, dt_s, self.caster.field()) {
                 return Some(match error {
@@ -269,11 +273,11 @@ impl<N: Navigator> Trial<N> {
     }
 
     /// Allows anew the time to the target.
-    fn be_patient(&mut self) {
+    fn allow_time(&mut self) {
         let here_m = self.husky.state().position;
         let speed_m_s = self.navigator.max_speed_m_s().min(self.husky.config().max_speed_m_s);
         let straight_s = (self.target_m() - here_m).length() / speed_m_s;
-        self.patience = Patience::new(here_m, self.tick, self.navigator.period_s(), straight_s);
+        self.progress = ProgressChecker::new(here_m, self.tick, self.period_s(), straight_s);
     }
 
     /// Sets a new goal and drives on; the metrics go on too.
@@ -281,16 +285,22 @@ impl<N: Navigator> Trial<N> {
     /// # Errors
     /// [`TrialError::OffTerrain`]; the goal then stays as it was.
     pub fn set_goal(&mut self, goal_m: DVec2) -> Result<(), TrialError> {
-        self.set_route(Vec::new(), goal_m)
+        self.set_route(Vec::new(), goal_m, None)
     }
 
-    /// As [`Trial::set_goal`], with waypoints to drive to before, one after the other.
+    /// As [`Trial::set_goal`], with waypoints to drive to before, one after the other, and the heading to end with, if any.
     ///
     /// # Errors
     /// [`TrialError::OffTerrain`]; the route then stays as it was.
-    pub fn set_route(&mut self, waypoints_m: Vec<DVec2>, goal_m: DVec2) -> Result<(), TrialError> {
+    pub fn set_route(
+        &mut self,
+        waypoints_m: Vec<DVec2>,
+        goal_m: DVec2,
+        goal_heading_rad: Option<f64>,
+    ) -> Result<(), TrialError> {
         check_route(self.caster.field(), &waypoints_m, goal_m)?;
-        (self.waypoints_m, self.passed, self.goal_m) = (waypoints_m, 0, goal_m);
+        (self.waypoints_m, self.passed) = (waypoints_m, 0);
+        (self.goal_m, self.goal_heading_rad) = (goal_m, goal_heading_rad);
         self.resume();
         Ok(())
     }
@@ -314,7 +324,7 @@ impl<N: Navigator> Trial<N> {
     /// Lets an ended trial go on, after a change.
     fn resume(&mut self) {
         self.outcome = None;
-        self.be_patient();
+        self.allow_time();
     }
 
     /// How the trial ended; `None` while it runs.
@@ -323,10 +333,10 @@ impl<N: Navigator> Trial<N> {
     }
 
     /// Why the navigator stopped, where it did.
-    pub fn stop_reason(&self) -> Option<StopReason> {
-        match self.decision.status {
-            Status::Stopped(reason) => Some(reason),
-            Status::Driving | Status::Arrived | Status::Backtracking | Status::Searching => None,
+    pub fn stop_reason(&self) -> Option<NavigatorStop> {
+        match self.decision.activity {
+            Activity::Stopped(reason) => Some(reason),
+            Activity::Driving | Activity::Arrived | Activity::Backtracking | Activity::Searching => None,
         }
     }
 
@@ -363,12 +373,12 @@ impl<N: Navigator> Trial<N> {
     /// The robot's pose.
     pub fn pose(&self) -> Pose {
         let state = self.husky.state();
-        Pose {
-            position_m: self.husky.position(),
-            roll_rad: state.attitude.roll_rad,
-            pitch_rad: state.attitude.pitch_rad,
-            yaw_rad: state.yaw_rad,
-        }
+        Pose::from_roll_pitch_yaw(
+            self.husky.position(),
+            state.attitude.roll_rad,
+            state.attitude.pitch_rad,
+            state.yaw_rad,
+        )
     }
 
     /// x, y, z in metres; roll, pitch, yaw in radians; speed in m/s and turn rate in rad/s.
@@ -403,6 +413,23 @@ impl<N: Navigator> Trial<N> {
         self.waypoints_m.get(self.passed).copied().unwrap_or(self.goal_m)
     }
 
+    /// Where it goes now, with the final heading where that is the goal and one was asked for.
+    pub fn target(&self) -> Goal {
+        let target = Goal::at(self.target_m());
+        let is_last = self.passed >= self.waypoints_m.len();
+        self.goal_heading_rad.filter(|_| is_last).map_or(target, |heading_rad| target.facing(heading_rad))
+    }
+
+    /// The heading that it should end with; any when absent.
+    pub fn goal_heading_rad(&self) -> Option<f64> {
+        self.goal_heading_rad
+    }
+
+    /// Time between two scans, in seconds.
+    pub fn period_s(&self) -> f64 {
+        self.sensor.config().period_s
+    }
+
     /// Planning periods run.
     pub fn ticks(&self) -> u64 {
         self.tick
@@ -410,7 +437,7 @@ impl<N: Navigator> Trial<N> {
 
     /// Simulated time.
     pub fn time_s(&self) -> f64 {
-        self.tick as f64 * self.navigator.period_s()
+        self.tick as f64 * self.period_s()
     }
 
     /// The paper's metrics so far.

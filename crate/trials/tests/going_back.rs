@@ -111,7 +111,8 @@ fn waypoints_are_driven_to_one_after_the_other() {
     }
     assert!((trial.pose().plan_m() - DVec2::new(9.0, 5.0)).length() < 0.8);
 
-    let fault = trial.set_route(vec![DVec2::new(99.0, 1.0)], DVec2::new(5.0, 5.0)).unwrap_err().to_string();
+    let fault =
+        trial.set_route(vec![DVec2::new(99.0, 1.0)], DVec2::new(5.0, 5.0), None).unwrap_err().to_string();
     assert!(fault.starts_with("waypoint = (99.000, 1.000) m: expected a place on the terrain"), "{fault}");
     assert_eq!(trial.waypoints_m().len(), 2);
     trial.set_start(trial.start()).unwrap();

@@ -3,9 +3,8 @@
 #[path = "../../wasm/src/panic.rs"]
 mod panic;
 
-use mapless::Navigator;
 use mapless_baselines::{NavigatorKind, Task};
-use mapless_trials::{Scenario, Trial, statistics};
+use mapless_trials::{Navigator, Scenario, Trial, statistics};
 use mapless_world::HeightField;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 

@@ -43,7 +43,7 @@ pub(crate) fn subgoal(subgoal: &Subgoal, chosen: bool) -> [f64; 18] {
     });
     let terms = subgoal
         .cost
-        .map_or([f64::NAN; 5], |c| [c.direction, c.distance, c.steepness, c.commitment, c.dead_end]);
+        .map_or([f64::NAN; 5], |c| [c.direction, c.distance, c.steepness, c.commitment, c.correction]);
     let position = subgoal.position_m;
     let mut values = [0.0; 18];
     values[..8].copy_from_slice(&[

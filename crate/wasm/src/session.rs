@@ -108,7 +108,7 @@ impl Session {
         let (now, seed) = (&self.now.trial, seed.unwrap_or(self.seed));
         let mut trial = trial(now.field().clone(), &running, self.preset, self.learning, seed)?;
         trial.set_start(now.start())?;
-        trial.set_route(now.waypoints_m().to_vec(), now.goal_m())?;
+        trial.set_route(now.waypoints_m().to_vec(), now.goal_m(), now.goal_heading_rad())?;
         (self.now, self.history) = (Moment::new(trial), None);
         (self.parameters, self.seed) = (parameters, seed);
         Ok(())
@@ -149,7 +149,7 @@ impl Session {
             config.segments.safety_margin_m,
             config.segments.max_slope_rad,
             f64::from(u8::from(config.segments.subgoals_on_unknown)),
-            config.period_s,
+            self.now.trial.period_s(),
         ];
         values.extend(self.now.trial.waypoints_m().iter().flat_map(|place| place.to_array()));
         values
@@ -219,7 +219,7 @@ impl Session {
     /// A place off the terrain; nothing then changes.
     pub fn set_route(&mut self, waypoints: &[f64], x: f64, y: f64) -> Result<(), JsError> {
         let waypoints_m = waypoints.chunks_exact(2).map(DVec2::from_slice).collect();
-        self.now.trial.set_route(waypoints_m, DVec2::new(x, y))?;
+        self.now.trial.set_route(waypoints_m, DVec2::new(x, y), None)?;
         if let Some(history) = &mut self.history {
             history.changed(self.now.trial.ticks(), &self.now);
         }

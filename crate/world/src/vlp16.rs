@@ -21,6 +21,8 @@ pub fn ring_elevation_rad(ring: usize) -> f64 {
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SensorConfig {
+    /// Time between two scans, in seconds; 0.1 at 10 Hz.
+    pub period_s: f64,
     /// Azimuths per revolution, from 1 to 36 000; a VLP-16 at 10 Hz has 1800.
     pub columns: usize,
     /// Standard deviation of the range, in metres.
@@ -40,6 +42,7 @@ pub struct SensorConfig {
 impl Default for SensorConfig {
     fn default() -> Self {
         Self {
+            period_s: 0.1,
             columns: 1800,
             range_noise_m: 0.02,
             dropout_probability: 0.0,
@@ -57,6 +60,7 @@ impl SensorConfig {
     /// # Errors
     /// [`ConfigError`] names the first field outside its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
+        within("period_s", self.period_s, 0.01, 1.0)?;
         within("columns", self.columns as f64, 1.0, 36_000.0)?;
         within("range_noise_m", self.range_noise_m, 0.0, 1.0)?;
         within("dropout_probability", self.dropout_probability, 0.0, 1.0)?;

@@ -3,6 +3,8 @@
 #![no_main]
 
 use arbitrary::Arbitrary;
+use core::time::Duration;
+
 use glam::{DVec2, DVec3, Vec3};
 use libfuzzer_sys::fuzz_target;
 use mapless::pose::Pose;
@@ -60,10 +62,10 @@ fuzz_target!(|input: Input| {
                 let [x, y, z, roll_rad, pitch_rad, turn_rad] =
                     hundredths.map(|value| 0.01 * f64::from(value));
                 let position_m = pose.position_m + DVec3::new(x, y, z);
-                pose = Pose { position_m, roll_rad, pitch_rad, yaw_rad: pose.yaw_rad + turn_rad };
+                pose = Pose::from_roll_pitch_yaw(position_m, roll_rad, pitch_rad, pose.yaw_rad + turn_rad);
             }
             Place::Any([x, y, z, roll_rad, pitch_rad, yaw_rad]) => {
-                pose = Pose { position_m: DVec3::new(x, y, z), roll_rad, pitch_rad, yaw_rad };
+                pose = Pose::from_roll_pitch_yaw(DVec3::new(x, y, z), roll_rad, pitch_rad, yaw_rad);
             }
         }
         match step.goal {
@@ -73,7 +75,8 @@ fuzz_target!(|input: Input| {
         }
         let mut points_m: Vec<Vec3> = step.beams.iter().flat_map(returns_m).collect();
         points_m.extend(step.loose_points_m.iter().copied().map(Vec3::from_array));
-        let decided = planner.step(&points_m, &pose, goal_m);
+        planner.set_goal(mapless::Goal::at(goal_m));
+        let decided = planner.step(&points_m, &pose, Duration::from_millis(100));
         let Command { linear_m_s, angular_rad_s } = decided.command;
         assert!(linear_m_s.abs() <= limits.max_speed_m_s, "{linear_m_s} m/s");
         assert!(angular_rad_s.abs() <= limits.max_turn_rate_rad_s, "{angular_rad_s} rad/s");

@@ -3,7 +3,7 @@
 use super::{OracleConfig, PlanPose, shortest_path};
 use crate::RoutePlanner;
 use glam::DVec2;
-use mapless::pose::Pose;
+use mapless::Pose;
 use mapless_world::{HeightField, HuskyConfig};
 
 /// Knows the whole ground, and takes the shortest safe path over it.

@@ -1,8 +1,11 @@
+use core::time::Duration;
+
 use super::*;
 use crate::{RouteNavigator, Task, TaskName};
 use glam::DVec3;
-use mapless::pose::Pose;
-use mapless::{Navigator as _, PlannerConfig};
+use mapless::Pose;
+use mapless::{Goal, PlannerConfig};
+use mapless_trials::Navigator as _;
 use mapless_world::generate::Difficulty;
 use mapless_world::{DriveCommand, Husky, attitude_on};
 use proptest::prelude::*;
@@ -19,6 +22,7 @@ fn gaussian(x: f64) -> f64 {
 }
 
 const START: PlanPose = PlanPose { position_m: DVec2::new(5.0, 20.0), yaw_rad: 0.4 };
+const PERIOD: Duration = Duration::from_millis(100);
 const GOAL_M: DVec2 = DVec2::new(35.0, 21.0);
 
 fn path(field: &HeightField) -> Result<OraclePath, OracleError> {
@@ -43,13 +47,13 @@ fn drive(field: &HeightField, start: PlanPose, goal_m: DVec2) -> (DVec2, f64) {
     let mut worst: f64 = 0.0;
     for _ in 0..3000 {
         let state = *husky.state();
-        let pose = Pose {
-            position_m: husky.position(),
-            roll_rad: state.attitude.roll_rad,
-            pitch_rad: state.attitude.pitch_rad,
-            yaw_rad: state.yaw_rad,
-        };
-        let command = driver.navigate(&[], &pose, goal_m).command;
+        let pose = Pose::from_roll_pitch_yaw(
+            husky.position(),
+            state.attitude.roll_rad,
+            state.attitude.pitch_rad,
+            state.yaw_rad,
+        );
+        let command = driver.navigate(&[], &pose, &Goal::at(goal_m), PERIOD).command;
         let command = DriveCommand { speed_m_s: command.linear_m_s, turn_rate_rad_s: command.angular_rad_s };
         for _ in 0..10 {
             husky.step(command, 0.01, field).unwrap();

@@ -9,8 +9,8 @@ pub mod plane;
 pub mod tree;
 
 use glam::DVec2;
+use mapless::Pose;
 use mapless::RobotModel;
-use mapless::pose::Pose;
 use mapless_world::HeightField;
 use mapless_world::random::{key, uniform};
 

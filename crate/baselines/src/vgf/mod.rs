@@ -14,7 +14,7 @@ pub mod travel;
 pub mod voxels;
 
 use glam::DVec2;
-use mapless::pose::Pose;
+use mapless::Pose;
 use mapless_world::HeightField;
 
 use crate::cloud::{Cloud, MapError};

@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use comfy_table::{CellAlignment, Table, presets};
+use mapless::Step;
 use mapless::skyline::occupancy::COLUMNS;
 use mapless::skyline::profile::Column;
-use mapless::{Status, Step};
+use mapless_trials::Activity;
 
 use super::rows::{ColumnRow, CommandRow, CostRow, SegmentRow, SubgoalRow};
 
@@ -38,18 +39,16 @@ pub(crate) struct PerceptionReport {
 
 impl PerceptionReport {
     pub(crate) fn new(subject: String, returns: usize, step: &Step<'_>) -> Self {
-        let (status, reason) = match step.status {
-            Status::Driving => ("driving", None),
-            Status::Arrived => ("arrived", None),
-            Status::Backtracking => ("retreating", None),
-            Status::Searching => ("looking", None),
-            Status::Stopped(reason) => ("stopped", Some(reason.to_string())),
+        let activity = Activity::from(step.status);
+        let reason = match activity {
+            Activity::Stopped(reason) => Some(reason.to_string()),
+            _ => None,
         };
         let column = |index: usize| step.profile.get(index).copied().unwrap_or(Column::Unknown);
         Self {
             subject,
             returns,
-            status,
+            status: activity.name(),
             reason,
             command: CommandRow::of(step.command),
             surface_radius_m: step.observed.radius_m(),
@@ -81,7 +80,7 @@ impl PerceptionReport {
             (None, Some(subgoal)) => {
                 format!("driving to the subgoal at {}; {seen}", direction(subgoal.bearing_rad))
             }
-            (None, None) if self.status == "looking" => format!("turning to look for a subgoal; {seen}"),
+            (None, None) if self.status == "searching" => format!("turning to look for a subgoal; {seen}"),
             (None, None) => format!("{}; {seen}", self.status),
         }
     }

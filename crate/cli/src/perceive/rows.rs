@@ -1,8 +1,7 @@
 //! The rows of a perception report: what the planner's types are called in JSON.
 
 use mapless::Command;
-use mapless::decision::cost::Cost;
-use mapless::decision::subgoals::{Refusal, Subgoal};
+use mapless::decision::subgoals::{Cost, Refusal, Subgoal};
 use mapless::skyline::occupancy::column_azimuth_rad;
 use mapless::skyline::profile::Column;
 use mapless::skyline::segments::{Segment, Verdict};
@@ -51,7 +50,7 @@ pub(crate) struct CostRow {
     pub(crate) distance: f64,
     pub(crate) steepness: f64,
     pub(crate) commitment: f64,
-    pub(crate) dead_end: f64,
+    pub(crate) correction: f64,
     pub(crate) total: f64,
 }
 
@@ -110,7 +109,7 @@ impl CostRow {
             distance: cost.distance,
             steepness: cost.steepness,
             commitment: cost.commitment,
-            dead_end: cost.dead_end,
+            correction: cost.correction,
             total: cost.total(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{
     ControllerConfig, DecisionConfig, ElevationWindowConfig, InducingInputs, PerceptionConfig, PlannerConfig,
-    SegmentConfig, StateLatticeConfig,
+    SegmentConfig, StateLatticeConfig, WINDOW_CELLS,
 };
 use crate::error::{ConfigError, require};
 use crate::gp::hyperparameters::Hyperparameters;
@@ -17,7 +17,6 @@ impl PlannerConfig {
     /// [`ConfigError`] with the first value that makes no sense, its place and what was expected.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let place = "planner";
-        positive(self.period_s, place, "period_s")?;
         positive(self.goal_tolerance_m, place, "goal_tolerance_m")?;
         self.robot.validate()?;
         self.sensor.validate()?;
@@ -128,14 +127,14 @@ impl ElevationWindowConfig {
         positive(self.cell_m, place, "cell_m")?;
         // Two different places inside the window must not share a slot.
         require(
-            self.cell_m * crate::terrain::elevation_window::SIDE as f64 > 2.0 * self.radius_m,
+            self.cell_m * WINDOW_CELLS as f64 > 2.0 * self.radius_m,
             place,
             "cell_m",
             self.cell_m,
             "cells large enough that 96 of them span twice radius_m",
         )?;
         not_negative(self.curvature_per_m, place, "curvature_per_m")?;
-        require(self.memory_ticks > 0, place, "memory_ticks", self.memory_ticks, "at least 1")
+        time(self.memory_s, place, "memory_s")
     }
 }
 
@@ -169,7 +168,8 @@ impl DecisionConfig {
         not_negative(self.steepness_weight, place, "steepness_weight")?;
         not_negative(self.climb_weight, place, "climb_weight")?;
         not_negative(self.commitment_weight, place, "commitment_weight")?;
-        not_negative(self.dead_end_weight, place, "dead_end_weight")
+        not_negative(self.dead_end_weight, place, "dead_end_weight")?;
+        time(self.spin_recovery_s, place, "spin_recovery_s")
     }
 }
 
@@ -192,6 +192,11 @@ impl ControllerConfig {
         let least = self.least_speed_share;
         require(least > 0.0 && least <= 1.0, place, "least_speed_share", least, "a share above 0")
     }
+}
+
+/// Seconds; a year is as good as for ever.
+fn time(value: f64, place: &str, name: &'static str) -> Result<(), ConfigError> {
+    require((0.0..=3.2e7).contains(&value), place, name, value, "a time from 0 to 3.2e7 s")
 }
 
 fn positive(value: f64, place: &str, name: &'static str) -> Result<(), ConfigError> {

@@ -3,6 +3,8 @@
 mod checks;
 mod presets;
 
+use core::time::Duration;
+
 use crate::gp::kernel::RationalQuadratic;
 use crate::gp::learning::LearningConfig;
 use crate::robot_model::RobotModel;
@@ -13,8 +15,6 @@ use crate::sensor_model::SensorModel;
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlannerConfig {
-    /// Time between steps, seconds. Paper: 0.1 (10 Hz).
-    pub period_s: f64,
     /// The goal counts as reached within this distance, metres. Paper: not given.
     pub goal_tolerance_m: f64,
     /// The robot.
@@ -27,7 +27,7 @@ pub struct PlannerConfig {
     pub segments: SegmentConfig,
     /// What is remembered of the ground for the forecast.
     pub elevation_window: ElevationWindowConfig,
-    /// StateLattice over that ground, and the tilt they promise.
+    /// Paths over that ground, and the tilt they promise.
     pub state_lattice: StateLatticeConfig,
     /// The cost of a subgoal.
     pub decision: DecisionConfig,
@@ -90,8 +90,8 @@ pub struct ElevationWindowConfig {
     /// Returns within this range are remembered, metres. It reaches a little beyond r_oc, so that a robot on a knoll,
     /// which hides what is nearer, knows where the ground goes on.
     pub radius_m: f64,
-    /// Steps after which ground not seen again is forgotten.
-    pub memory_ticks: u64,
+    /// Time after which ground that is not seen again is forgotten, seconds.
+    pub memory_s: f64,
     /// Standard deviation of the slope of ground for each metre that it lies from what was seen of it.
     pub curvature_per_m: f64,
 }
@@ -162,8 +162,8 @@ pub struct DecisionConfig {
     pub commitment_weight: f64,
     /// Charge for the detour that is known from a place driven over, on the scale of the distance. Paper: none.
     pub dead_end_weight: f64,
-    /// Steps of turning in place without a candidate before giving up. Paper: not given.
-    pub look_ticks: u32,
+    /// How long the robot turns in place without a candidate before it gives up, seconds. Paper: not given.
+    pub spin_recovery_s: f64,
 }
 
 /// Gains of one PID loop.
@@ -199,4 +199,21 @@ pub struct ControllerConfig {
     pub slow_from_share: f64,
     /// The least share of its speed that it keeps.
     pub least_speed_share: f64,
+}
+
+/// Cells on a side of the elevation window.
+pub(crate) const WINDOW_CELLS: usize = 96;
+
+impl ElevationWindowConfig {
+    /// Time after which ground that is not seen again is forgotten.
+    pub(crate) fn memory(&self) -> Duration {
+        Duration::from_secs_f64(self.memory_s)
+    }
+}
+
+impl DecisionConfig {
+    /// How long the robot turns in place without a candidate before it gives up.
+    pub(crate) fn spin_recovery(&self) -> Duration {
+        Duration::from_secs_f64(self.spin_recovery_s)
+    }
 }

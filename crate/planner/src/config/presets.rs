@@ -12,7 +12,6 @@ use crate::sensor_model::SensorModel;
 impl Default for PlannerConfig {
     fn default() -> Self {
         Self {
-            period_s: 0.1,
             goal_tolerance_m: 0.5,
             robot: RobotModel::default(),
             sensor: SensorModel::default(),
@@ -54,7 +53,7 @@ impl Default for SegmentConfig {
 
 impl Default for ElevationWindowConfig {
     fn default() -> Self {
-        Self { cell_m: 0.2, radius_m: 9.0, memory_ticks: 3000, curvature_per_m: 0.5 }
+        Self { cell_m: 0.2, radius_m: 9.0, memory_s: 300.0, curvature_per_m: 0.5 }
     }
 }
 
@@ -90,7 +89,7 @@ impl Default for DecisionConfig {
             climb_weight: 1.0,
             commitment_weight: 0.3,
             dead_end_weight: 1.0,
-            look_ticks: 150,
+            spin_recovery_s: 15.0,
         }
     }
 }

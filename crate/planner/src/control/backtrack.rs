@@ -3,12 +3,13 @@
 //! Where it stands too steep, or nothing leads on, what it was told of the ground is not true or not enough. Where it has stood, and as it
 //! turned there, it can stand again: that way back needs no forecast.
 
+use core::time::Duration;
 use std::collections::VecDeque;
 
 use glam::DVec2;
 
 use crate::math::angle::wrap_rad;
-use crate::pose::Pose;
+use crate::pose::{FrameChange, Pose};
 
 /// Stances on the trail lie this far or this much of a turn apart, and so many are kept.
 const SPACING_M: f64 = 0.1;
@@ -33,10 +34,10 @@ const BESIDE_RAD_M2: f64 = 25.0;
 const MOST_BESIDE_RAD_M: f64 = 2.0;
 /// A robot this far from its trail has lost it.
 const LOST_M: f64 = 0.4;
-/// A robot that moves and turns less than this in a step stands still, and after so many steps it has had the time to.
-const STILL_M: f64 = 0.01;
-const STILL_RAD: f64 = 0.01;
-const MOST_BRAKING_TICKS: u32 = 20;
+/// A robot that moves and turns more slowly than this stands still, and after this time it has had the time to.
+const STILL_M_S: f64 = 0.1;
+const STILL_RAD_S: f64 = 0.1;
+const MOST_BRAKING_TIME: Duration = Duration::from_secs(2);
 /// A robot that is farther from where it last was did not drive there.
 const JUMP_M: f64 = 1.0;
 /// The direction in which it came is that from a place this far back or, where it came less far, from where it began, if that is no nearer than
@@ -96,13 +97,18 @@ pub(crate) struct Backtrack {
     trail: VecDeque<Stance>,
     last: Option<Stance>,
     began_at_m: Option<DVec2>,
-    /// For so many steps yet, or until it stands.
-    braking_ticks: u32,
+    /// For so long yet, or until it stands.
+    braking: Duration,
 }
 
 impl Backtrack {
     pub(crate) fn new() -> Self {
-        Self { trail: VecDeque::with_capacity(MOST_STANCES), last: None, began_at_m: None, braking_ticks: 0 }
+        Self {
+            trail: VecDeque::with_capacity(MOST_STANCES),
+            last: None,
+            began_at_m: None,
+            braking: Duration::ZERO,
+        }
     }
 
     pub(crate) fn clear(&mut self) {
@@ -112,16 +118,18 @@ impl Backtrack {
     }
 
     /// The robot is here, wherever it goes.
-    pub(crate) fn be_at(&mut self, pose: &Pose) {
+    pub(crate) fn be_at(&mut self, pose: &Pose, elapsed: Duration) {
         let here = Stance::of(pose);
         let last = self.last.replace(here);
-        if self.is_on() && self.braking_ticks == 0 {
+        if self.is_on() && self.braking.is_zero() {
             return;
         }
+        let elapsed_s = elapsed.as_secs_f64();
         let moves = last.is_some_and(|last| {
-            (here.place_m - last.place_m).length() > STILL_M || here.turned_rad(&last) > STILL_RAD
+            (here.place_m - last.place_m).length() > STILL_M_S * elapsed_s
+                || here.turned_rad(&last) > STILL_RAD_S * elapsed_s
         });
-        self.braking_ticks = if moves { self.braking_ticks.saturating_sub(1) } else { 0 };
+        self.braking = if moves { self.braking.saturating_sub(elapsed) } else { Duration::ZERO };
         if let Some(last) = self.trail.back() {
             let moved_m = (here.place_m - last.place_m).length();
             if moved_m < SPACING_M && here.turned_rad(last) < SPACING_RAD {
@@ -160,7 +168,7 @@ impl Backtrack {
             return None;
         }
         self.began_at_m = Some(here_m);
-        self.braking_ticks = MOST_BRAKING_TICKS;
+        self.braking = MOST_BRAKING_TIME;
         Some(came.normalize())
     }
 
@@ -171,7 +179,7 @@ impl Backtrack {
         pose: &Pose,
         safe_turn_rad: impl Fn(f64) -> f64,
     ) -> Option<BacktrackCommand> {
-        if self.braking_ticks > 0 {
+        if !self.braking.is_zero() {
             return Some(BacktrackCommand::Brake);
         }
         let here = Stance::of(pose);
@@ -203,10 +211,23 @@ impl Backtrack {
         self.trail.iter().rev().map(|stance| stance.place_m)
     }
 
+    /// Moves the trajectory from one world frame to another.
+    pub(crate) fn relocalise(&mut self, change: &FrameChange) {
+        let moved = |stance: &Stance| Stance {
+            place_m: change.place_m(stance.place_m),
+            yaw_rad: stance.yaw_rad + change.turn_rad(),
+        };
+        for stance in &mut self.trail {
+            *stance = moved(stance);
+        }
+        self.last = self.last.as_ref().map(moved);
+        self.began_at_m = self.began_at_m.map(|place_m| change.place_m(place_m));
+    }
+
     /// Goes on again.
     pub(crate) fn end(&mut self) {
         self.began_at_m = None;
-        self.braking_ticks = 0;
+        self.braking = Duration::ZERO;
     }
 }
 
@@ -241,6 +262,8 @@ fn toward(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const STEP: Duration = Duration::from_millis(100);
     use core::f64::consts::PI;
     use glam::DVec3;
 
@@ -264,7 +287,7 @@ mod tests {
             advance(&mut backtrack, &mut robot, 0.0, 0.5);
         }
         assert!(backtrack.begin(robot.plan_m()).is_some());
-        backtrack.be_at(&robot);
+        backtrack.be_at(&robot, STEP);
         (backtrack, robot)
     }
 
@@ -273,7 +296,7 @@ mod tests {
         pose.yaw_rad += 0.1 * turn_rate_rad_s;
         let heading = DVec2::from_angle(pose.yaw_rad);
         pose.position_m += DVec3::from((0.1 * speed_m_s * heading, 0.0));
-        backtrack.be_at(pose);
+        backtrack.be_at(pose, STEP);
     }
 
     /// Goes all the way back, out of a drive at this speed; gives every pose on it. A Husky gains a metre a second in a second.
@@ -302,7 +325,7 @@ mod tests {
     fn it_goes_back_as_it_came_turns_and_arcs_too() {
         let mut backtrack = Backtrack::new();
         let mut robot = pose(DVec2::ZERO, 0.0);
-        backtrack.be_at(&robot);
+        backtrack.be_at(&robot, STEP);
         let mut came = vec![robot];
         for (ticks, speed_m_s, turn_rate_rad_s) in [
             (30, 0.5, 0.0),
@@ -346,7 +369,7 @@ mod tests {
                     // The trail is driven forward after all.
                     backtrack = Backtrack::new();
                     robot = pose(DVec2::ZERO, PI);
-                    backtrack.be_at(&robot);
+                    backtrack.be_at(&robot, STEP);
                     for _ in 0..40 {
                         advance(&mut backtrack, &mut robot, -0.5, 0.0);
                     }
@@ -385,7 +408,7 @@ mod tests {
         let mut ticks = 0;
         while backtrack.next(&robot, |turn| turn) == Some(BacktrackCommand::Brake) {
             robot.position_m.y = if ticks % 2 == 0 { 0.02 } else { -0.02 };
-            backtrack.be_at(&robot);
+            backtrack.be_at(&robot, STEP);
             ticks += 1;
             assert!(ticks < 50, "it brakes for ever");
         }
@@ -414,7 +437,7 @@ mod tests {
     fn far_from_its_trail_it_does_not_drive_where_it_has_not_stood() {
         let (mut backtrack, mut robot) = driven(20);
         assert!(backtrack.begin(robot.plan_m()).is_some());
-        backtrack.be_at(&robot);
+        backtrack.be_at(&robot, STEP);
         robot.position_m.y -= 0.5;
         assert_eq!((backtrack.next(&robot, |turn| turn), backtrack.is_on()), (None, false));
     }
@@ -434,7 +457,7 @@ mod tests {
     fn what_was_gone_back_is_no_trail_any_more() {
         let (mut backtrack, mut robot) = driven(100);
         assert!((backtrack.begin(robot.plan_m()).unwrap() - DVec2::X).length() < 1e-9);
-        backtrack.be_at(&robot);
+        backtrack.be_at(&robot, STEP);
         while !backtrack.has_gone_far(robot.plan_m()) {
             assert!(matches!(
                 backtrack.next(&robot, |turn_rad| turn_rad),
@@ -471,7 +494,7 @@ mod tests {
         assert_eq!(Backtrack::new().begin(DVec2::ZERO), None);
         let (mut backtrack, _) = driven(100);
         let carried = pose(DVec2::splat(9.0), 0.0);
-        backtrack.be_at(&carried);
+        backtrack.be_at(&carried, STEP);
         assert_eq!((backtrack.begin(carried.plan_m()), backtrack.is_on()), (None, false));
     }
 

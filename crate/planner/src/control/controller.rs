@@ -1,6 +1,8 @@
 //! The paper's simple PID controller: distance error to the subgoal, yaw error α_g*.
 
 use crate::config::{ControllerConfig, PidGains};
+use core::time::Duration;
+
 use crate::math::angle::wrap_rad;
 
 /// A turn in place is never slowed to less than this share.
@@ -16,7 +18,7 @@ pub struct Command {
 }
 
 impl Command {
-    /// AttitudeEstimate still.
+    /// Standing still.
     pub const STOP: Self = Self { linear_m_s: 0.0, angular_rad_s: 0.0 };
 }
 
@@ -27,15 +29,16 @@ struct Pid {
 }
 
 impl Pid {
-    fn update(&mut self, error: f64, gains: &PidGains, period_s: f64, most: f64) -> f64 {
-        let rate = self.last_error.map_or(0.0, |last| (error - last) / period_s);
+    fn update(&mut self, error: f64, gains: &PidGains, elapsed: Duration, most: f64) -> f64 {
+        let elapsed_s = elapsed.as_secs_f64();
+        let rate = self.last_error.filter(|_| elapsed_s > 0.0).map_or(0.0, |last| (error - last) / elapsed_s);
         self.last_error = Some(error);
         let wanted = gains.proportional * error
-            + gains.integral * (self.integral + error * period_s)
+            + gains.integral * (self.integral + error * elapsed_s)
             + gains.derivative * rate;
         // The integral holds while the output is saturated, so that it cannot wind up.
         if wanted.abs() < most {
-            self.integral += error * period_s;
+            self.integral += error * elapsed_s;
         }
         wanted.clamp(-most, most)
     }
@@ -62,12 +65,12 @@ impl Controller {
     }
 
     /// Drives towards a point at `distance_m` and `bearing_rad` in the robot frame; turns first when it is far to a side.
-    /// `period_s` is the time since the last call.
-    pub fn drive(&mut self, distance_m: f64, bearing_rad: f64, period_s: f64) -> Command {
+    /// `elapsed` is the time since the last call.
+    pub fn drive(&mut self, distance_m: f64, bearing_rad: f64, elapsed: Duration) -> Command {
         let config = &self.config;
         let bearing = wrap_rad(bearing_rad);
-        let turning = self.yaw.update(bearing, &config.yaw, period_s, config.max_turn_rate_rad_s);
-        let forward = self.distance.update(distance_m, &config.distance, period_s, config.max_speed_m_s);
+        let turning = self.yaw.update(bearing, &config.yaw, elapsed, config.max_turn_rate_rad_s);
+        let forward = self.distance.update(distance_m, &config.distance, elapsed, config.max_speed_m_s);
         let ahead = if bearing.abs() > config.turn_first_rad { 0.0 } else { libm::cos(bearing) };
         Command { linear_m_s: forward.max(0.0) * ahead, angular_rad_s: turning }
     }
@@ -78,9 +81,9 @@ impl Controller {
         distance_m: f64,
         turn_rad_m: f64,
         reverse: bool,
-        period_s: f64,
+        elapsed: Duration,
     ) -> Command {
-        let forward = self.drive(distance_m, 0.0, period_s).linear_m_s;
+        let forward = self.drive(distance_m, 0.0, elapsed).linear_m_s;
         let most_m_s = self.config.max_turn_rate_rad_s / turn_rad_m.abs();
         let speed_m_s = forward.min(most_m_s);
         let linear_m_s = if reverse { -speed_m_s } else { speed_m_s };

@@ -3,24 +3,27 @@
 //! From a tilted robot the skyline is another one at each heading: a subgoal that it turns to may not be there any more when it has
 //! turned. So what it heads for stays a candidate until it is there, as long as a way over the ground that was seen leads there.
 
+use core::time::Duration;
+
 use glam::DVec2;
 
 use crate::decision::candidates::Candidates;
 use crate::decision::subgoals::Subgoal;
-use crate::pose::Pose;
+use crate::pose::{FrameChange, Pose};
 
 /// The robot is there when it is this near.
-const THERE_M: f64 = 0.5;
-/// It gets on while it leaves a place by this much within so many steps.
-const GETS_ON_M: f64 = 1.0;
-const PATIENCE_TICKS: u32 = 120;
+const ARRIVAL_RADIUS_M: f64 = 0.5;
+/// It makes progress while it leaves a place by this much within this time.
+const PROGRESS_RADIUS_M: f64 = 1.0;
+const PROGRESS_TIME: Duration = Duration::from_secs(12);
 
 /// What the robot heads for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CommittedTarget {
     subgoal: Option<Subgoal>,
     left_m: DVec2,
-    ticks: u32,
+    /// Since then.
+    time: Duration,
 }
 
 impl CommittedTarget {
@@ -28,7 +31,7 @@ impl CommittedTarget {
     pub(crate) fn again(&mut self, candidates: &mut Candidates<'_>) -> Result<Option<Subgoal>, DVec2> {
         let Some(last) = self.subgoal else { return Ok(None) };
         let place_m = last.position_m.truncate();
-        if (place_m - candidates.pose.plan_m()).length() < THERE_M {
+        if (place_m - candidates.pose.plan_m()).length() < ARRIVAL_RADIUS_M {
             self.subgoal = None;
             return Ok(None);
         }
@@ -40,17 +43,25 @@ impl CommittedTarget {
     }
 
     /// Heads for a subgoal. Gives where it lies, and lets go of it, when the robot has not got on for too long.
-    pub(crate) fn head_for(&mut self, subgoal: &Subgoal, pose: &Pose) -> Option<DVec2> {
+    pub(crate) fn head_for(&mut self, subgoal: &Subgoal, pose: &Pose, elapsed: Duration) -> Option<DVec2> {
         self.subgoal = Some(*subgoal);
-        if (pose.plan_m() - self.left_m).length() > GETS_ON_M {
+        if (pose.plan_m() - self.left_m).length() > PROGRESS_RADIUS_M {
             self.left_m = pose.plan_m();
-            self.ticks = 0;
+            self.time = Duration::ZERO;
         }
-        self.ticks += 1;
-        (self.ticks > PATIENCE_TICKS).then(|| {
+        self.time = self.time.saturating_add(elapsed);
+        (self.time > PROGRESS_TIME).then(|| {
             *self = Self { left_m: self.left_m, ..Self::default() };
             subgoal.position_m.truncate()
         })
+    }
+
+    /// Moves it from one world frame to another.
+    pub(crate) fn relocalise(&mut self, change: &FrameChange) {
+        self.left_m = change.place_m(self.left_m);
+        if let Some(subgoal) = &mut self.subgoal {
+            subgoal.position_m = change.point_m(subgoal.position_m);
+        }
     }
 
     /// Heads for nothing.
@@ -62,6 +73,8 @@ impl CommittedTarget {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const STEP: Duration = Duration::from_millis(100);
     use crate::config::PlannerConfig;
     use crate::route::forecast::Forecast;
     use crate::route::state_lattice::StateLattice;
@@ -93,7 +106,7 @@ mod tests {
             let plane = Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 };
             (place_m.x < end_x_m).then_some(plane)
         };
-        lattice.search(&ground, &pose);
+        lattice.search(&ground, &pose, STEP);
         let path = &mut Vec::new();
         committed.again(&mut Candidates { config: &config, pose: &pose, lattice: &lattice, path })
     }
@@ -102,7 +115,7 @@ mod tests {
     fn what_it_heads_for_stays_a_candidate_until_it_is_there() {
         let mut committed = CommittedTarget::default();
         assert_eq!(again(&mut committed, 0.0, 9.0), Ok(None));
-        assert_eq!(committed.head_for(&subgoal(5.0), &pose(0.0)), None);
+        assert_eq!(committed.head_for(&subgoal(5.0), &pose(0.0), STEP), None);
         for x_m in [0.5, 2.0, 4.0] {
             let again = again(&mut committed, x_m, 9.0).unwrap().unwrap();
             assert!(again.position_m == subgoal(5.0).position_m && again.segment.is_none());
@@ -115,7 +128,7 @@ mod tests {
     #[test]
     fn where_no_way_leads_any_more_is_told_once() {
         let mut committed = CommittedTarget::default();
-        committed.head_for(&subgoal(5.0), &pose(0.0));
+        committed.head_for(&subgoal(5.0), &pose(0.0), STEP);
         assert_eq!(again(&mut committed, 0.0, 3.0), Err(DVec2::new(5.0, 0.0)));
         assert_eq!(again(&mut committed, 0.0, 3.0), Ok(None));
     }
@@ -124,12 +137,12 @@ mod tests {
     fn a_robot_that_does_not_get_on_lets_go() {
         let mut committed = CommittedTarget::default();
         let lets_go = |committed: &mut CommittedTarget, x_m: f64| {
-            committed.head_for(&subgoal(5.0), &pose(x_m)).is_some()
+            committed.head_for(&subgoal(5.0), &pose(x_m), STEP).is_some()
         };
         for _ in 0..3 {
-            assert!((0..PATIENCE_TICKS).all(|_| !lets_go(&mut committed, 0.1)));
+            assert!((0..120).all(|_| !lets_go(&mut committed, 0.1)));
             assert!(lets_go(&mut committed, 0.1));
         }
-        assert!((0..10 * PATIENCE_TICKS).all(|tick| !lets_go(&mut committed, 0.02 * f64::from(tick))));
+        assert!((0..1200).all(|tick| !lets_go(&mut committed, 0.02 * f64::from(tick))));
     }
 }

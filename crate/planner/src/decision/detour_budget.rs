@@ -5,7 +5,9 @@
 
 use glam::DVec2;
 
-/// DetourBudget lasts for so many times the straight way, which counts as this long at least.
+use crate::pose::FrameChange;
+
+/// The budget lasts for so many times the straight way, which counts as this long at least.
 const STRAIGHT_TIMES: f64 = 2.0;
 const LEAST_STRAIGHT_M: f64 = 10.0;
 
@@ -24,11 +26,18 @@ impl DetourBudget {
     }
 
     /// Whether it is lost just now, with the robot here.
-    pub(crate) fn lost(&mut self, here_m: DVec2) -> bool {
+    pub(crate) fn is_spent_now(&mut self, here_m: DVec2) -> bool {
         let had_some = self.left_m > 0.0;
         self.left_m -= (here_m - self.last_m).length();
         self.last_m = here_m;
         had_some && self.left_m <= 0.0
+    }
+}
+
+impl DetourBudget {
+    /// Moves where the robot was from one world frame to another.
+    pub(crate) fn relocalise(&mut self, change: &FrameChange) {
+        self.last_m = change.place_m(self.last_m);
     }
 }
 
@@ -39,7 +48,7 @@ mod tests {
     fn lost_after_m(straight_m: f64) -> f64 {
         let mut patience = DetourBudget::new(DVec2::ZERO, DVec2::X * straight_m);
         let to_and_fro = |k: i32| DVec2::Y * 0.5 * f64::from(k % 2);
-        let lost: Vec<_> = (1..1000).filter(|&k| patience.lost(to_and_fro(k))).collect();
+        let lost: Vec<_> = (1..1000).filter(|&k| patience.is_spent_now(to_and_fro(k))).collect();
         assert_eq!(lost.len(), 1, "it is lost once");
         0.5 * f64::from(lost[0])
     }

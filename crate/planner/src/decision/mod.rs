@@ -1,8 +1,11 @@
-//! Which subgoal to drive to: candidates, their cost, and what holds on to a choice.
+//! Which subgoal to drive to, and how: the paper's choice and the forecast's behind one interface, their costs, and what holds on to a choice.
 
-pub(crate) mod candidates;
-pub(crate) mod committed_target;
+mod candidates;
+mod committed_target;
 pub mod cost;
-pub(crate) mod detour_budget;
+mod detour_budget;
+pub(crate) mod forecast_policy;
+pub(crate) mod paper_policy;
+pub(crate) mod policy;
 pub(crate) mod step;
 pub mod subgoals;

@@ -18,6 +18,9 @@ pub enum StopReason {
     /// The pose or the goal is not a number, or more than 1000 km from the origin.
     #[error("the pose or the goal is not finite or too far away")]
     InvalidInput,
+    /// No goal was set.
+    #[error("no goal is set")]
+    NoGoal,
     /// The scan is empty.
     #[error("the scan has no returns")]
     EmptyScan,
@@ -27,9 +30,9 @@ pub enum StopReason {
     /// Looking around found no candidate either.
     #[error("no subgoal found after looking around")]
     NoSubgoal,
-    /// A navigator with a map found no path on it.
-    #[error("no path to the goal on the map")]
-    NoPath,
+    /// At the goal, turning to the heading that was asked for would exceed a tilt limit.
+    #[error("turning to the goal's heading would exceed a tilt limit")]
+    HeadingUnsafe,
 }
 
 /// What a step decided.
@@ -43,7 +46,7 @@ pub enum Status {
     Backtracking,
     /// No candidate: turning in place to look.
     Searching,
-    /// AttitudeEstimate still, for this reason.
+    /// Standing still, for this reason.
     Stopped(StopReason),
 }
 
@@ -70,12 +73,15 @@ pub struct Step<'a> {
     pub path: &'a [PathPoint],
 }
 
+/// The plane through the ground around a place seen from above, in the world; `None` where it is unknown.
+pub type TerrainOverride<'a> = &'a dyn Fn(DVec2) -> Option<Plane>;
+
 /// What a step is told instead of finding it out from scans; nothing by default. With the truth it tells a fault of
 /// perception from one of decision.
 #[derive(Clone, Copy, Default)]
 pub struct PerceptionOverride<'a> {
     /// The elevation profile at an azimuth in the sensor frame.
     pub profile: Option<&'a dyn Fn(f64) -> Column>,
-    /// The ground around a place seen from above, in the world; `None` where it is unknown.
-    pub ground: Option<&'a dyn Fn(DVec2) -> Option<Plane>>,
+    /// The ground in place of the elevation window.
+    pub terrain: Option<TerrainOverride<'a>>,
 }

@@ -2,13 +2,35 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::config::SegmentConfig;
-use crate::decision::cost::Cost;
+use crate::config::{PlannerConfig, SegmentConfig};
 use crate::math::angle::wrap_rad;
 use crate::pose::Pose;
 use crate::route::forecast::Forecast;
 use crate::sensor_model::SensorModel;
+use crate::skyline::occupancy::LOWEST_ELEVATION_RAD;
 use crate::skyline::segments::{Segment, Verdict};
+
+/// The weighted terms of the cost J of one subgoal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// k_dir times the direction cost.
+    pub direction: f64,
+    /// k_dst times the distance cost.
+    pub distance: f64,
+    /// k_stp times the steepness cost.
+    pub steepness: f64,
+    /// Charge for turning away from the last choice.
+    pub commitment: f64,
+    /// Charge for the learned correction of the cost-to-go: how much farther the goal is from there than the straight line says.
+    pub correction: f64,
+}
+
+impl Cost {
+    /// J.
+    pub fn total(&self) -> f64 {
+        self.direction + self.distance + self.steepness + self.commitment + self.correction
+    }
+}
 
 /// Why a subgoal is not a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +64,7 @@ pub struct Subgoal {
 }
 
 /// Azimuths of a segment's subgoals: its centre or, from three times the least width on, n - 1 spread evenly.
-pub(crate) fn spread_azimuths(
+fn spread_azimuths(
     segment: &Segment,
     robot_width_m: f64,
     config: &SegmentConfig,
@@ -54,7 +76,7 @@ pub(crate) fn spread_azimuths(
 }
 
 /// Whether a segment may carry subgoals. Unknown ones may where only ground already seen is driven on.
-pub(crate) fn carries_subgoals(segment: &Segment, robot_width_m: f64, config: &SegmentConfig) -> bool {
+fn carries_subgoals(segment: &Segment, robot_width_m: f64, config: &SegmentConfig) -> bool {
     match segment.verdict {
         Verdict::Valid => true,
         Verdict::Unknown => {
@@ -62,6 +84,33 @@ pub(crate) fn carries_subgoals(segment: &Segment, robot_width_m: f64, config: &S
         }
         Verdict::TooNarrow | Verdict::TooSteep | Verdict::Wall => false,
     }
+}
+
+/// The subgoals of the segments, on the skyline at r_oc.
+pub(crate) fn on_segments<'a>(
+    config: &'a PlannerConfig,
+    pose: &'a Pose,
+    segments: &'a [Segment],
+) -> impl Iterator<Item = Subgoal> + use<'a> {
+    let (radius_m, width_m) = (config.perception.surface_radius_m, config.robot.width_m);
+    let carrying = segments.iter().enumerate();
+    let carrying = carrying.filter(move |(_, segment)| carries_subgoals(segment, width_m, &config.segments));
+    carrying.flat_map(move |(index, segment)| {
+        let elevation_rad = segment.elevation_rad.unwrap_or(LOWEST_ELEVATION_RAD);
+        spread_azimuths(segment, width_m, &config.segments).map(move |azimuth_rad| {
+            let skyline_m = world_position_m(pose, &config.sensor, azimuth_rad, elevation_rad, radius_m);
+            Subgoal {
+                segment: Some(index),
+                azimuth_rad,
+                elevation_rad,
+                position_m: skyline_m,
+                bearing_rad: bearing_rad(pose, skyline_m.truncate()),
+                forecast: None,
+                refusal: None,
+                cost: None,
+            }
+        })
+    })
 }
 
 /// The world position of the point at (azimuth, elevation, range) in the sensor frame: ᵂT_R g_R.
@@ -87,7 +136,6 @@ pub(crate) fn bearing_rad(pose: &Pose, point_m: DVec2) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::PlannerConfig;
     use proptest::prelude::*;
 
     fn segment(begin_rad: f64, extent_rad: f64) -> Segment {

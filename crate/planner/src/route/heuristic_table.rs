@@ -8,43 +8,37 @@
 use glam::{DVec2, IVec2};
 
 use crate::math::elementary::floor;
+use crate::pose::FrameChange;
+use crate::terrain::rolling_grid::RollingGrid;
 
 /// Places per side of the window that moves with the robot.
-const SIDE: i32 = 128;
+const SIDE: usize = 128;
 
-#[derive(Clone, Copy, Debug)]
-struct Known {
-    index: IVec2,
-    correction_m: f64,
-}
-
-/// How much farther the goal is from the places of the ways' lattice than the straight line says.
+/// How much farther the goal is from the places of the state lattice than the straight line says: the correction of the heuristic.
 #[derive(Clone, Debug)]
 pub(crate) struct HeuristicTable {
     step_m: f64,
-    known: Vec<Option<Known>>,
+    /// Corrections in metres.
+    corrections_m: RollingGrid<f64>,
 }
 
 impl HeuristicTable {
     /// For places `step_m` apart.
     pub(crate) fn new(step_m: f64) -> Self {
-        Self { step_m, known: vec![None; (SIDE * SIDE) as usize] }
+        Self { step_m, corrections_m: RollingGrid::new(SIDE) }
     }
 
     pub(crate) fn clear(&mut self) {
-        self.known.fill(None);
+        self.corrections_m.clear();
     }
 
     /// How much farther the goal is from the place nearest to a point than the straight line says, as far as is known.
     pub(crate) fn correction_m(&self, point_m: DVec2) -> f64 {
-        let index = self.index_of(point_m);
-        self.known[slot_of(index)]
-            .filter(|known| known.index == index)
-            .map_or(0.0, |known| known.correction_m)
+        self.corrections_m.get(self.index_of(point_m)).copied().unwrap_or(0.0)
     }
 
     /// How far the goal is from the place nearest to a point, as far as is known.
-    pub(crate) fn left_m(&self, point_m: DVec2, goal_m: DVec2) -> f64 {
+    pub(crate) fn cost_to_go_m(&self, point_m: DVec2, goal_m: DVec2) -> f64 {
         (goal_m - point_m).length() + self.correction_m(point_m)
     }
 
@@ -52,8 +46,7 @@ impl HeuristicTable {
     pub(crate) fn learn(&mut self, place_m: DVec2, goal_m: DVec2, to_goal_m: f64) {
         let correction_m = to_goal_m - (goal_m - place_m).length();
         if correction_m > self.correction_m(place_m) {
-            let index = self.index_of(place_m);
-            self.known[slot_of(index)] = Some(Known { index, correction_m });
+            self.corrections_m.set(self.index_of(place_m), correction_m);
         }
     }
 
@@ -65,26 +58,31 @@ impl HeuristicTable {
             for x in -reach..=reach {
                 let index = centre + IVec2::new(x, y);
                 let correction_m = self.correction_m(index.as_dvec2() * self.step_m) + by_m;
-                self.known[slot_of(index)] = Some(Known { index, correction_m });
+                self.corrections_m.set(index, correction_m);
             }
         }
     }
 
-    /// Takes a share of every detour.
+    /// Takes a share of every correction.
     pub(crate) fn scale(&mut self, share: f64) {
-        for known in self.known.iter_mut().flatten() {
-            known.correction_m *= share;
+        for correction_m in self.corrections_m.cells_mut() {
+            *correction_m *= share;
         }
+    }
+
+    /// Moves what was learned from one world frame to another.
+    pub(crate) fn relocalise(&mut self, change: &FrameChange) {
+        let mut moved = RollingGrid::new(SIDE);
+        for (index, &correction_m) in self.corrections_m.iter() {
+            moved.set(self.index_of(change.place_m(index.as_dvec2() * self.step_m)), correction_m);
+        }
+        self.corrections_m = moved;
     }
 
     fn index_of(&self, point_m: DVec2) -> IVec2 {
         let steps = point_m / self.step_m;
         IVec2::new(floor(steps.x + 0.5), floor(steps.y + 0.5))
     }
-}
-
-fn slot_of(index: IVec2) -> usize {
-    (index.y.rem_euclid(SIDE) * SIDE + index.x.rem_euclid(SIDE)) as usize
 }
 
 #[cfg(test)]
@@ -129,6 +127,6 @@ mod tests {
     fn a_place_far_away_does_not_answer_for_another() {
         let mut memory = HeuristicTable::new(STEP_M);
         memory.learn(HERE_M, GOAL_M, 1e3);
-        assert!(memory.correction_m(HERE_M + DVec2::new(f64::from(SIDE) * STEP_M, 0.0)) < 1e-12);
+        assert!(memory.correction_m(HERE_M + DVec2::new(SIDE as f64 * STEP_M, 0.0)) < 1e-12);
     }
 }

@@ -1,4 +1,4 @@
-//! StateLattice over the ground that the last scans saw: from where the robot stands to every place around it that it can reach
+//! Paths over the ground that the last scans saw: from where the robot stands to every place around it that it can reach
 //! within its tilt limits.
 //!
 //! Safety is the paper's: |roll| and |pitch| inside the robot's limits. The paper judges a subgoal by its height at
@@ -14,12 +14,13 @@ mod path;
 mod tests;
 
 use core::f64::consts::TAU;
+use core::time::Duration;
 
 use glam::DVec2;
 
 use crate::config::StateLatticeConfig;
 use crate::math::angle::wrap_rad;
-use crate::pose::Pose;
+use crate::pose::{FrameChange, Pose};
 use crate::robot_model::RobotModel;
 use crate::route::queue::BucketQueue;
 use crate::terrain::attitude::AttitudeEstimate;
@@ -32,11 +33,11 @@ pub(crate) use path::length_m;
 const FIRST_DIRECTIONS: usize = 64;
 /// A way joins the lattice at the places within this distance.
 const JOIN_M: f64 = 1.6;
-/// ElevationWindow is calm up to this share of the slope that a way may use at most, and steep from this one.
+/// Ground is calm up to this share of the slope that a way may use at most, and steep from this one.
 const CALM_SHARE: f64 = 0.8;
 const STEEP_SHARE: f64 = 0.6;
-/// A robot stands still after so many steps at the slow speed of steep ground; with no more than this share of the limits it is within them.
-const BRAKING_TICKS: f64 = 3.0;
+/// A robot stands still within this time at the slow speed of steep ground; up to this share of the limits it is within them.
+const BRAKING_TIME: Duration = Duration::from_millis(300);
 const MOST_SHARE: f64 = 0.98;
 /// Turning back on steep ground says that what lies this far ahead is steeper than it had looked.
 const MISTRUSTED_AHEAD_M: f64 = 0.5;
@@ -131,7 +132,7 @@ pub(crate) struct ReachedState {
 }
 
 impl StateLattice {
-    /// StateLattice within `radius_m`.
+    /// Paths within `radius_m`.
     pub(crate) fn new(config: StateLatticeConfig, limits: &RobotModel, radius_m: f64) -> Self {
         let traversability = TraversabilityMap::new(config, limits, radius_m);
         let states = traversability.count() * HEADINGS;
@@ -173,10 +174,10 @@ impl StateLattice {
     }
 
     /// Finds the ways from `pose` over the ground that was seen.
-    pub(crate) fn search(&mut self, ground: &dyn TerrainQuery, pose: &Pose) {
+    pub(crate) fn search(&mut self, ground: &dyn TerrainQuery, pose: &Pose, elapsed: Duration) {
         let moved_m = pose.plan_m() - self.here_m;
         self.here_m = pose.plan_m();
-        self.attitude.be_at(pose);
+        self.attitude.be_at(pose, elapsed);
         self.facing = (wrap_rad(pose.yaw_rad) / TAU * FIRST_DIRECTIONS as f64).round() as i32;
         if (self.changed_at_m - self.here_m).length() > SAME_PLACE_M {
             self.changes = 0;
@@ -189,7 +190,7 @@ impl StateLattice {
     /// Whether the robot stands steeper than even an escape may lead it, or would exceed a limit before it stands still: what it was told
     /// of the ground is not true.
     pub(crate) fn is_too_steep(&self) -> bool {
-        let stopped = self.attitude.slopes_within(BRAKING_TICKS);
+        let stopped = self.attitude.slopes_within(BRAKING_TIME);
         !self.attitude.slopes().within(self.traversability.most(), 0.0)
             || stopped.share_of(self.traversability.limits()) > MOST_SHARE
     }
@@ -204,7 +205,7 @@ impl StateLattice {
         self.standing_share() < CALM_SHARE && self.caution == Caution::Usual
     }
 
-    /// ElevationWindow ahead turned out steeper than it had looked, with the robot driving along the unit vector `travel`.
+    /// Ground ahead turned out steeper than it had looked, with the robot driving along the unit vector `travel`.
     pub(crate) fn meet_steeper_ground(&mut self, travel: DVec2) {
         self.traversability.surprise(self.here_m + travel * MISTRUSTED_AHEAD_M);
     }
@@ -215,7 +216,7 @@ impl StateLattice {
     }
 
     /// Searches the same ground anew, with less caution near the robot.
-    pub(crate) fn search_escape(&mut self) {
+    pub(crate) fn search_recovery(&mut self) {
         self.search_with(Caution::Escape);
     }
 
@@ -339,6 +340,14 @@ impl StateLattice {
     /// As much of a turn on the spot, anticlockwise, as makes the robot no steeper than a way may lead it.
     pub(crate) fn safe_turn_rad(&self, turn_rad: f64) -> f64 {
         self.attitude.safe_turn_rad(turn_rad, self.traversability.most())
+    }
+
+    /// Moves what is remembered from one world frame to another.
+    pub(crate) fn relocalise(&mut self, change: &FrameChange) {
+        self.here_m = change.place_m(self.here_m);
+        self.changed_at_m = change.place_m(self.changed_at_m);
+        self.traversability.relocalise(change);
+        self.stand();
     }
 
     /// Forgets the ground.

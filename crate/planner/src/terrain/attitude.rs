@@ -1,5 +1,7 @@
 //! How the robot stands, how that changes, and how it would stand if it turned.
 
+use core::time::Duration;
+
 use glam::DVec2;
 
 use crate::pose::Pose;
@@ -14,22 +16,23 @@ pub(crate) struct AttitudeEstimate {
     pub(crate) height_m: f64,
     /// Of the plane that it stands on, in the world.
     pub(crate) gradient: DVec2,
-    /// Slope ahead and to the left, and how much it has changed since the pose before.
+    /// Slope ahead and to the left, how much it has changed since the pose before, and how long ago that was.
     slope: DVec2,
     change: DVec2,
+    elapsed: Duration,
     is_known: bool,
 }
 
 impl AttitudeEstimate {
     /// The robot stands like this now.
-    pub(crate) fn be_at(&mut self, pose: &Pose) {
+    pub(crate) fn be_at(&mut self, pose: &Pose, elapsed: Duration) {
         let up = pose.world_from_robot().z_axis;
         let gradient = -up.truncate() / up.z;
         let (sin, cos) = libm::sincos(pose.yaw_rad);
         let ahead = DVec2::new(cos, sin);
         let slope = DVec2::new(gradient.dot(ahead), gradient.dot(ahead.perp()));
         let change = if self.is_known { slope - self.slope } else { DVec2::ZERO };
-        *self = Self { height_m: pose.position_m.z, gradient, slope, change, is_known: true };
+        *self = Self { height_m: pose.position_m.z, gradient, slope, change, elapsed, is_known: true };
     }
 
     /// Its slopes.
@@ -37,9 +40,13 @@ impl AttitudeEstimate {
         slopes(self.slope)
     }
 
-    /// Its slopes or, where those are steeper, what they come to after so many more steps of the same change.
-    pub(crate) fn slopes_within(&self, steps: f64) -> Slopes {
-        slopes(self.slope + steps * self.change).max(self.slopes())
+    /// Its slopes or, where those are steeper, what they come to within a time if they go on to change like this.
+    pub(crate) fn slopes_within(&self, time: Duration) -> Slopes {
+        if self.elapsed.is_zero() {
+            return self.slopes();
+        }
+        let times = time.as_nanos() as f64 / self.elapsed.as_nanos() as f64;
+        slopes(self.slope + times * self.change).max(self.slopes())
     }
 
     /// As much of a turn on the spot, anticlockwise, as keeps it within `allowed` or as steep as it stands, were the ground a plane.
@@ -68,11 +75,12 @@ mod tests {
     use core::f64::consts::{FRAC_PI_2, PI};
     use glam::DVec3;
 
+    const STEP: Duration = Duration::from_millis(100);
     const ALLOWED: Slopes = Slopes { across: 0.5, along: 0.9 };
 
     fn standing(roll_rad: f64, pitch_rad: f64, yaw_rad: f64) -> AttitudeEstimate {
         let mut standing = AttitudeEstimate::default();
-        standing.be_at(&Pose { position_m: DVec3::ZERO, roll_rad, pitch_rad, yaw_rad });
+        standing.be_at(&Pose::from_roll_pitch_yaw(DVec3::ZERO, roll_rad, pitch_rad, yaw_rad), STEP);
         standing
     }
 
@@ -108,11 +116,11 @@ mod tests {
             yaw_rad: 0.4,
         };
         let mut standing = AttitudeEstimate::default();
-        standing.be_at(&pose(0.3, 0.1));
-        assert_eq!(standing.slopes_within(5.0), standing.slopes(), "nothing is known to change yet");
+        standing.be_at(&pose(0.3, 0.1), STEP);
+        assert_eq!(standing.slopes_within(5 * STEP), standing.slopes(), "nothing is known to change yet");
         // Over a crest, with more roll than pitch all the time.
-        standing.be_at(&pose(0.3, 0.0));
-        let soon = standing.slopes_within(5.0);
+        standing.be_at(&pose(0.3, 0.0), STEP);
+        let soon = standing.slopes_within(5 * STEP);
         assert!(
             (soon.along - 0.5).abs() < 0.02 && (soon.across - standing.slopes().across).abs() < 0.05,
             "{soon:?}"

@@ -7,21 +7,22 @@
 mod cliffs;
 mod footprint;
 
+use core::time::Duration;
 use std::collections::VecDeque;
 
 use glam::{DVec2, DVec3, IVec2};
 
-use crate::config::{ElevationWindowConfig, PlannerConfig};
+use crate::config::{ElevationWindowConfig, PlannerConfig, WINDOW_CELLS};
 use crate::math::elementary::floor;
+use crate::pose::FrameChange;
 use crate::terrain::plane::{Moments, Plane};
+use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 use cliffs::{MOST_VIEWS, View};
 
-/// Cells per side of the window.
-pub(crate) const SIDE: usize = 96;
 /// Returns that a cell averages before new ones begin to outweigh old ones.
 const MOST_RETURNS: f64 = 30.0;
-/// ElevationWindow around a place that carries the robot: its four wheels are within the first distance. Where the rings of a
+/// Ground around a place that carries the robot: its four wheels are within the first distance. Where the rings of a
 /// scan lie further apart than that, a wider plane stands in.
 const FOOTPRINT_RADII_M: [f64; 3] = [0.5, 0.8, 1.2];
 
@@ -39,7 +40,7 @@ pub(crate) trait TerrainQuery {
     fn is_negative_obstacle(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool;
 }
 
-/// ElevationWindow of which the planes alone are known.
+/// Ground of which the planes alone are known.
 impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
     fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
         self(place_m)
@@ -56,8 +57,8 @@ impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
 
 #[derive(Clone, Copy, Debug)]
 struct ElevationCell {
-    index: IVec2,
-    seen_tick: u64,
+    /// When it was last seen, by the window's own time.
+    seen: Duration,
     returns: f64,
     mean_m: DVec3,
 }
@@ -68,8 +69,10 @@ pub(crate) struct ElevationWindow {
     config: ElevationWindowConfig,
     wheelbase_m: f64,
     track_m: f64,
-    tick: u64,
-    cells: Vec<Option<ElevationCell>>,
+    /// The time that has passed, of which [`ElevationWindowConfig::memory`] is remembered.
+    now: Duration,
+    memory: Duration,
+    cells: RollingGrid<ElevationCell>,
     /// From where the last scans were taken, the newest last.
     views: VecDeque<View>,
 }
@@ -77,39 +80,51 @@ pub(crate) struct ElevationWindow {
 impl ElevationWindow {
     pub(crate) fn new(config: &PlannerConfig) -> Self {
         let PlannerConfig { elevation_window, robot, .. } = *config;
-        let views = VecDeque::with_capacity(MOST_VIEWS);
         Self {
             config: elevation_window,
             wheelbase_m: robot.wheelbase_m,
             track_m: robot.track_m,
-            tick: 0,
-            cells: vec![None; SIDE * SIDE],
-            views,
+            now: Duration::ZERO,
+            memory: elevation_window.memory(),
+            cells: RollingGrid::new(WINDOW_CELLS),
+            views: VecDeque::with_capacity(MOST_VIEWS),
         }
     }
 
     pub(crate) fn clear(&mut self) {
-        self.cells.fill(None);
+        self.cells.clear();
         self.views.clear();
     }
 
     /// Starts a new scan; what is older than the memory will no longer be found.
-    pub(crate) fn advance(&mut self) {
-        self.tick += 1;
+    pub(crate) fn advance(&mut self, elapsed: Duration) {
+        self.now = self.now.saturating_add(elapsed);
     }
 
     /// Adds a point on the ground, in the world frame.
     pub(crate) fn add(&mut self, point_m: DVec3) {
         let index = self.index_of(point_m.truncate());
-        let tick = self.tick;
-        let slot = &mut self.cells[slot_of(index)];
-        match slot {
-            Some(cell) if cell.index == index && tick - cell.seen_tick <= self.config.memory_ticks => {
+        let (now, memory) = (self.now, self.memory);
+        match self.cells.get_mut(index) {
+            Some(cell) if now - cell.seen <= memory => {
                 cell.returns = (cell.returns + 1.0).min(MOST_RETURNS);
                 cell.mean_m += (point_m - cell.mean_m) * (1.0 / cell.returns);
-                cell.seen_tick = tick;
+                cell.seen = now;
             }
-            _ => *slot = Some(ElevationCell { index, seen_tick: tick, returns: 1.0, mean_m: point_m }),
+            _ => self.cells.set(index, ElevationCell { seen: now, returns: 1.0, mean_m: point_m }),
+        }
+    }
+
+    /// Moves all that is remembered from one world frame to another.
+    pub(crate) fn relocalise(&mut self, change: &FrameChange) {
+        let mut moved = RollingGrid::new(WINDOW_CELLS);
+        for (_, cell) in self.cells.iter().filter(|(_, cell)| self.is_fresh(cell)) {
+            let mean_m = change.point_m(cell.mean_m);
+            moved.set(self.index_of(mean_m.truncate()), ElevationCell { mean_m, ..*cell });
+        }
+        self.cells = moved;
+        for view in &mut self.views {
+            view.relocalise(change);
         }
     }
 
@@ -136,18 +151,13 @@ impl ElevationWindow {
     fn cells_near(&self, place_m: DVec2, radius_m: f64) -> impl Iterator<Item = &ElevationCell> {
         let reach = DVec2::splat(radius_m);
         let (low, high) = (self.index_of(place_m - reach), self.index_of(place_m + reach));
-        let rows = (low.y..=high.y).map(|y| (y, &self.cells[slot_of(IVec2::new(0, y))..][..SIDE]));
-        rows.flat_map(move |(y, row)| {
-            (low.x..=high.x).filter_map(move |x| {
-                let cell = row[slot_of(IVec2::new(x, 0))].as_ref()?;
-                let near = (cell.mean_m.truncate() - place_m).length_squared() <= radius_m * radius_m;
-                (near && cell.index == IVec2::new(x, y) && self.is_fresh(cell)).then_some(cell)
-            })
+        self.cells.between(low, high).filter(move |cell| {
+            (cell.mean_m.truncate() - place_m).length_squared() <= radius_m * radius_m && self.is_fresh(cell)
         })
     }
 
     fn is_fresh(&self, cell: &ElevationCell) -> bool {
-        self.tick - cell.seen_tick <= self.config.memory_ticks
+        self.now - cell.seen <= self.memory
     }
 
     fn index_of(&self, place_m: DVec2) -> IVec2 {
@@ -170,19 +180,15 @@ impl TerrainQuery for ElevationWindow {
     }
 }
 
-fn slot_of(index: IVec2) -> usize {
-    let side = SIDE as i32;
-    (index.y.rem_euclid(side) * side + index.x.rem_euclid(side)) as usize
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::STEP;
     use proptest::prelude::*;
 
     fn strewn(slope: DVec2, centre: DVec2) -> ElevationWindow {
         let mut ground = ElevationWindow::new(&PlannerConfig::default());
-        ground.advance();
+        ground.advance(STEP);
         for i in -20..=20 {
             for j in -20..=20 {
                 let place = centre + DVec2::new(f64::from(i), f64::from(j)) * 0.11;
@@ -210,8 +216,8 @@ mod tests {
         let mut ground = strewn(DVec2::ZERO, DVec2::ZERO);
         assert!(ground.plane_at(DVec2::new(6.0, 0.0)).is_none());
         assert!(ground.plane_at(DVec2::ZERO).is_some());
-        for _ in 0..=PlannerConfig::default().elevation_window.memory_ticks {
-            ground.advance();
+        for _ in 0..=3000 {
+            ground.advance(STEP);
         }
         assert!(ground.plane_at(DVec2::ZERO).is_none());
     }

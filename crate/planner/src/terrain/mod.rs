@@ -4,5 +4,6 @@ pub(crate) mod attitude;
 pub(crate) mod elevation_window;
 pub(crate) mod headings;
 pub mod plane;
+pub(crate) mod rolling_grid;
 pub(crate) mod slopes;
 pub(crate) mod traversability;

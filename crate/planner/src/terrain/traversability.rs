@@ -4,10 +4,12 @@ use glam::{DVec2, IVec2};
 
 use crate::config::StateLatticeConfig;
 use crate::math::elementary::floor;
+use crate::pose::FrameChange;
 use crate::robot_model::RobotModel;
 use crate::terrain::elevation_window::TerrainQuery;
 use crate::terrain::headings::{DIRECTIONS, HEADINGS, STEPS, passed};
 use crate::terrain::plane::Plane;
+use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 
 /// How careful a search is.
@@ -43,7 +45,7 @@ pub(crate) struct TraversabilityMap {
     centre: IVec2,
     places: Vec<Place>,
     /// The ground at each place of the world's lattice, by remainder of its index.
-    planes: Vec<Known>,
+    planes: RollingGrid<Known>,
     looks: i32,
     /// Places that turned out steeper than they had looked, the newest last.
     mistrusted: Vec<Mistrusted>,
@@ -71,7 +73,7 @@ const DOUBT_FADES_M: f64 = 20.0;
 const LEAST_DOUBT: f64 = 0.05;
 /// Places this near the border of the lattice are its horizon; those beside them lie on it, too.
 const HORIZON: i32 = 2;
-/// ElevationWindow that keeps no more than the margin for an escape, with this share of the deviations, is the last choice: it counts as this much
+/// Ground that keeps no more than the margin for an escape, with this share of the deviations, is the last choice: it counts as this much
 /// more risk.
 const TIGHT_SHARE: f64 = 0.5;
 const TIGHT_RISK: f64 = 2.0;
@@ -83,21 +85,11 @@ const WHEELS_DEVIATION: f64 = 0.05;
 /// What was last found at a place of the world's lattice.
 #[derive(Clone, Copy, Debug)]
 struct Known {
-    index: IVec2,
     plane: Option<Plane>,
     /// On the wheels, for each axis of travel.
     footprint_slopes: [Option<Slopes>; HEADINGS / 2],
     /// Under a wheel there is nothing, as it would have been seen, or the ground drops off.
     is_negative_obstacle: bool,
-}
-
-impl Known {
-    const NOTHING: Self = Self {
-        index: IVec2::MAX,
-        plane: None,
-        footprint_slopes: [None; HEADINGS / 2],
-        is_negative_obstacle: false,
-    };
 }
 
 /// A place is looked at anew after so many looks: the ground stands still, and a robot drives a step in this time.
@@ -117,7 +109,7 @@ impl TraversabilityMap {
             half,
             centre: IVec2::ZERO,
             places: vec![UNKNOWN; side * side],
-            planes: vec![Known::NOTHING; side * side],
+            planes: RollingGrid::new(side),
             looks: 0,
             mistrusted: Vec::with_capacity(MOST_MISTRUSTED),
         }
@@ -128,9 +120,17 @@ impl TraversabilityMap {
         self.most = Slopes::of_limits(&self.tilt_limits, least_margin_rad);
     }
 
+    /// Moves what is remembered from one world frame to another; the ground is looked at anew.
+    pub(crate) fn relocalise(&mut self, change: &FrameChange) {
+        self.planes.clear();
+        for mistrusted in &mut self.mistrusted {
+            mistrusted.place_m = change.place_m(mistrusted.place_m);
+        }
+    }
+
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
-        self.planes.fill(Known::NOTHING);
+        self.planes.clear();
         self.looks = 0;
         self.mistrusted.clear();
     }
@@ -190,20 +190,19 @@ impl TraversabilityMap {
                     continue;
                 }
                 let world = self.centre + offset;
-                let slot = self.slot(world);
                 let due = (world.x + 2 * world.y).rem_euclid(LOOKS) == self.looks;
-                if due || self.planes[slot].index != world {
+                let before = self.planes.get(world);
+                if due || before.is_none() {
+                    let was_negative_obstacle = before.is_some_and(|known| known.is_negative_obstacle);
                     let place_m = self.position_m(offset);
                     let plane = ground.plane_at(place_m);
-                    let footprint_slopes = plane.map_or(Known::NOTHING.footprint_slopes, |plane| {
+                    let footprint_slopes = plane.map_or([None; HEADINGS / 2], |plane| {
                         DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
                     });
-                    let was_negative_obstacle =
-                        self.planes[slot].index == world && self.planes[slot].is_negative_obstacle;
                     let is_negative_obstacle = self.config.avoids_edges
                         && footprint_slopes.iter().any(Option::is_none)
                         && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
-                    self.planes[slot] = Known { index: world, plane, footprint_slopes, is_negative_obstacle };
+                    self.planes.set(world, Known { plane, footprint_slopes, is_negative_obstacle });
                 }
             }
         }
@@ -213,10 +212,10 @@ impl TraversabilityMap {
     pub(crate) fn judge(&mut self, here_m: DVec2, caution: Caution) {
         for index in 0..self.places.len() {
             let offset = self.offset(index);
-            let known = self.planes[self.slot(self.centre + offset)];
+            let known = self.planes.get(self.centre + offset).copied();
             let is_at_cliff = self.config.avoids_edges && self.is_beside_missing(offset);
-            self.places[index] = match known.plane {
-                Some(plane) if known.index == self.centre + offset => {
+            self.places[index] = match known.and_then(|known| Some((known.plane?, known.footprint_slopes))) {
+                Some((plane, footprint_slopes)) => {
                     let place_m = self.position_m(offset);
                     let away_m = (place_m - here_m).length();
                     let mistrust = match caution {
@@ -225,7 +224,7 @@ impl TraversabilityMap {
                         Caution::Escape => self.mistrust_risk(place_m).min(MISTRUST_RISK),
                     };
                     let deviations = self.deviations_at(place_m);
-                    let risk = self.risk_of(&plane, &known.footprint_slopes, caution, away_m, deviations);
+                    let risk = self.risk_of(&plane, &footprint_slopes, caution, away_m, deviations);
                     let falls = if is_at_cliff { f32::INFINITY } else { 0.0 };
                     Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust + falls), is_at_cliff }
                 }
@@ -236,11 +235,8 @@ impl TraversabilityMap {
 
     /// Whether the ground is missing at a place or beside it: the robot is wider than its wheels, and keeps to a way by half a step.
     fn is_beside_missing(&self, offset: IVec2) -> bool {
-        around(offset).any(|offset| {
-            let world = self.centre + offset;
-            let known = &self.planes[self.slot(world)];
-            known.index == world && known.is_negative_obstacle
-        })
+        around(self.centre + offset)
+            .any(|world| self.planes.get(world).is_some_and(|known| known.is_negative_obstacle))
     }
 
     fn risk_of(
@@ -295,11 +291,6 @@ impl TraversabilityMap {
         self.places.len()
     }
 
-    fn slot(&self, world: IVec2) -> usize {
-        let side = self.side();
-        (world.y.rem_euclid(side) * side + world.x.rem_euclid(side)) as usize
-    }
-
     fn side(&self) -> i32 {
         2 * self.half + 1
     }
@@ -350,8 +341,10 @@ impl TraversabilityMap {
         !place.is_at_cliff
             && place.plane.is_none_or(|plane| {
                 plane.gradient_deviation > GUESS_DEVIATION
-                    && self.planes[self.slot(self.centre + offset)].footprint_slopes[heading % (HEADINGS / 2)]
-                        .is_none()
+                    && self
+                        .planes
+                        .get(self.centre + offset)
+                        .is_none_or(|known| known.footprint_slopes[heading % (HEADINGS / 2)].is_none())
                     && self.risk(offset, heading).is_infinite()
             })
     }

@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 use js_sys::{Float32Array, Uint8Array};
+use mapless::Status;
 use mapless::skyline::occupancy::RINGS;
-use mapless::{Navigator as _, Status, StopReason};
+use mapless_trials::{Navigator as _, NavigatorStop};
 use mapless_world::SensorPose;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -75,7 +76,7 @@ impl Session {
 
     /// Why the planner stopped, where it did.
     pub fn stop_reason(&self) -> Option<String> {
-        self.now.trial.stop_reason().map(|reason: StopReason| reason.to_string())
+        self.now.trial.stop_reason().map(|reason: NavigatorStop| reason.to_string())
     }
 
     /// Digest of the trajectory so far.

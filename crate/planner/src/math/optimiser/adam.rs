@@ -52,7 +52,7 @@ pub(super) fn maximise(start: Place, bounds: &Bounds, budget: u32, mut objective
         }
         stalled += 1;
         if stalled > PATIENCE {
-            // BacktrackCommand to the best place, with shorter steps and no momentum.
+            // Back to the best place, with shorter steps and no momentum.
             rate *= 0.5;
             stalled = 0;
             here.x.copy_from_slice(&best.x);

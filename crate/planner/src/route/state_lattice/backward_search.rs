@@ -11,7 +11,7 @@ const NEAR_M: f64 = 1.2;
 impl StateLattice {
     /// Every place that was reached, and how far the goal is from there by the best of the ways on, back from the `ends` and what is
     /// left from each. With the prices the same in both directions, steps back are steps.
-    pub(crate) fn remaining(
+    pub(crate) fn backward_search(
         &mut self,
         ends: &[(ReachedState, f64)],
         tilt_price: f64,

@@ -9,7 +9,7 @@ use super::{BEGIN, FIRST_DIRECTIONS, FIRST_STEP_M, First, JOIN_M, MILLIMETRES, S
 use crate::terrain::headings::{HEADINGS, nearest};
 use crate::terrain::slopes::Slopes;
 
-/// ElevationWindow known no farther than this from the robot may be that under its wheels alone.
+/// Ground known no farther than this from the robot may be that under its wheels alone.
 const WHEELS_M: f64 = 1.25;
 /// Beginnings within an eighth of a circle of each other are the same.
 const SAME_COSINE: f64 = FRAC_1_SQRT_2;

@@ -1,4 +1,4 @@
-//! ElevationWindow that was not seen, between ground that was.
+//! Ground that was not seen, between ground that was.
 
 use glam::{DVec2, IVec2};
 
@@ -41,7 +41,7 @@ impl StateLattice {
     }
 }
 
-/// ElevationWindow under a place on a straight line.
+/// Ground under a place on a straight line.
 pub(super) struct Station {
     pub(super) distance_m: f64,
     pub(super) height_m: f64,

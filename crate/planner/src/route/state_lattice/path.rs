@@ -1,5 +1,7 @@
 //! What was found: how far the ways reach, where each leads, and what to head for on it.
 
+use core::time::Duration;
+
 use glam::DVec2;
 
 use super::{BEGIN, FIRST_STEP_M, MILLIMETRES, PathPoint, ReachedState, StateLattice, UNREACHED};
@@ -10,8 +12,8 @@ use crate::terrain::slopes::Slopes;
 /// The robot minds what lies this far ahead; ground that was not seen, or is not safe, counts as this share of the tilt limits.
 const AHEAD_M: f64 = 1.0;
 const BLIND_SHARE: f64 = 0.75;
-/// How many steps of the same change of its attitude the robot is ready for.
-const GETS_STEEPER_TICKS: f64 = 5.0;
+/// For how long the robot is ready for its attitude to go on changing as it does.
+const GETS_STEEPER_TIME: Duration = Duration::from_millis(500);
 
 /// How long a way is.
 pub(crate) fn length_m(path: &[PathPoint]) -> f64 {
@@ -165,18 +167,18 @@ impl StateLattice {
 
     /// The share of the tilt limits that the robot takes up or soon will where it is, in slope: ground that gets steeper fast may go on to
     /// do so.
-    pub(crate) fn share_here(&self) -> f64 {
-        self.attitude.slopes_within(GETS_STEEPER_TICKS).share_of(self.traversability.limits())
+    pub(crate) fn utilisation_here(&self) -> f64 {
+        self.attitude.slopes_within(GETS_STEEPER_TIME).share_of(self.traversability.limits())
     }
 
     /// The share of the tilt limits that the robot takes up or soon will, in slope: on a way, and straight to what it heads for, which may lie
     /// elsewhere.
-    pub(crate) fn share_ahead(&self, path: &[PathPoint], ahead: &PathPoint) -> f64 {
+    pub(crate) fn utilisation_ahead(&self, path: &[PathPoint], ahead: &PathPoint) -> f64 {
         let here = PathPoint { position_m: self.here_m, ..*ahead };
-        self.share_here().max(self.share_along(path)).max(self.share_along(&[here, *ahead]))
+        self.utilisation_here().max(self.utilisation_along(path)).max(self.utilisation_along(&[here, *ahead]))
     }
 
-    fn share_along(&self, path: &[PathPoint]) -> f64 {
+    fn utilisation_along(&self, path: &[PathPoint]) -> f64 {
         let mut share = 0.0_f64;
         for leg in path.windows(2) {
             let (from_m, path_m) = (leg[0].position_m, leg[1].position_m - leg[0].position_m);

@@ -8,6 +8,8 @@ use crate::config::PlannerConfig;
 use crate::route::forecast::ReachEnd;
 use crate::terrain::plane::Plane;
 
+const STEP: Duration = Duration::from_millis(100);
+
 fn lattice() -> StateLattice {
     let config = PlannerConfig::default();
     StateLattice::new(config.state_lattice, &config.robot, 7.0)
@@ -42,7 +44,7 @@ fn set_out(lattice: &mut StateLattice, goal_m: DVec2, path: &mut Vec<PathPoint>)
 #[test]
 fn on_level_ground_the_way_is_straight() {
     let mut lattice = lattice();
-    lattice.search(&level, &pose(0.0, 0.0));
+    lattice.search(&level, &pose(0.0, 0.0), STEP);
     let mut path = Vec::new();
     for goal_m in [DVec2::new(6.0, 0.0), DVec2::new(0.0, -5.0), DVec2::new(-4.0, 3.0)] {
         let forecast = lattice.follow(lattice.to(goal_m).unwrap(), &mut path);
@@ -57,7 +59,7 @@ fn on_level_ground_the_way_is_straight() {
 #[test]
 fn a_way_leads_around_what_is_too_steep() {
     let mut lattice = lattice();
-    lattice.search(&bank, &pose(0.0, 0.0));
+    lattice.search(&bank, &pose(0.0, 0.0), STEP);
     let beyond_m = DVec2::new(5.0, 0.0);
     let mut path = Vec::new();
     let forecast = lattice.follow(lattice.to(beyond_m).unwrap(), &mut path);
@@ -86,7 +88,7 @@ fn a_way_leads_around_a_knoll_that_it_could_cross() {
         let config = StateLatticeConfig { tilt_price: 0.0, climb_price, ..StateLatticeConfig::default() };
         let mut lattice = StateLattice::new(config, &limits, 7.0);
         lattice.scale_slope_cost(share);
-        lattice.search(&knoll, &pose(0.0, 0.0));
+        lattice.search(&knoll, &pose(0.0, 0.0), STEP);
         let mut path = Vec::new();
         let forecast = lattice.follow(lattice.to(DVec2::new(6.0, 0.0)).unwrap(), &mut path);
         (forecast, lattice.lookahead(&path).position_m)
@@ -100,13 +102,13 @@ fn a_way_leads_around_a_knoll_that_it_could_cross() {
 fn the_reach_ends_before_what_is_steep_or_unseen_and_says_which() {
     let mut lattice = lattice();
     let wall = |place_m: DVec2| plane(place_m, DVec2::new(if place_m.x > 3.1 { 2.0 } else { 0.0 }, 0.0));
-    lattice.search(&wall, &pose(0.0, 0.0));
+    lattice.search(&wall, &pose(0.0, 0.0), STEP);
     let (reach_m, end) = lattice.reach_along(DVec2::X, 7.0);
     assert_eq!(end, ReachEnd::Tilt);
     assert!((1.5..2.6).contains(&reach_m), "{reach_m}");
     lattice.clear();
     let edge = |place_m: DVec2| level(place_m).filter(|_| place_m.x < 3.1);
-    lattice.search(&edge, &pose(0.0, 0.0));
+    lattice.search(&edge, &pose(0.0, 0.0), STEP);
     assert_eq!(lattice.reach_along(DVec2::X, 7.0).1, ReachEnd::Unseen);
 }
 
@@ -120,19 +122,19 @@ fn ground_that_no_beam_reaches_is_bridged_unless_its_ends_say_it_is_steep() {
         }
     };
     let mut lattice = lattice();
-    lattice.search(&ring(0.2), &pose(0.0, 0.0));
+    lattice.search(&ring(0.2), &pose(0.0, 0.0), STEP);
     let mut path = Vec::new();
     lattice.follow(lattice.to(DVec2::new(5.0, 0.0)).unwrap(), &mut path);
     assert!(
-        (lattice.share_ahead(&path, path.last().unwrap()) - 0.75).abs() < 1e-12,
+        (lattice.utilisation_ahead(&path, path.last().unwrap()) - 0.75).abs() < 1e-12,
         "what is not seen is driven on with care"
     );
     lattice.clear();
-    lattice.search(&level, &pose(0.0, 0.0));
+    lattice.search(&level, &pose(0.0, 0.0), STEP);
     lattice.follow(lattice.to(DVec2::new(5.0, 0.0)).unwrap(), &mut path);
-    assert!(lattice.share_ahead(&path, path.last().unwrap()) < 1e-12);
+    assert!(lattice.utilisation_ahead(&path, path.last().unwrap()) < 1e-12);
     lattice.clear();
-    lattice.search(&ring(3.0), &pose(0.0, 0.0));
+    lattice.search(&ring(3.0), &pose(0.0, 0.0), STEP);
     assert!(lattice.to(DVec2::new(5.0, 0.0)).is_none());
 }
 
@@ -140,7 +142,7 @@ fn ground_that_no_beam_reaches_is_bridged_unless_its_ends_say_it_is_steep() {
 fn on_a_slope_too_steep_to_turn_on_the_way_back_is_in_reverse() {
     let steep = DVec2::new(libm::tan(0.6), 0.0);
     let mut lattice = lattice();
-    lattice.search(&|place_m| plane(place_m, steep), &pose(0.0, 0.6));
+    lattice.search(&|place_m| plane(place_m, steep), &pose(0.0, 0.6), STEP);
     assert!(!lattice.may_turn_around());
     let mut path = Vec::new();
     lattice.follow(lattice.to(DVec2::new(-4.0, 0.0)).unwrap(), &mut path);
@@ -156,11 +158,11 @@ fn a_turn_keeps_the_least_margin_in_roll_and_in_pitch() {
     let mut lattice = lattice();
     // Half-way between up and down a slope the robot rolls.
     for (excess_rad, may_turn) in [(-0.01, true), (0.01, false)] {
-        lattice.search(&level, &pose(0.0, limits.roll_limit_rad - least_rad + excess_rad));
+        lattice.search(&level, &pose(0.0, limits.roll_limit_rad - least_rad + excess_rad), STEP);
         assert_eq!(lattice.may_turn_around(), may_turn);
     }
     // Inside both limits, on a slope that is steeper than either: only towards its foot does the pitch grow.
-    lattice.search(&level, &pose(0.28, -0.70));
+    lattice.search(&level, &pose(0.28, -0.70), STEP);
     let down_m = -lattice.attitude.gradient;
     assert!(down_m.length() > libm::tan(limits.pitch_limit_rad - least_rad));
     assert!(!lattice.may_turn_to(down_m));
@@ -178,7 +180,7 @@ fn ground_with_the_least_margin_is_crossed_where_nothing_else_leads_on() {
     let mut path = Vec::new();
     for (half_width_m, crosses) in [(2.0, false), (20.0, true)] {
         let mut lattice = lattice();
-        lattice.search(&|place_m| slope(place_m, half_width_m), &pose(0.0, 0.0));
+        lattice.search(&|place_m| slope(place_m, half_width_m), &pose(0.0, 0.0), STEP);
         lattice.follow(lattice.to(DVec2::new(5.0, 0.0)).unwrap(), &mut path);
         let steep_places =
             path.iter().filter(|point| slope(point.position_m, half_width_m).unwrap().gradient.x > 0.1);
@@ -191,7 +193,7 @@ fn the_frontier_is_where_what_was_seen_ends_and_not_right_here() {
     let mut lattice = lattice();
     let edge = |place_m: DVec2| level(place_m).filter(|_| place_m.x < 3.1);
     let here_m = DVec3::new(2.0, 0.0, 0.0);
-    lattice.search(&edge, &Pose { position_m: here_m, ..pose(0.0, 0.0) });
+    lattice.search(&edge, &Pose { position_m: here_m, ..pose(0.0, 0.0) }, STEP);
     let frontier: Vec<DVec2> = lattice.frontier().map(|(_, place_m)| place_m).collect();
     assert!(frontier.iter().any(|place_m| place_m.x > 2.9 && place_m.y.abs() < 2.0), "{frontier:?}");
     for place_m in &frontier {
@@ -210,9 +212,9 @@ fn what_remains_leads_out_of_a_pocket_and_grows_towards_its_end() {
     };
     let goal_m = DVec2::new(20.0, 0.0);
     let mut lattice = lattice();
-    lattice.search(&pocket, &pose(0.0, 0.0));
+    lattice.search(&pocket, &pose(0.0, 0.0), STEP);
     let ends: Vec<_> = lattice.frontier().map(|(end, place_m)| (end, (goal_m - place_m).length())).collect();
-    let remaining: Vec<(DVec2, f64)> = lattice.remaining(&ends, 2.0, 1.0).collect();
+    let remaining: Vec<(DVec2, f64)> = lattice.backward_search(&ends, 2.0, 1.0).collect();
     let left_m = |place_m: DVec2| remaining.iter().find(|(other_m, _)| *other_m == place_m).unwrap().1;
     // Out, along a side, and on: 2.5 m back, some 4 m aside, and then as far as from there.
     let out_m = (DVec2::new(-2.5, 3.5) - goal_m).length() + 2.5 + 3.5;
@@ -230,13 +232,13 @@ fn what_turned_out_steeper_than_told_is_left_aside() {
     let mut path = Vec::new();
     let goal_m = DVec2::new(4.0, 0.0);
     // The map says level, the robot feels 43.5°.
-    lattice.search(&level, &pose(0.0, 0.76));
+    lattice.search(&level, &pose(0.0, 0.76), STEP);
     assert!(lattice.is_too_steep());
     lattice.meet_steeper_ground(DVec2::X);
     let back = Pose { position_m: DVec3::new(-1.0, 0.0, 0.0), ..pose(0.0, 0.0) };
     // Once it is there and stays.
     for _ in 0..2 {
-        lattice.search(&level, &back);
+        lattice.search(&level, &back, STEP);
     }
     assert!(!lattice.is_too_steep() && lattice.is_calm());
     lattice.follow(lattice.to(goal_m).unwrap(), &mut path);
@@ -246,10 +248,10 @@ fn what_turned_out_steeper_than_told_is_left_aside() {
 
 #[test]
 fn ground_that_looks_alike_is_left_aside_near_a_surprise_and_for_a_while() {
-    // ElevationWindow that keeps its margin with its deviation, and not with twice that; a way on it costs more where it is doubted.
+    // Ground that keeps its margin with its deviation, and not with twice that; a way on it costs more where it is doubted.
     let rough = |_: DVec2| Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.25 });
     let risk = |lattice: &mut StateLattice, y_m: f64| {
-        lattice.search(&rough, &Pose { position_m: DVec3::new(0.0, y_m, 0.0), ..pose(0.0, 0.0) });
+        lattice.search(&rough, &Pose { position_m: DVec3::new(0.0, y_m, 0.0), ..pose(0.0, 0.0) }, STEP);
         let reached = lattice.to(DVec2::new(4.0, y_m))?;
         Some(lattice.follow(reached, &mut Vec::new()).mean_risk)
     };
@@ -276,11 +278,11 @@ fn ground_that_gets_steeper_fast_slows_the_robot_before_it_is_steep() {
     let mut shares = [0.0; 2];
     for (share, pitches_rad) in shares.iter_mut().zip([[0.10, 0.15], [0.15, 0.15]]) {
         for pitch_rad in pitches_rad {
-            lattice.search(&level, &pose(0.0, -pitch_rad));
+            lattice.search(&level, &pose(0.0, -pitch_rad), STEP);
         }
         set_out(&mut lattice, DVec2::new(4.0, 0.0), &mut path);
         let ahead = lattice.lookahead(&path);
-        *share = lattice.share_ahead(&path, &ahead);
+        *share = lattice.utilisation_ahead(&path, &ahead);
     }
     assert!((shares[1] - libm::tan(0.15)).abs() < 0.01 && shares[0] > shares[1] + 0.2, "{shares:?}");
 }
@@ -289,12 +291,12 @@ fn ground_that_gets_steeper_fast_slows_the_robot_before_it_is_steep() {
 fn a_robot_that_finishes_its_metre_minds_the_ground_there_and_not_only_that_on_its_way() {
     let mut lattice = lattice();
     let mut path = Vec::new();
-    lattice.search(&bank, &Pose { position_m: DVec3::new(1.2, 0.0, 0.0), ..pose(0.0, 0.0) });
+    lattice.search(&bank, &Pose { position_m: DVec3::new(1.2, 0.0, 0.0), ..pose(0.0, 0.0) }, STEP);
     set_out(&mut lattice, DVec2::new(-4.0, 0.0), &mut path);
     let ahead = lattice.lookahead(&path);
-    assert!(lattice.share_ahead(&path, &ahead) < 0.1, "behind it all is level");
+    assert!(lattice.utilisation_ahead(&path, &ahead) < 0.1, "behind it all is level");
     let on_the_bank = PathPoint { position_m: DVec2::new(2.2, 0.0), ..ahead };
-    assert!(lattice.share_ahead(&path, &on_the_bank) > 0.7);
+    assert!(lattice.utilisation_ahead(&path, &on_the_bank) > 0.7);
 }
 
 #[test]
@@ -306,11 +308,11 @@ fn what_was_steeper_than_told_is_tried_again_where_nothing_else_leads_on() {
     let goal_m = DVec2::new(4.0, 0.0);
     let mut costs_m = Vec::new();
     for _ in 0..3 {
-        lattice.search(&corridor, &Pose { position_m: DVec3::new(-1.0, 0.0, 0.0), ..pose(0.0, 0.0) });
+        lattice.search(&corridor, &Pose { position_m: DVec3::new(-1.0, 0.0, 0.0), ..pose(0.0, 0.0) }, STEP);
         set_out(&mut lattice, goal_m, &mut path);
         costs_m.push(path.last().unwrap().cost_m);
-        lattice.search(&corridor, &pose(0.0, 0.76));
-        lattice.search_escape();
+        lattice.search(&corridor, &pose(0.0, 0.76), STEP);
+        lattice.search_recovery();
         set_out(&mut lattice, DVec2::new(-1.0, 0.0), &mut path);
     }
     let dearer_m = [costs_m[1] - costs_m[0], costs_m[2] - costs_m[1]];
@@ -330,7 +332,7 @@ fn what_costs_a_change_is_not_done_for_less() {
     let mut path = Vec::new();
     let mut sides = [0.0; 2];
     for side in &mut sides {
-        lattice.search(&post, &pose(0.0, 0.0));
+        lattice.search(&post, &pose(0.0, 0.0), STEP);
         let ahead = set_out(&mut lattice, DVec2::new(6.0, 0.0), &mut path);
         *side = ahead.position_m.y.signum();
     }
@@ -344,12 +346,12 @@ fn each_change_of_mind_nearby_makes_the_next_one_dearer() {
     let (ahead_m, behind_m) = (DVec2::X, -DVec2::X);
     // What it costs to begin straight to a place, before a search finds that it may go on a little and turn there.
     let mut begin_to = |place_m: DVec2, here_m: DVec3| {
-        lattice.search(&level, &Pose { position_m: here_m, ..pose(0.0, 0.0) });
+        lattice.search(&level, &Pose { position_m: here_m, ..pose(0.0, 0.0) }, STEP);
         lattice.costs_mm.fill(UNREACHED);
         lattice.begin();
         let reached = lattice.to(here_m.truncate() + place_m).unwrap();
         let cost_m = f64::from(lattice.costs_mm[reached.state as usize]) / MILLIMETRES;
-        lattice.search(&level, &Pose { position_m: here_m, ..pose(0.0, 0.0) });
+        lattice.search(&level, &Pose { position_m: here_m, ..pose(0.0, 0.0) }, STEP);
         set_out(&mut lattice, here_m.truncate() + 4.0 * place_m, &mut path);
         cost_m
     };
@@ -371,7 +373,7 @@ fn it_finishes_the_metre_it_set_out_on_unless_that_is_not_safe_any_more() {
     let mut path = Vec::new();
     let at = |x_m: f64| Pose { position_m: DVec3::new(x_m, 0.0, 0.0), ..pose(0.0, 0.0) };
     let mut heads_for = |ground: &dyn TerrainQuery, here_x_m: f64, goal_x_m: f64| {
-        lattice.search(ground, &at(here_x_m));
+        lattice.search(ground, &at(here_x_m), STEP);
         set_out(&mut lattice, DVec2::new(goal_x_m, 0.0), &mut path).position_m.x
     };
     let ahead = |x_m: f64| (x_m - 1.0).abs() < 1e-9;
@@ -385,10 +387,10 @@ fn it_finishes_the_metre_it_set_out_on_unless_that_is_not_safe_any_more() {
     // Steep from 0.7 m on: seen too late for the metre.
     let brink = |place_m: DVec2| plane(place_m, DVec2::X * if place_m.x > 0.7 { 2.0 } else { 0.0 });
     let mut lattice = super::tests::lattice();
-    lattice.search(&level, &at(0.0));
+    lattice.search(&level, &at(0.0), STEP);
     set_out(&mut lattice, DVec2::new(4.0, 0.0), &mut path);
     lattice.clear();
-    lattice.search(&brink, &at(0.0));
+    lattice.search(&brink, &at(0.0), STEP);
     assert!(set_out(&mut lattice, DVec2::new(-4.0, 0.0), &mut path).position_m.x < 0.0);
 }
 
@@ -396,7 +398,7 @@ fn it_finishes_the_metre_it_set_out_on_unless_that_is_not_safe_any_more() {
 fn a_place_too_near_to_drive_to_is_where_it_stands() {
     let mut lattice = lattice();
     let here_m = DVec2::new(0.1, -0.2);
-    lattice.search(&level, &Pose { position_m: here_m.extend(0.0), ..pose(0.0, 0.0) });
+    lattice.search(&level, &Pose { position_m: here_m.extend(0.0), ..pose(0.0, 0.0) }, STEP);
     let mut path = Vec::new();
     assert!((lattice.cost_m(lattice.to(DVec2::ZERO).unwrap()) - here_m.length()).abs() < 2e-3);
     for goal_m in [DVec2::new(2.0, 0.0), DVec2::new(-1.0, 1.5)] {
@@ -418,7 +420,7 @@ fn what_is_guessed_to_be_steep_is_bridged_as_what_is_not_seen() {
     };
     for (deviation, bridged) in [(0.4, true), (0.14, false)] {
         let mut lattice = lattice();
-        lattice.search(&flank(deviation), &pose(0.0, 0.0));
+        lattice.search(&flank(deviation), &pose(0.0, 0.0), STEP);
         assert_eq!(lattice.to(DVec2::new(5.0, 0.0)).is_some(), bridged, "{deviation}");
     }
 }
@@ -431,7 +433,7 @@ fn a_smaller_margin_opens_what_is_a_little_steeper() {
         |place_m: DVec2| plane(place_m, DVec2::X * if (1.9..3.1).contains(&place_m.x) { 1.03 } else { 0.0 });
     let mut reaches = |margin_rad: f64| {
         lattice.keep_margin(margin_rad);
-        lattice.search(&bank, &pose(0.0, 0.0));
+        lattice.search(&bank, &pose(0.0, 0.0), STEP);
         lattice.to(DVec2::new(5.0, 0.0)).is_some()
     };
     assert!(!reaches(0.06) && reaches(0.03) && !reaches(0.06));
@@ -458,7 +460,7 @@ proptest! {
             Some(Plane { height_m, gradient: gradient(place_m), gradient_deviation: 0.0 })
         };
         let mut lattice = lattice();
-        lattice.search(&ground, &pose(0.0, 0.0));
+        lattice.search(&ground, &pose(0.0, 0.0), STEP);
         let (sin, cos) = libm::sincos(bearing);
         let Some(reached) = lattice.to(DVec2::new(cos, sin) * 6.0) else { return Ok(()) };
         let mut path = Vec::new();

@@ -1,11 +1,14 @@
-//! ElevationWindow that was looked at and is not there.
+//! Ground that was looked at and is not there.
 //!
 //! A scan says nothing of an edge but that no returns come from beyond it, and a plane through the ground before it goes on where
 //! there is none. But ground that went on would have been seen while the robot came nearer.
 
+use core::time::Duration;
+
 use glam::{DVec2, DVec3};
 
 use super::{ElevationWindow, FOOTPRINT_RADII_M};
+use crate::pose::FrameChange;
 use crate::skyline::occupancy::LOWEST_ELEVATION_RAD;
 use crate::terrain::plane::Plane;
 
@@ -15,11 +18,11 @@ const SPACING_M: f64 = 0.25;
 pub(super) const MOST_VIEWS: usize = 256;
 /// What was in so many views was swept over by a ring.
 const FEWEST_VIEWS: usize = 3;
-/// ElevationWindow is surely in view up to this distance, this far above the lowest beam, and where the beams meet it no flatter than this.
+/// Ground is surely in view up to this distance, this far above the lowest beam, and where the beams meet it no flatter than this.
 const SURELY_SEEN_M: f64 = 4.5;
 const ABOVE_LOWEST_RAD: f64 = 0.02;
 const LEAST_INCIDENCE: f64 = 0.1;
-/// ElevationWindow that rises like this hides what follows, be it as level as a ramp's end.
+/// Ground that rises like this hides what follows, be it as level as a ramp's end.
 const RISING_SLOPE: f64 = 0.1;
 
 /// What is as near as this to the robot and was in view was seen under all wheels, or it is not there.
@@ -41,7 +44,7 @@ const DROP_SLOPE: f64 = 1.2;
 /// Where the sensor was.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
-    tick: u64,
+    taken: Duration,
     sensor_m: DVec3,
     up: DVec3,
 }
@@ -49,15 +52,15 @@ pub(super) struct View {
 impl ElevationWindow {
     /// The scan was taken from here, by a sensor whose axis is the unit vector `up`.
     pub(crate) fn looked_from(&mut self, sensor_m: DVec3, up: DVec3) {
-        let (tick, memory_ticks) = (self.tick, self.config.memory_ticks);
-        self.views.retain(|view| tick - view.tick <= memory_ticks);
+        let (now, memory) = (self.now, self.memory);
+        self.views.retain(|view| now - view.taken <= memory);
         if self.views.iter().any(|view| (view.sensor_m - sensor_m).length() < SPACING_M) {
             return;
         }
         if self.views.len() == MOST_VIEWS {
             self.views.pop_front();
         }
-        self.views.push_back(View { tick, sensor_m, up });
+        self.views.push_back(View { taken: now, sensor_m, up });
     }
 
     /// Whether there is nothing under a wheel at a place, as it would have been seen from the side of `here_m`, or the ground drops off
@@ -120,6 +123,11 @@ impl ElevationWindow {
 }
 
 impl View {
+    pub(super) fn relocalise(&mut self, change: &FrameChange) {
+        self.sensor_m = change.point_m(self.sensor_m);
+        self.up = change.vector(self.up);
+    }
+
     fn holds(&self, point_m: DVec3, plane: &Plane) -> bool {
         let away = point_m - self.sensor_m;
         let distance_m = away.length();
@@ -137,7 +145,7 @@ impl View {
 mod tests {
     use super::*;
     use crate::config::PlannerConfig;
-    use crate::testing::strewn;
+    use crate::testing::{STEP, strewn};
 
     const AHEAD_M: DVec2 = DVec2::new(2.0, 0.0);
 
@@ -146,7 +154,7 @@ mod tests {
         let mut ground = ElevationWindow::new(&PlannerConfig::default());
         let up = DVec3::new(-libm::sin(pitch_rad), 0.0, libm::cos(pitch_rad));
         for step in 0..=10 {
-            ground.advance();
+            ground.advance(STEP);
             ground.looked_from((from_m * (1.0 - 0.1 * f64::from(step))).extend(0.8), up);
         }
         ground
@@ -219,8 +227,8 @@ mod tests {
     #[test]
     fn views_are_forgotten_with_the_ground_seen_from_them() {
         let mut ground = come_from(DVec2::new(-3.0, 0.0), 0.0);
-        for _ in 0..=PlannerConfig::default().elevation_window.memory_ticks {
-            ground.advance();
+        for _ in 0..=3000 {
+            ground.advance(STEP);
             ground.looked_from(DVec3::new(0.0, 0.0, 0.8), DVec3::Z);
         }
         assert!(!ground.was_in_view(AHEAD_M, &sloping(0.0)));

@@ -5,13 +5,13 @@
 
 use glam::{DVec2, IVec2};
 
-use super::{ElevationWindow, slot_of};
+use super::ElevationWindow;
 use crate::math::elementary::floor;
 use crate::terrain::slopes::Slopes;
 
 /// Places on a lattice lie half a metre apart; the robot is stood this far before and behind each, too.
 const SHIFT_M: f64 = 0.25;
-/// ElevationWindow under a wheel was seen when a return lies this near.
+/// Ground under a wheel was seen when a return lies this near.
 const NEAR_M: f64 = 0.2;
 /// Returns nearer than this to a wheel count alike.
 const BLUR_M: f64 = 0.05;
@@ -49,10 +49,7 @@ impl ElevationWindow {
         let (mut sum, mut weights, mut nearest_squared) = (0.0, 0.0, f64::INFINITY);
         for step in [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE] {
             let index = low + step;
-            let Some(cell) = &self.cells[slot_of(index)] else { continue };
-            if cell.index != index || !self.is_fresh(cell) {
-                continue;
-            }
+            let Some(cell) = self.cells.get(index).filter(|cell| self.is_fresh(cell)) else { continue };
             let away = point_m - cell.mean_m.truncate();
             let squared = away.length_squared();
             let weight = 1.0 / (BLUR_M * BLUR_M + squared);

@@ -1,13 +1,14 @@
 //! The mapless planner with the truth in place of what it perceives, to tell where a failure comes from.
 
+use core::time::Duration;
 use core::{array, fmt};
 use std::str::FromStr;
 
 use glam::{DVec2, Vec3};
-use mapless::pose::Pose;
 use mapless::skyline::profile::Column;
 use mapless::terrain::plane::Plane;
-use mapless::{ConfigError, Decision, Navigator, PerceptionOverride, Planner, PlannerConfig};
+use mapless::{ConfigError, Goal, PerceptionOverride, Planner, PlannerConfig, Pose};
+use mapless_trials::{Decision, Navigator};
 use mapless_world::{Caster, HeightField, SensorPose, Skyline, true_skyline};
 
 use crate::kind::UnknownName;
@@ -72,13 +73,13 @@ const SIDE: usize = 5;
 
 /// The planner with the truth told; see [`Truth`].
 #[derive(Clone, Debug)]
-pub struct TrueSight {
+pub struct GroundTruthPlanner {
     planner: Planner,
     truth: Truth,
     caster: Caster,
 }
 
-impl TrueSight {
+impl GroundTruthPlanner {
     /// A planner on a known ground.
     ///
     /// # Errors
@@ -110,8 +111,8 @@ fn true_plane(field: &HeightField, place_m: DVec2) -> Option<Plane> {
     Plane::fit(place_m, &points_m[..count])
 }
 
-impl Navigator for TrueSight {
-    fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Decision {
+impl Navigator for GroundTruthPlanner {
+    fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal: &Goal, elapsed: Duration) -> Decision {
         let Self { planner, truth, caster } = self;
         let caster = &*caster;
         let config = planner.config();
@@ -125,20 +126,17 @@ impl Navigator for TrueSight {
             Skyline::Wall => Column::Wall,
         };
         let ground = |place_m| true_plane(caster.field(), place_m);
-        let insight = PerceptionOverride {
+        let overrides = PerceptionOverride {
             profile: truth.of_profile().then_some(&profile),
-            ground: truth.of_ground().then_some(&ground),
+            terrain: truth.of_ground().then_some(&ground),
         };
-        let step = planner.step_with(points_m, pose, goal_m, insight);
-        Decision { status: step.status, command: step.command }
+        planner.set_goal(*goal);
+        let step = planner.step_with(points_m, pose, elapsed, overrides);
+        Decision { activity: step.status.into(), command: step.command }
     }
 
     fn sight_m(&self) -> f64 {
         self.planner.sight_m()
-    }
-
-    fn period_s(&self) -> f64 {
-        self.planner.period_s()
     }
 
     fn max_speed_m_s(&self) -> f64 {
@@ -162,14 +160,16 @@ mod tests {
     use mapless::skyline::occupancy::column_azimuth_rad;
     use mapless_world::{SensorConfig, attitude_on};
 
+    const PERIOD: Duration = Duration::from_millis(100);
+
     fn standing(field: &HeightField, place: DVec2, yaw_rad: f64) -> Pose {
         let attitude = attitude_on(field, place, yaw_rad, &Default::default()).unwrap();
-        Pose {
-            position_m: place.extend(attitude.height_m),
-            roll_rad: attitude.roll_rad,
-            pitch_rad: attitude.pitch_rad,
+        Pose::from_roll_pitch_yaw(
+            place.extend(attitude.height_m),
+            attitude.roll_rad,
+            attitude.pitch_rad,
             yaw_rad,
-        }
+        )
     }
 
     #[test]
@@ -177,8 +177,9 @@ mod tests {
         let field = field(30.0, |place| 4.0 * undulating(place));
         let (place, yaw_rad) = (DVec2::new(14.0, 16.0), 0.7);
         let pose = standing(&field, place, yaw_rad);
-        let mut navigator = TrueSight::new(PlannerConfig::default(), Truth::Profile, field.clone()).unwrap();
-        navigator.navigate(&[Vec3::new(3.0, 0.0, -0.8)], &pose, DVec2::new(29.0, 29.0));
+        let mut navigator =
+            GroundTruthPlanner::new(PlannerConfig::default(), Truth::Profile, field.clone()).unwrap();
+        navigator.navigate(&[Vec3::new(3.0, 0.0, -0.8)], &pose, &Goal::at(DVec2::new(29.0, 29.0)), PERIOD);
 
         let attitude = attitude_on(&field, place, yaw_rad, &Default::default()).unwrap();
         let sensor = SensorConfig::default().pose_on(place, yaw_rad, &attitude);
@@ -212,8 +213,14 @@ mod tests {
         // One return is too little for the forecast of any subgoal, unless the ground is told.
         let pose = standing(&field, DVec2::splat(15.0), 0.0);
         let reach_m = |truth| {
-            let mut navigator = TrueSight::new(PlannerConfig::default(), truth, field.clone()).unwrap();
-            navigator.navigate(&[Vec3::new(3.0, 0.0, -0.8)], &pose, DVec2::new(29.0, 15.0));
+            let mut navigator =
+                GroundTruthPlanner::new(PlannerConfig::default(), truth, field.clone()).unwrap();
+            navigator.navigate(
+                &[Vec3::new(3.0, 0.0, -0.8)],
+                &pose,
+                &Goal::at(DVec2::new(29.0, 15.0)),
+                PERIOD,
+            );
             let subgoals = navigator.planner().last_step().subgoals;
             subgoals.iter().filter_map(|subgoal| subgoal.forecast).map(|f| f.reach_m).fold(0.0, f64::max)
         };
@@ -224,8 +231,7 @@ mod tests {
     #[test]
     fn without_truth_it_is_the_planner() {
         let field = field(20.0, |_| 0.0);
-        let pose =
-            Pose { position_m: DVec3::new(10.0, 10.0, 0.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
+        let pose = Pose::from_roll_pitch_yaw(DVec3::new(10.0, 10.0, 0.0), 0.0, 0.0, 0.0);
         let scan: Vec<Vec3> = (0..360)
             .flat_map(|degree| [3.0, 4.0, 5.0, 6.0].map(|range| (f64::from(degree).to_radians(), range)))
             .map(|(azimuth, range)| {
@@ -233,11 +239,11 @@ mod tests {
                 DVec3::new(range * cos, range * sin, -0.8).as_vec3()
             })
             .collect();
-        let goal = DVec2::new(19.0, 14.0);
+        let goal = Goal::at(DVec2::new(19.0, 14.0));
         let mut planner = Planner::new(PlannerConfig::default()).unwrap();
-        let mut navigator = TrueSight::new(PlannerConfig::default(), Truth::None, field).unwrap();
-        let expected = planner.navigate(&scan, &pose, goal);
-        assert_eq!(navigator.navigate(&scan, &pose, goal), expected);
+        let mut navigator = GroundTruthPlanner::new(PlannerConfig::default(), Truth::None, field).unwrap();
+        let expected = planner.navigate(&scan, &pose, &goal, PERIOD);
+        assert_eq!(navigator.navigate(&scan, &pose, &goal, PERIOD), expected);
         assert_eq!(navigator.subgoal_m(), planner.subgoal_m());
         assert!(planner.subgoal_m().is_some());
     }

@@ -15,7 +15,7 @@ pub const MOST_STRAIGHT_TIMES: f64 = 48.0;
 
 /// How long the robot may still take.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Patience {
+pub(crate) struct ProgressChecker {
     /// Where it was when it last got on, and when.
     anchor_m: DVec2,
     since_tick: u64,
@@ -23,7 +23,7 @@ pub(crate) struct Patience {
     limit_s: f64,
 }
 
-impl Patience {
+impl ProgressChecker {
     /// With a robot that starts here and now towards a place that it could reach in `straight_s` at full speed; a tick takes
     /// `period_s`.
     pub(crate) fn new(here_m: DVec2, tick: u64, period_s: f64, straight_s: f64) -> Self {
@@ -31,8 +31,8 @@ impl Patience {
         Self { anchor_m: here_m, since_tick: tick, period_s, limit_s }
     }
 
-    /// Whether it is lost, with the robot here and now, and why.
-    pub(crate) fn lost(&mut self, here_m: DVec2, tick: u64) -> Option<Outcome> {
+    /// Whether the trial is given up, with the robot here and now, and why.
+    pub(crate) fn fails(&mut self, here_m: DVec2, tick: u64) -> Option<Outcome> {
         if (here_m - self.anchor_m).length() > STUCK_RADIUS_M {
             (self.anchor_m, self.since_tick) = (here_m, tick);
         } else if (tick - self.since_tick) as f64 * self.period_s > STUCK_AFTER_S {
@@ -52,18 +52,18 @@ mod tests {
 
     #[test]
     fn a_robot_that_gets_nowhere_is_stuck() {
-        let mut patience = Patience::new(at(0.0), 1000, 0.1, 1000.0);
-        assert_eq!(patience.lost(at(0.5), 1600), None);
-        assert_eq!(patience.lost(at(0.6), 1607), None);
-        assert_eq!(patience.lost(at(0.2), 2207), None);
-        assert_eq!(patience.lost(at(0.2), 2208), Some(Outcome::Stuck));
+        let mut checker = ProgressChecker::new(at(0.0), 1000, 0.1, 1000.0);
+        assert_eq!(checker.fails(at(0.5), 1600), None);
+        assert_eq!(checker.fails(at(0.6), 1607), None);
+        assert_eq!(checker.fails(at(0.2), 2207), None);
+        assert_eq!(checker.fails(at(0.2), 2208), Some(Outcome::Stuck));
     }
 
     #[test]
     fn time_ends_after_so_many_times_the_straight_way_and_a_minute() {
-        let mut patience = Patience::new(at(0.0), 100, 1.0, 20.0);
+        let mut checker = ProgressChecker::new(at(0.0), 100, 1.0, 20.0);
         let last = 100 + 60 + 48 * 20_u32;
-        assert!((100..=last).all(|second| patience.lost(at(f64::from(second)), second.into()).is_none()));
-        assert_eq!(patience.lost(at(f64::from(last + 1)), u64::from(last + 1)), Some(Outcome::Timeout));
+        assert!((100..=last).all(|second| checker.fails(at(f64::from(second)), second.into()).is_none()));
+        assert_eq!(checker.fails(at(f64::from(last + 1)), u64::from(last + 1)), Some(Outcome::Timeout));
     }
 }

@@ -1,0 +1,349 @@
+//! The forecast's choice: subgoals at the end of paths over the ground that was seen, judged by the tilt that these paths promise.
+//!
+//! It keeps a local elevation window, searches it with a state lattice, learns the cost-to-go around dead ends, holds on to a choice,
+//! and backtracks along the robot's own trajectory where the ground turned out too steep or no path leads on.
+
+use core::f64::consts::PI;
+use core::time::Duration;
+
+use glam::{DVec2, DVec3, Vec3};
+
+use crate::config::{DecisionConfig, PlannerConfig, StateLatticeConfig};
+use crate::control::backtrack::{Backtrack, BacktrackCommand};
+use crate::control::controller::{Command, Controller};
+use crate::decision::candidates::Candidates;
+use crate::decision::committed_target::CommittedTarget;
+use crate::decision::cost::choose_cheapest;
+use crate::decision::detour_budget::DetourBudget;
+use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
+use crate::decision::subgoals::{Cost, Subgoal, bearing_rad, on_segments};
+use crate::math::angle::{difference_rad, wrap_rad};
+use crate::pose::{FrameChange, Pose};
+use crate::route::heuristic_table::HeuristicTable;
+use crate::route::state_lattice::{PathPoint, ReachedState, StateLattice, length_m};
+use crate::terrain::elevation_window::ElevationWindow;
+
+/// The cost-to-go is learned anew when the robot has driven this far.
+const LEARN_SPACING_M: f64 = 0.5;
+/// While it backtracks the robot drives as fast as with this much left of the way.
+const LEAST_BACKTRACK_M: f64 = 0.3;
+/// Beyond its detour budget a robot counts the cost of slopes by this share.
+const OVER_BUDGET_SHARE: f64 = 0.25;
+/// A target that the robot cannot get to, and the places around it, lie this much farther from the goal than they seemed.
+const UNREACHABLE_PENALTY_M: f64 = 7.0;
+const UNREACHABLE_HALF_SIDE_M: f64 = 1.0;
+
+/// What it remembers.
+#[derive(Clone, Debug)]
+pub(crate) struct ForecastPolicy {
+    window: ElevationWindow,
+    lattice: StateLattice,
+    lattice_config: StateLatticeConfig,
+    /// The weights as configured, and as they are now: beyond the detour budget slopes cost less.
+    configured: DecisionConfig,
+    weights: DecisionConfig,
+    heuristic: HeuristicTable,
+    detour_budget: Option<DetourBudget>,
+    committed: CommittedTarget,
+    backtrack: Backtrack,
+    learned_at_m: Option<DVec2>,
+    ends: Vec<(ReachedState, f64)>,
+    /// World bearing of the last choice.
+    last_bearing_rad: Option<f64>,
+}
+
+impl ForecastPolicy {
+    /// A policy that has seen nothing yet. The configuration must have been validated.
+    pub(crate) fn new(config: &PlannerConfig) -> Self {
+        let lattice =
+            StateLattice::new(config.state_lattice, &config.robot, config.perception.surface_radius_m);
+        Self {
+            window: ElevationWindow::new(config),
+            lattice_config: config.state_lattice,
+            configured: config.decision,
+            weights: config.decision,
+            heuristic: HeuristicTable::new(config.state_lattice.step_m),
+            detour_budget: None,
+            committed: CommittedTarget::default(),
+            backtrack: Backtrack::new(),
+            learned_at_m: None,
+            ends: Vec::with_capacity(lattice.count() + 1),
+            lattice,
+            last_bearing_rad: None,
+        }
+    }
+
+    /// Counts the cost of slopes as configured or, beyond the detour budget, less: on paths and in the choice.
+    fn scale_slope_cost(&mut self, within_budget: bool) {
+        let StateLatticeConfig { escape_margin_rad, impatient_margin_rad, .. } = self.lattice_config;
+        let (share, least_margin_rad) =
+            if within_budget { (1.0, escape_margin_rad) } else { (OVER_BUDGET_SHARE, impatient_margin_rad) };
+        self.lattice.scale_slope_cost(share);
+        self.lattice.keep_margin(least_margin_rad);
+        self.weights.steepness_weight = share * self.configured.steepness_weight;
+        self.weights.climb_weight = share * self.configured.climb_weight;
+    }
+
+    /// Holds on to nothing.
+    fn let_go(&mut self) {
+        self.last_bearing_rad = None;
+        self.lattice.stand();
+        self.committed.stand();
+    }
+
+    /// Searches paths over the terrain and chooses; `None` when there is no candidate.
+    fn search(&mut self, situation: &Situation<'_>, plan: &mut Plan) -> Option<usize> {
+        let Situation { pose, goal_m, elapsed, .. } = *situation;
+        let here_m = pose.plan_m();
+        let budget = self.detour_budget.get_or_insert_with(|| DetourBudget::new(here_m, goal_m));
+        if budget.is_spent_now(here_m) {
+            self.scale_slope_cost(false);
+            self.heuristic.scale(OVER_BUDGET_SHARE);
+        }
+        match situation.terrain {
+            Some(told) => self.lattice.search(&told, pose, elapsed),
+            None => self.lattice.search(&self.window, pose, elapsed),
+        }
+        self.choose(situation, plan).or_else(|| {
+            self.lattice.search_recovery();
+            self.choose(situation, plan)
+        })
+    }
+
+    /// Places the subgoals and chooses one.
+    fn choose(&mut self, situation: &Situation<'_>, plan: &mut Plan) -> Option<usize> {
+        let Situation { config, pose, goal_m, profile, .. } = *situation;
+        let Plan { subgoals, path, .. } = plan;
+        subgoals.clear();
+        let mut candidates = Candidates { config, pose, lattice: &self.lattice, path };
+        subgoals.extend(on_segments(config, pose, situation.segments));
+        for subgoal in subgoals.iter_mut() {
+            candidates.move_within_reach(subgoal);
+        }
+        if let Some(goal) = candidates.goal(goal_m, situation.goal_tolerance_m) {
+            subgoals.push(goal);
+            return Some(subgoals.len() - 1);
+        }
+        match self.committed.again(&mut candidates) {
+            Ok(again) => subgoals.extend(again),
+            Err(place_m) => {
+                self.heuristic.raise(place_m, UNREACHABLE_HALF_SIDE_M, UNREACHABLE_PENALTY_M);
+            }
+        }
+        if subgoals.iter().all(|subgoal| subgoal.refusal.is_some()) {
+            let cost_to_go_m = |place_m| self.heuristic.cost_to_go_m(place_m, goal_m);
+            subgoals.extend(candidates.frontier(profile, cost_to_go_m));
+        }
+        for subgoal in subgoals.iter_mut().filter(|subgoal| subgoal.refusal.is_none()) {
+            subgoal.cost = Some(self.terms(subgoal, situation));
+        }
+        choose_cheapest(subgoals, &self.weights)
+    }
+
+    /// The terms of the cost, each on a fixed scale: half a turn, the surface's radius, the tilt limits.
+    fn terms(&self, subgoal: &Subgoal, situation: &Situation<'_>) -> Cost {
+        let Situation { config, pose, goal_m, .. } = *situation;
+        let surface_radius_m = config.perception.surface_radius_m;
+        let here_m = pose.plan_m();
+        let there_m = subgoal.position_m.truncate();
+        let forecast = subgoal.forecast.unwrap_or_default();
+        let around_m = forecast.path_m - forecast.reach_m + self.weights.climb_weight * forecast.climb_m;
+        let lost_m = (goal_m - there_m).length() - (goal_m - here_m).length() + around_m;
+        let turn = self
+            .last_bearing_rad
+            .map_or(0.0, |last| difference_rad(pose.yaw_rad + subgoal.bearing_rad, last));
+        let correction_m = self.heuristic.correction_m(there_m);
+        Cost {
+            direction: subgoal.bearing_rad.abs() / PI,
+            distance: 0.5 + 0.5 * lost_m / surface_radius_m,
+            steepness: forecast.mean_risk,
+            commitment: turn.abs() / PI,
+            correction: 0.5 * correction_m / surface_radius_m,
+        }
+    }
+
+    /// Backtracks from where the robot stands too steep or has no candidate, until it stands on calm ground some way back and has a
+    /// candidate again. Gives the command while it does.
+    fn backtrack(
+        &mut self,
+        situation: &Situation<'_>,
+        controller: &mut Controller,
+        plan: &mut Plan,
+        has_candidate: bool,
+    ) -> Option<Command> {
+        let Situation { pose, elapsed, .. } = *situation;
+        let here_m = pose.plan_m();
+        self.backtrack.be_at(pose, elapsed);
+        if !self.backtrack.is_on() {
+            if !has_candidate || self.lattice.is_too_steep() {
+                self.turn_back(here_m);
+            }
+        } else if has_candidate && self.lattice.is_calm() && self.backtrack.has_gone_far(here_m) {
+            self.backtrack.end();
+        }
+        if !self.backtrack.is_on() {
+            return None;
+        }
+        let back = self.backtrack.next(pose, |turn_rad| self.lattice.safe_turn_rad(turn_rad))?;
+        self.let_go();
+        let reverse = matches!(back, BacktrackCommand::Drive { reverse: true, .. });
+        let point = |position_m| PathPoint { position_m, cost_m: 0.0, reverse };
+        plan.path.clear();
+        plan.path.push(point(here_m));
+        plan.path.extend(self.backtrack.way_back_m().map(point));
+        let utilisation = self.lattice.utilisation_here();
+        Some(match back {
+            BacktrackCommand::Brake => Command::STOP,
+            BacktrackCommand::Turn { by_rad } => {
+                let turning = controller.drive(0.0, by_rad, elapsed);
+                controller.regulated(Command { linear_m_s: 0.0, ..turning }, utilisation)
+            }
+            BacktrackCommand::Drive { turn_rad_m, reverse } => {
+                let distance_m = length_m(&plan.path).max(LEAST_BACKTRACK_M);
+                let driving = controller.drive_arc(distance_m, turn_rad_m, reverse, elapsed);
+                controller.regulated(driving, utilisation)
+            }
+        })
+    }
+
+    /// Turns back from ground that turned out steeper than it had looked.
+    fn turn_back(&mut self, here_m: DVec2) {
+        if let Some(travel) = self.backtrack.begin(here_m) {
+            self.lattice.meet_steeper_ground(travel);
+        }
+    }
+
+    /// Drives along the path to a subgoal.
+    fn follow(
+        &mut self,
+        subgoal: &Subgoal,
+        situation: &Situation<'_>,
+        controller: &mut Controller,
+        path: &mut Vec<PathPoint>,
+    ) -> Command {
+        let end_m = subgoal.position_m.truncate();
+        if let Some(reached) = self.lattice.to(end_m) {
+            self.lattice.follow(reached, path);
+        }
+        if let Some(last) = path.last_mut() {
+            // The subgoal lies up to half a step from the last place.
+            last.position_m = end_m;
+        }
+        let next = self.lattice.lookahead(path);
+        let ahead = self.lattice.drive(&next);
+        let bearing = bearing_rad(situation.pose, ahead.position_m);
+        let path_m = subgoal.forecast.map_or(0.0, |forecast| forecast.path_m);
+        let utilisation = self.lattice.utilisation_ahead(path, &ahead);
+        let facing = if ahead.reverse { wrap_rad(bearing + PI) } else { bearing };
+        let mut command = controller.drive(path_m, facing, situation.elapsed);
+        if ahead.reverse {
+            command.linear_m_s = -command.linear_m_s;
+        }
+        controller.regulated(command, utilisation)
+    }
+
+    /// Learns the cost-to-go of the places around by the best path on: to the goal itself or to the frontier, and from there as far as is
+    /// known.
+    fn learn(&mut self, situation: &Situation<'_>) {
+        let Situation { pose, goal_m, goal_tolerance_m, .. } = *situation;
+        let here_m = pose.plan_m();
+        if self.learned_at_m.is_some_and(|last_m| (last_m - here_m).length() < LEARN_SPACING_M) {
+            return;
+        }
+        self.learned_at_m = Some(here_m);
+        let cost_to_go_m = |place_m| self.heuristic.cost_to_go_m(place_m, goal_m);
+        let frontier = self.lattice.frontier().map(|(reached, place_m)| (reached, cost_to_go_m(place_m)));
+        let goal = self.lattice.to_within(goal_m, goal_tolerance_m);
+        self.ends.clear();
+        self.ends.extend(frontier.chain(goal.map(|(reached, _)| (reached, 0.0))));
+        let DecisionConfig { distance_weight, steepness_weight, climb_weight, .. } = self.weights;
+        // The prices of the subgoals' cost: a risk counts for the way to r_oc there, and 2 r_oc of distance for one.
+        let tilt_price = if distance_weight > 0.0 { 2.0 * steepness_weight / distance_weight } else { 0.0 };
+        for (place_m, to_goal_m) in self.lattice.backward_search(&self.ends, tilt_price, climb_weight) {
+            self.heuristic.learn(place_m, goal_m, to_goal_m);
+        }
+    }
+}
+
+impl SubgoalPolicy for ForecastPolicy {
+    fn start(&mut self) {
+        self.heuristic.clear();
+        self.detour_budget = None;
+        self.scale_slope_cost(true);
+        self.let_go();
+        self.backtrack.end();
+        self.learned_at_m = None;
+    }
+
+    fn forget_terrain(&mut self) {
+        self.window.clear();
+        self.lattice.clear();
+        self.backtrack.clear();
+    }
+
+    /// Remembers the near part of the scan, and the ground that the wheels stand on.
+    fn observe(&mut self, config: &PlannerConfig, points_m: &[Vec3], pose: &Pose, elapsed: Duration) {
+        self.window.advance(elapsed);
+        let world_from_robot = pose.world_from_robot();
+        let sensor = pose.position_m + world_from_robot * config.sensor.offset_m();
+        self.window.looked_from(sensor, world_from_robot.z_axis);
+        let radius_squared = config.elevation_window.radius_m * config.elevation_window.radius_m;
+        for point in points_m {
+            let point = point.as_dvec3();
+            // Also passes over NaN.
+            if point.length_squared() <= radius_squared {
+                self.window.add(sensor + world_from_robot * point);
+            }
+        }
+        let half_width = 0.5 * config.robot.width_m;
+        for x in [-half_width, 0.0, half_width] {
+            for y in [-half_width, 0.0, half_width] {
+                self.window.add(pose.position_m + world_from_robot * DVec3::new(x, y, 0.0));
+            }
+        }
+    }
+
+    fn decide(&mut self, situation: &Situation<'_>, controller: &mut Controller, plan: &mut Plan) -> Motion {
+        let chosen = self.search(situation, plan);
+        if let Some(command) = self.backtrack(situation, controller, plan, chosen.is_some()) {
+            return Motion::Backtrack(command);
+        }
+        let Some(chosen) = chosen else {
+            self.let_go();
+            return Motion::NoCandidate;
+        };
+        plan.chosen = Some(chosen);
+        let subgoal = plan.subgoals[chosen];
+        let pose = situation.pose;
+        self.last_bearing_rad = Some(pose.yaw_rad + subgoal.bearing_rad);
+        if let Some(place_m) = self.committed.head_for(&subgoal, pose, situation.elapsed) {
+            self.heuristic.raise(place_m, UNREACHABLE_HALF_SIDE_M, UNREACHABLE_PENALTY_M);
+            if self.lattice.is_on_steep_ground() {
+                self.turn_back(pose.plan_m());
+            }
+        }
+        self.learn(situation);
+        Motion::Drive(self.follow(&subgoal, situation, controller, &mut plan.path))
+    }
+
+    fn safe_turn_rad(&self, turn_rad: f64) -> f64 {
+        self.lattice.safe_turn_rad(turn_rad)
+    }
+
+    fn may_spin(&self) -> bool {
+        self.lattice.may_turn_around()
+    }
+
+    fn relocalise(&mut self, change: &FrameChange) {
+        self.window.relocalise(change);
+        self.lattice.relocalise(change);
+        self.heuristic.relocalise(change);
+        self.committed.relocalise(change);
+        self.backtrack.relocalise(change);
+        if let Some(budget) = &mut self.detour_budget {
+            budget.relocalise(change);
+        }
+        self.learned_at_m = self.learned_at_m.map(|place_m| change.place_m(place_m));
+        self.last_bearing_rad = self.last_bearing_rad.map(|bearing_rad| bearing_rad + change.turn_rad());
+    }
+}
