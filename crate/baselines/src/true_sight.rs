@@ -10,7 +10,7 @@ use mapless::profile::Column;
 use mapless::{ConfigError, Decision, Insight, Navigator, Planner, PlannerConfig};
 use mapless_world::{Caster, HeightField, SensorPose, Skyline, true_skyline};
 
-use crate::kind::UnknownName;
+use crate::unknown_name::UnknownName;
 
 /// What is true in place of perceived.
 #[derive(

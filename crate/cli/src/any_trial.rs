@@ -1,0 +1,7 @@
+//! The trial that `mapless run` drives.
+
+use mapless::Navigator;
+use mapless_trials::Trial;
+
+/// A trial driven by whatever was asked for.
+pub(crate) type AnyTrial = Trial<Box<dyn Navigator>>;
