@@ -11,7 +11,7 @@ use mapless::{ConfigError, Goal, PerceptionOverride, Planner, PlannerConfig, Pos
 use mapless_trials::{Decision, Navigator};
 use mapless_world::{Caster, HeightField, SensorPose, Skyline, true_skyline};
 
-use crate::kind::UnknownName;
+use crate::unknown_name::UnknownName;
 
 /// What is true in place of perceived.
 #[derive(

@@ -12,6 +12,7 @@ use crate::ground_truth_planner::{GroundTruthPlanner, Truth};
 use crate::oracle::{Oracle, OracleConfig};
 use crate::putn::{Putn, PutnConfig};
 use crate::route::{RouteNavigator, RoutePlanner, Straight};
+use crate::unknown_name::UnknownName;
 use crate::vgf::{Vgf, VgfConfig};
 
 /// What drives the robot.
@@ -29,21 +30,6 @@ pub enum NavigatorKind {
     Putn,
     /// The shortest safe path over the known ground.
     Oracle,
-}
-
-/// A name that names nothing.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what} \"{name}\": expected one of {expected}")]
-pub struct UnknownName {
-    what: &'static str,
-    name: String,
-    expected: String,
-}
-
-impl UnknownName {
-    pub(crate) fn new(what: &'static str, name: &str, expected: &[&str]) -> Self {
-        Self { what, name: name.to_owned(), expected: expected.join(", ") }
-    }
 }
 
 /// Why a navigator cannot be made.

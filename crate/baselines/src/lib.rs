@@ -19,12 +19,14 @@ mod route;
 mod tasks;
 #[cfg(test)]
 mod testing;
+mod unknown_name;
 pub mod vgf;
 
 pub use cloud::{Cloud, MapError};
 pub use follower::PathFollower;
 pub use ground_truth_planner::{GroundTruthPlanner, Truth};
-pub use kind::{BuildError, NavigatorKind, UnknownName};
+pub use kind::{BuildError, NavigatorKind};
 pub use oracle::{Oracle, OracleConfig, OracleError, OraclePath, PlanPose, shortest_path};
 pub use route::{RouteNavigator, RoutePlanner, Straight};
 pub use tasks::{NoTaskName, Task, TaskError, TaskName};
+pub use unknown_name::UnknownName;

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::BenchError;
 use crate::clock::now_ms;
-use crate::work::{Values, Work, make};
+use crate::registry::make;
+use crate::work::{Values, Work};
 
 /// The pieces of work in use, each made when first asked for.
 #[derive(Default)]

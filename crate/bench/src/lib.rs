@@ -13,6 +13,7 @@ mod gaussian;
 #[cfg(not(target_arch = "wasm32"))]
 mod inputs;
 mod peak;
+mod registry;
 mod sensing;
 #[cfg(target_arch = "wasm32")]
 mod wasm;

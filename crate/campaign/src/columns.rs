@@ -10,7 +10,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 
-use crate::results::TrialRow;
+use crate::row::TrialRow;
 
 /// The values of one column; all may be absent.
 enum Column {

@@ -25,6 +25,7 @@ mod parameters;
 mod plan;
 pub mod report;
 mod results;
+mod row;
 mod runner;
 #[cfg(test)]
 mod testing;
@@ -35,5 +36,6 @@ pub use file::{Campaign, Combine};
 pub use journal::{Entry, Timing, TrialResult};
 pub use mapless_baselines::Truth;
 pub use plan::{Plan, Route, Shard, TrialSpec};
-pub use results::{Manifest, ManifestRoute, TrialRow};
+pub use results::{Manifest, ManifestRoute};
+pub use row::TrialRow;
 pub use runner::{Done, Options, Progress, run, run_one};

@@ -10,56 +10,7 @@ use crate::error::CampaignError;
 use crate::files::{remove_unfinished, write_atomically};
 use crate::journal::{Entries, Timing, TrialResult};
 use crate::plan::{Plan, Route, TrialSpec};
-
-/// One row of `trials.csv` and `trials.parquet`.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TrialRow {
-    /// The trial's identity within its campaign.
-    pub id: String,
-    /// The campaign's identity.
-    pub campaign: String,
-    /// Name of the planner.
-    pub planner: String,
-    /// Name of the route.
-    pub route: String,
-    /// What the planner was told.
-    pub truth: String,
-    /// `path=value` of every parameter that was set, separated by spaces.
-    pub parameters: String,
-    /// Seed of the sensor's noise.
-    pub seed: u64,
-    /// How it ended, or `error`.
-    pub outcome: String,
-    /// Why the planner stopped, where it did.
-    pub stop_reason: Option<String>,
-    /// Why there is no outcome.
-    pub error: Option<String>,
-    /// Length D of the path, in space.
-    pub distance_m: Option<f64>,
-    /// Largest |φ|.
-    pub max_abs_roll_rad: Option<f64>,
-    /// Largest |ψ|.
-    pub max_abs_pitch_rad: Option<f64>,
-    /// Mean of |φ'| + |ψ'| over time.
-    pub mean_vibration_rad_s: Option<f64>,
-    /// Mean of |z'| over time, centimetres a second.
-    pub mean_elevation_rate_cm_s: Option<f64>,
-    /// C_chg.
-    pub curvature_change_rad_m: Option<f64>,
-    /// Simulated time, seconds.
-    pub sim_time_s: Option<f64>,
-    /// Planning periods.
-    pub ticks: Option<u64>,
-    /// From the start over the waypoints to the goal as the crow flies, seen from above.
-    pub straight_m: f64,
-    /// Length of the shortest safe path, where it is known.
-    pub oracle_length_m: Option<f64>,
-    /// Digest of the trajectory.
-    pub digest: Option<String>,
-    /// The planner's whole configuration as JSON; empty where it was no valid one.
-    pub configuration: String,
-}
+use crate::row::TrialRow;
 
 /// `campaign.json`: what a campaign consists of, for its report.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use crate::report::Results;
-use crate::results::{Manifest, ManifestRoute, TrialRow};
+use crate::results::{Manifest, ManifestRoute};
+use crate::row::TrialRow;
 
 /// A row without metrics.
 pub(crate) fn row(planner: &str, route: &str, truth: &str, seed: u64, outcome: &str) -> TrialRow {

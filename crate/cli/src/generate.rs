@@ -15,6 +15,8 @@ use mapless_baselines::{Task, TaskName};
 use mapless_world::generate::Difficulty;
 use summary::Summary;
 
+use crate::parsers;
+
 /// The folder of the recipes, within that of the scenarios.
 const TERRAIN: &str = "terrain";
 
@@ -24,7 +26,7 @@ pub(crate) struct Args {
     #[arg(long)]
     seed: u64,
     /// How steep and rough the terrains are.
-    #[arg(long, value_parser = crate::difficulty_parser())]
+    #[arg(long, value_parser = parsers::difficulty())]
     difficulty: Difficulty,
     /// Number of tasks.
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=i64::from(TaskName::MOST)))]

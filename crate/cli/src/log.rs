@@ -11,9 +11,9 @@ use anyhow::Context as _;
 use glam::DVec2;
 use mapless_trials::{Decision, Navigator as _};
 
+use crate::any_trial::AnyTrial;
 use crate::picture::Picture;
-use crate::report::Report;
-use crate::run::AnyTrial;
+use crate::trial_report::Report;
 
 const HEADER: &str = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,speed_m_s,turn_rate_rad_s,\
     command_speed_m_s,command_turn_rate_rad_s,subgoal_x_m,subgoal_y_m,status";

@@ -3,26 +3,24 @@
 //! Exit code of a trial: 0 when the goal was reached, 2 for any other outcome, 1 for an error. Exit code of a scan: 0 when
 //! it was read, 1 for an error.
 
+mod any_trial;
 mod generate;
 mod log;
+mod parsers;
 mod perceive;
 mod picture;
 mod profile;
 mod progress;
-mod report;
 mod results;
 mod run;
 mod setup;
+mod trial_report;
 mod trials;
 
 use std::process::ExitCode;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
-use mapless::gp::learning::LearningMode;
-use mapless_baselines::{NavigatorKind, Truth};
-use mapless_trials::{Outcome, Preset};
-use mapless_world::generate::Difficulty;
+use mapless_trials::Outcome;
 
 /// Mapless navigation on uneven terrain: a simulated Husky with a VLP-16 drives to a goal.
 #[derive(Parser)]
@@ -75,31 +73,4 @@ fn main() -> ExitCode {
 fn usage(message: &clap::Error) -> ExitCode {
     let shown = message.print();
     if message.use_stderr() || shown.is_err() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
-}
-
-/// Reads the name of a configuration of this project's planner, for `--planner` where nothing else can be meant.
-fn preset_parser() -> impl TypedValueParser<Value = Preset> {
-    PossibleValuesParser::new(Preset::ALL.map(Preset::name)).try_map(|name| name.parse::<Preset>())
-}
-
-/// Reads the name of a navigator, for `--planner`.
-fn planner_parser() -> impl TypedValueParser<Value = NavigatorKind> {
-    PossibleValuesParser::new(NavigatorKind::ALL.map(NavigatorKind::name))
-        .try_map(|name| name.parse::<NavigatorKind>())
-}
-
-/// Reads what is true in place of perceived, for `--truth`.
-fn truth_parser() -> impl TypedValueParser<Value = Truth> {
-    PossibleValuesParser::new(Truth::NAMES).try_map(|name| name.parse::<Truth>())
-}
-
-/// Reads the name of a mode of learning, for `--learning`.
-fn learning_parser() -> impl TypedValueParser<Value = LearningMode> {
-    PossibleValuesParser::new(["fixed", "once", "every_scan"]).try_map(|name| name.parse::<LearningMode>())
-}
-
-/// Reads the name of a difficulty, for `--difficulty`.
-fn difficulty_parser() -> impl TypedValueParser<Value = Difficulty> {
-    PossibleValuesParser::new(Difficulty::ALL.map(Difficulty::name))
-        .try_map(|name| name.parse::<Difficulty>())
 }

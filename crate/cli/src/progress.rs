@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::run::AnyTrial;
+use crate::any_trial::AnyTrial;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// The bar fills as the goal comes closer.

@@ -7,14 +7,13 @@ use std::time::{Duration, Instant};
 use anyhow::{Context as _, ensure};
 use mapless::gp::learning::LearningMode;
 use mapless_baselines::{NavigatorKind, Truth};
-use mapless_trials::{LoadedScenario, Navigator, Outcome, Trial};
+use mapless_trials::{LoadedScenario, Outcome, Trial};
 
+use crate::any_trial::AnyTrial;
 use crate::log::Log;
+use crate::parsers;
 use crate::progress::Progress;
-use crate::report::{Report, Subject};
-
-/// A trial driven by whatever was asked for.
-pub(crate) type AnyTrial = Trial<Box<dyn Navigator>>;
+use crate::trial_report::{Report, Subject};
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
@@ -22,13 +21,13 @@ pub(crate) struct Args {
     scenario: PathBuf,
     /// What drives: default, paper and flat are configurations of the mapless planner, from which a scenario's [planner]
     /// section starts; the others know the map.
-    #[arg(long, default_value = "default", value_parser = crate::planner_parser(), value_name = "NAME")]
+    #[arg(long, default_value = "default", value_parser = parsers::planner(), value_name = "NAME")]
     planner: NavigatorKind,
     /// When the mapless planner learns hyperparameters, instead of what the configuration says.
-    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
+    #[arg(long, value_parser = parsers::learning(), value_name = "MODE")]
     learning: Option<LearningMode>,
     /// What the mapless planner is told in place of what it perceives.
-    #[arg(long, default_value = "none", value_parser = crate::truth_parser(), value_name = "WHAT")]
+    #[arg(long, default_value = "none", value_parser = parsers::truth(), value_name = "WHAT")]
     truth: Truth,
     /// Seed of the sensor's noise and of what a planner draws, instead of the scenario's own.
     #[arg(long)]

@@ -7,6 +7,8 @@ use mapless::PlannerConfig;
 use mapless::gp::learning::LearningMode;
 use mapless_trials::{LoadedScenario, Preset};
 
+use crate::parsers;
+
 #[derive(clap::Args)]
 pub(crate) struct Setup {
     /// Scenario file (TOML): terrain, start, goal, seed and what differs from the defaults.
@@ -19,10 +21,10 @@ pub(crate) struct Setup {
 #[derive(clap::Args)]
 pub(crate) struct PlannerChoice {
     /// Planner configuration; a scenario's [planner] section starts from it.
-    #[arg(long, default_value = "default", value_parser = crate::preset_parser(), value_name = "NAME")]
+    #[arg(long, default_value = "default", value_parser = parsers::preset(), value_name = "NAME")]
     pub(crate) planner: Preset,
     /// When hyperparameters are learned, instead of what the configuration says.
-    #[arg(long, value_parser = crate::learning_parser(), value_name = "MODE")]
+    #[arg(long, value_parser = parsers::learning(), value_name = "MODE")]
     learning: Option<LearningMode>,
 }
 

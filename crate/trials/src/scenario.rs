@@ -332,12 +332,12 @@ mod tests {
 
     #[test]
     fn other_parameters_replace_those_of_the_file_and_keep_the_rest() {
-        let text = format!("{SCENARIO}[planner.decision]\nlook_ticks = 9\n[sensor]\nheight_m = 0.9\n");
+        let text = format!("{SCENARIO}[planner.decision]\nspin_recovery_s = 9.0\n[sensor]\nheight_m = 0.9\n");
         let scenario = Scenario::parse("x.toml", &text).unwrap();
         let sections = "[planner.decision]\ndistance_weight = 2\n[sensor]\nrange_noise_m = 0.1\n[robot]\nwidth_m = 0.8\n";
         let changed = scenario.with_parameters("settings", sections).unwrap();
         let config = changed.planner_config(Preset::Default).unwrap();
-        assert_eq!(config.decision.look_ticks, 9);
+        assert!((config.decision.spin_recovery_s - 9.0).abs() < 1e-12);
         assert!((config.decision.distance_weight - 2.0).abs() < 1e-12);
         assert!((config.sensor.height_m - 0.9).abs() < 1e-12);
         assert!((config.robot.width_m - 0.8).abs() < 1e-12);

@@ -1,7 +1,7 @@
 //! How a rigid body on four wheels rests on the ground.
 
 use crate::height_field::HeightField;
-use crate::husky::HuskyConfig;
+use crate::husky_config::HuskyConfig;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Height and tilt of a body that rests on its four wheel contacts.

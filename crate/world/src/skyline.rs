@@ -1,7 +1,8 @@
 //! The true elevation profile of the ground around a sensor, against which perception is judged.
 
 use crate::caster::{Caster, Fan};
-use crate::vlp16::{RING_COUNT, SensorPose, ring_elevation_rad};
+use crate::sensor_pose::SensorPose;
+use crate::vlp16::{RING_COUNT, ring_elevation_rad};
 
 /// What a sensor would see at one azimuth if its beams were infinitely dense.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,8 @@ use crate::attitude::{Attitude, world_from_body};
 use crate::caster::{Caster, Fan};
 use crate::config::{ConfigError, within};
 use crate::random;
-use glam::{DMat3, DVec2, DVec3, Vec3};
+use crate::sensor_pose::SensorPose;
+use glam::{DVec2, DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
@@ -77,15 +78,6 @@ impl SensorConfig {
         let mount = world_from_sensor * DVec3::new(self.forward_m, 0.0, self.height_m);
         SensorPose { position: position.extend(attitude.height_m) + mount, world_from_sensor }
     }
-}
-
-/// Where the sensor is. Its axes are those of the robot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SensorPose {
-    /// World position, in metres.
-    pub position: DVec3,
-    /// Rotation from the sensor frame to the world.
-    pub world_from_sensor: DMat3,
 }
 
 /// One revolution.

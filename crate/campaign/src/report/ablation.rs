@@ -9,7 +9,7 @@ use mapless_trials::parameters::GROUPS;
 use super::comparison::{Contest, EVEN, contests};
 use super::figures::Figures;
 use super::{METRICS, Metric, Results, failures, rate, stats, tables};
-use crate::results::TrialRow;
+use crate::row::TrialRow;
 
 /// What the paper calls a parameter.
 const SYMBOLS: [(&str, &str); 6] = [

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::published::PublishedRow;
 use super::{METRICS, Metric, Results, failures, rate, stats, values};
-use crate::results::TrialRow;
+use crate::row::TrialRow;
 
 /// Means that differ by less than this share are even.
 pub(super) const EVEN: f64 = 0.005;

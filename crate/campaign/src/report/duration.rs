@@ -5,7 +5,7 @@ use std::fmt::{self, Write as _};
 use mapless_trials::{BASE_TIME_LIMIT_S, MOST_STRAIGHT_TIMES};
 
 use super::{MANY_TRIALS, Results};
-use crate::results::TrialRow;
+use crate::row::TrialRow;
 
 /// Success is told within so many times the straight way at full speed, and at the end.
 const TIMES: [f64; 6] = [1.5, 3.0, 6.0, 12.0, 24.0, MOST_STRAIGHT_TIMES];

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
 use super::{Results, failures, rate, stats};
-use crate::results::TrialRow;
+use crate::row::TrialRow;
 
 /// What the planner was told: its name in the rows, and in words.
 const TOLD: [(&str, &str); 4] = [

@@ -15,7 +15,8 @@ use mapless_trials::LoadedScenario;
 use super::trajectory::{self, State};
 use super::{MOST_ROUTES, Results};
 use crate::error::CampaignError;
-use crate::results::{ManifestRoute, TrialRow, trajectory_path};
+use crate::results::{ManifestRoute, trajectory_path};
+use crate::row::TrialRow;
 
 /// Pixels of a map's relief for one of the page: sharp enough in a report, and a file of a quarter of the size.
 const DETAIL: f64 = 0.5;

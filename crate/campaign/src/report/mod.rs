@@ -18,7 +18,8 @@ use std::path::{Path, PathBuf};
 
 use crate::error::CampaignError;
 use crate::files::write_atomically;
-use crate::results::{Manifest, TrialRow};
+use crate::results::Manifest;
+use crate::row::TrialRow;
 use comparison::EVEN;
 use mapless_trials::statistics as stats;
 use mapless_world::generate::Difficulty;

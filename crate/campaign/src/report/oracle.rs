@@ -3,7 +3,7 @@
 use std::fmt::{self, Write as _};
 
 use super::{Results, rate, stats};
-use crate::results::TrialRow;
+use crate::row::TrialRow;
 
 /// SPL and the median ratio of lengths by planner, where shortest paths are known.
 pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {

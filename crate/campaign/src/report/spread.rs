@@ -4,7 +4,7 @@ use std::fmt::{self, Write as _};
 
 use super::published::PublishedRow;
 use super::{METRICS, Results, stats, values};
-use crate::results::TrialRow;
+use crate::row::TrialRow;
 
 /// A value within this many standard deviations of the paper's mean lies within its spread.
 const DEVIATIONS: f64 = 2.0;

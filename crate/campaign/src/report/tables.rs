@@ -4,7 +4,7 @@ use std::fmt::{self, Write as _};
 
 use super::published::PublishedRow;
 use super::{METRICS, Metric, Results, failures, rate, stats, values};
-use crate::results::TrialRow;
+use crate::row::TrialRow;
 
 /// Routes of the paper's Table I with its letters, and those of Table II.
 const TABLE_I: [(&str, &str); 6] = [

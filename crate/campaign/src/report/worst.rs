@@ -6,7 +6,7 @@ use std::path::Path;
 use mapless_baselines::TaskName;
 
 use super::Results;
-use crate::results::TrialRow;
+use crate::row::TrialRow;
 
 /// At least so many are shown and, if that is more, every failure up to so many.
 const LEAST_SHOWN: usize = 10;

@@ -5,7 +5,7 @@ mod geotiff;
 mod png16;
 
 use crate::height_field::HeightField;
-use crate::terrain::{TerrainError, TerrainFault, split_name};
+use crate::terrain::{TerrainError, TerrainFault};
 
 /// What a recipe says about the file it imports.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,6 +26,15 @@ pub(crate) fn read(file: &str, bytes: &[u8], scale: &Scale) -> Result<HeightFiel
         _ => Err(TerrainFault::Extension { extension }),
     };
     field.map_err(|fault| fault.of(file))
+}
+
+/// The file's name without folders and extension, and its extension in lower case.
+pub(crate) fn split_name(file: &str) -> (&str, String) {
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    match name.rsplit_once('.') {
+        Some((stem, extension)) => (stem, extension.to_ascii_lowercase()),
+        None => (name, String::new()),
+    }
 }
 
 /// Turns rows that begin in the north, as images and maps store them, into rows that begin in the south.

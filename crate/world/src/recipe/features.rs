@@ -2,8 +2,9 @@
 
 use super::canvas::{Canvas, TooMuch};
 use super::check::{PerPoint, Table};
-use super::gradient_noise::GradientNoise;
 use super::line::Line;
+use crate::noise::GradientNoise;
+use crate::sculpt::smooth_step;
 use crate::terrain::TerrainFault;
 use glam::DVec2;
 use serde::Deserialize;
@@ -82,12 +83,6 @@ impl Feature for Plateau {
             *height_m += self.height_m * (1.0 - smooth_step(down));
         })
     }
-}
-
-/// From 0 to 1 as `x` goes from 0 to 1, level at both ends and beyond.
-pub(crate) fn smooth_step(x: f64) -> f64 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
 }
 
 #[derive(Deserialize)]

@@ -72,23 +72,19 @@
 mod canvas;
 mod check;
 mod features;
-mod gradient_noise;
 mod line;
 mod trail;
 
 use crate::height_field::{HeightField, check_grid};
-use crate::import::{self, Scale};
+use crate::import::{self, Scale, split_name};
 use crate::sculpt::{Stroke, StrokeTable};
-use crate::terrain::{Terrain, TerrainError, TerrainFault, split_name};
+use crate::terrain::{Terrain, TerrainError, TerrainFault};
 use canvas::{Canvas, Effort};
 use check::Table;
 use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
 use mapless_toml::Located;
 use serde::Deserialize;
 use trail::Trail;
-
-pub(crate) use features::smooth_step;
-pub(crate) use gradient_noise::GradientNoise;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -2,8 +2,9 @@
 
 use super::canvas::{Canvas, TooMuch};
 use super::check::{PerPoint, Table};
-use super::features::{Feature, smooth_step};
+use super::features::Feature;
 use super::line::Line;
+use crate::sculpt::smooth_step;
 use crate::terrain::TerrainFault;
 use serde::Deserialize;
 

@@ -5,10 +5,11 @@ mod stroke;
 
 use crate::config::{ConfigError, positive, within};
 use crate::height_field::{FieldError, HEIGHT_LIMIT_M, HeightField};
-use crate::recipe::GradientNoise;
+use crate::noise::GradientNoise;
 use glam::DVec2;
 use profile::{boulder, bump, crater, flat_bottom, flat_top};
 
+pub(crate) use profile::smooth_step;
 pub(crate) use stroke::StrokeTable;
 pub use stroke::{Stroke, StrokeError};
 

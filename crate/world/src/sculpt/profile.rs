@@ -1,10 +1,14 @@
 //! How a brush's effect falls off: functions of the distance from its centre or line, in radii from 0 to 1.
 
-use crate::recipe::smooth_step;
-
 /// Where a crater has its rim, in radii, and the rim's height as a part of the depth.
 const RIM_RADII: f64 = 0.6;
 const RIM_HEIGHT: f64 = 0.25;
+
+/// From 0 to 1 as `x` goes from 0 to 1, level at both ends and beyond.
+pub(crate) fn smooth_step(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
 
 /// `(1 - r²)²`: 1 at the centre, level there and at the radius.
 pub(super) fn bump(radii: f64) -> f64 {

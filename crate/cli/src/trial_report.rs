@@ -6,7 +6,7 @@ use std::time::Duration;
 use comfy_table::{CellAlignment, Table, presets};
 use mapless_trials::{Metrics, Outcome, statistics};
 
-use crate::run::AnyTrial;
+use crate::any_trial::AnyTrial;
 
 /// What was run; stands above the table and the picture.
 pub(crate) struct Subject {
