@@ -2,8 +2,8 @@
 
 import { readFileSync } from 'node:fs';
 import { test as base, expect, type Locator, type Page } from '@playwright/test';
-import type { MaplessApi, MaplessState } from '../../web/src/api.ts';
-import type { Experiment } from '../../web/src/core/experiment.ts';
+import type { MaplessApi, MaplessState } from '../../web/src/app/windowApi.ts';
+import type { Experiment } from '../../web/src/experiment/experiment.ts';
 
 declare global {
   interface Window {

@@ -1,5 +1,5 @@
 import type { Page } from '@playwright/test';
-import { tidyPlace } from '../../web/src/core/experiment.ts';
+import { tidyPlace } from '../../web/src/experiment/experiment.ts';
 import { expect, state, still, test, until } from './page.ts';
 
 /** Restarts with a goal some metres ahead and drives there as fast as it goes; gives the last tick and the digest. */

@@ -1,7 +1,7 @@
 /** A phone in the hand: running, measuring, sharing, and what goes wrong, by taps and fingers. */
 
 import { type Page, test as plain } from '@playwright/test';
-import { clock } from '../../web/src/ui/format.ts';
+import { clock } from '../../web/src/base/format.ts';
 import {
   download,
   drag,

@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Frame, Segment, Subgoal } from '../src/core/protocol.ts';
-import { neighbour } from '../src/panel/varianceImage.ts';
-import { Attention, segmentAt, subgoalTarget, type Target } from '../src/ui/attention.ts';
+import { neighbour } from '../src/inspector/varianceImage.ts';
+import type { Frame, Segment, Subgoal } from '../src/protocol/simulationProtocol.ts';
+import { Attention, segmentAt, subgoalTarget, type Target } from '../src/scene/selection.ts';
 
 const segments = [
   { begin_rad: -3, end_rad: 0 },

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { decodeSegments, decodeSubgoals, kindOf, named, STATUS } from '../src/core/decode.ts';
+import { decodeSegments, decodeSubgoals, kindOf, named, STATUS } from '../src/bindings/decode.ts';
 
 test('segments get their names and their verdict', () => {
   const [one, two] = decodeSegments(new Float64Array([3, 3.4, -0.1, 0.2, 2.8, 0, 1, 1.1, NaN, NaN, 0.7, 3]));

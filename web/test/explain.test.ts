@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Frame, Segment, SessionInfo, Subgoal } from '../src/core/protocol.ts';
-import { segmentReason, segmentTitle, subgoalReason, subgoalTitle } from '../src/panel/explain.ts';
+import { segmentReason, segmentTitle, subgoalReason, subgoalTitle } from '../src/inspector/explain.ts';
+import type { Frame, Segment, SessionInfo, Subgoal } from '../src/protocol/simulationProtocol.ts';
 
 const demands = { robot_width_m: 0.685, safety_margin_m: 0.3, max_slope_rad: 0.5, subgoals_on_unknown: true };
 const info = { demands, occupancy_radius_m: 7 } as SessionInfo;

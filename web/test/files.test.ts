@@ -5,7 +5,7 @@ import { crc32 as ours } from '../src/files/checksum.ts';
 import { heightsAscii, heightsPng } from '../src/files/heights.ts';
 import { unzip } from '../src/files/unzip.ts';
 import { zip } from '../src/files/zip.ts';
-import { HeightField } from '../src/scene/heightfield.ts';
+import { HeightField } from '../src/ground/heightField.ts';
 
 const FIELD = new HeightField({
   columns: 3,

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { HeightField } from '../src/scene/heightfield.ts';
+import { HeightField } from '../src/ground/heightField.ts';
 
 /** A field of 41 × 31 samples, 0.5 m apart, with the given height at each place. */
 function field(height: (x: number, y: number) => number): HeightField {

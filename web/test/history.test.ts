@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Command, Ground, GroundPatch, SessionInfo, Source } from '../src/core/protocol.ts';
-import { Workbench } from '../src/workbench.ts';
+import { Workbench } from '../src/editor/editor.ts';
+import type { Command, Ground, GroundPatch, SessionInfo, Source } from '../src/protocol/simulationProtocol.ts';
 import { EXPERIMENT } from './example.ts';
 
 /** A core whose strokes raise whole rows by one metre, and which notes what it is asked. */

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { countOverrides, override, sectionsOf, withOverride } from '../src/core/overrides.ts';
-import { complaintAbout, label, type ParameterGroup } from '../src/core/parameters.ts';
+import { countOverrides, override, sectionsOf, withOverride } from '../src/experiment/overrides.ts';
+import { complaintAbout, label, type ParameterGroup } from '../src/experiment/parameters.ts';
 
 test('a value is set, counted, found and taken away, and the record before stays as it was', () => {
   const none = {};

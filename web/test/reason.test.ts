@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Frame, SessionInfo, Subgoal } from '../src/core/protocol.ts';
-import { reason } from '../src/panel/reason.ts';
-import { standing } from '../src/panel/status.ts';
+import { reason } from '../src/inspector/reason.ts';
+import { standing } from '../src/inspector/status.ts';
+import type { Frame, SessionInfo, Subgoal } from '../src/protocol/simulationProtocol.ts';
 
 const info = { limits: { roll_rad: 0.524, pitch_rad: 0.785 } } as SessionInfo;
 const candidate = (azimuth_rad: number, chosen: boolean): Subgoal => ({

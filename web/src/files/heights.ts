@@ -1,6 +1,6 @@
 /** Heights as files that other programs read: 16-bit PNG and ESRI ASCII grid. */
 
-import type { HeightField } from '../scene/heightfield.ts';
+import type { HeightField } from '../ground/heightField.ts';
 import { crc32 } from './checksum.ts';
 
 /** Of the ground above its lowest point, at a millimetre a level. */

@@ -1,6 +1,6 @@
 /** Reads ZIP archives of stored files, such as the page writes. They come from anybody: nothing in them is believed before it is checked. */
 
-import type { NamedFile } from '../core/protocol.ts';
+import type { NamedFile } from '../protocol/simulationProtocol.ts';
 import { crc32 } from './checksum.ts';
 
 /** More files than this make no experiment. */

@@ -1,6 +1,6 @@
 /** A ZIP archive of a few files, stored as they are. */
 
-import type { NamedFile } from '../core/protocol.ts';
+import type { NamedFile } from '../protocol/simulationProtocol.ts';
 import { crc32 } from './checksum.ts';
 
 /** 1 January 1980, the first day that the format knows: the same files give the same archive. */

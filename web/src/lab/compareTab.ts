@@ -1,13 +1,13 @@
 /** Other planners on the same course, in step with the robot of the page: ghosts in the view, differences in a table. */
 
-import type { App } from '../app.ts';
-import type { Frame, SessionInfo } from '../core/protocol.ts';
-import type { Stage } from '../scene/stage.ts';
-import { type RunningJob, startJob } from '../trials/client.ts';
+import type { App } from '../app/app.ts';
+import { html, setText } from '../base/dom.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { courseOf } from '../trials/course.ts';
 import { GhostRun } from '../trials/ghostRun.ts';
-import type { FromTrials } from '../trials/protocol.ts';
-import { html, setText } from '../ui/dom.ts';
+import { type RunningJob, startJob } from '../trials/trialsClient.ts';
+import type { FromTrials } from '../trials/trialsProtocol.ts';
+import type { Stage } from '../view/stage.ts';
 import { ComparisonTable } from './comparisonTable.ts';
 import { GhostTrails } from './ghostTrails.ts';
 import type { Tab } from './lab.ts';

@@ -1,15 +1,15 @@
 /** Many seeds of the present setting, run in the background: how often the goal is reached, and the metrics. */
 
-import type { App } from '../app.ts';
-import type { Overrides } from '../core/overrides.ts';
-import type { SessionInfo } from '../core/protocol.ts';
-import { METRIC_ROWS } from '../panel/metrics.ts';
-import { OUTCOME_WORDS } from '../panel/status.ts';
+import type { App } from '../app/app.ts';
+import { html, setText } from '../base/dom.ts';
+import { clock, fixed } from '../base/format.ts';
+import type { Overrides } from '../experiment/overrides.ts';
+import { OUTCOME_WORDS } from '../inspector/status.ts';
+import { METRIC_ROWS } from '../measurements/metrics.ts';
+import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import { Batch, type FromBatch, workersFor } from '../trials/batch.ts';
 import { courseOf } from '../trials/course.ts';
-import type { Summary, TrialResult } from '../trials/protocol.ts';
-import { html, setText } from '../ui/dom.ts';
-import { clock, fixed } from '../ui/format.ts';
+import type { Summary, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 
 const MOST_SEEDS = 500;

@@ -10,7 +10,7 @@ import {
   MeshStandardMaterial,
   TorusGeometry,
 } from 'three';
-import type { Pose } from '../core/protocol.ts';
+import type { Pose } from '../protocol/simulationProtocol.ts';
 
 const WHEEL_RADIUS_M = 0.165;
 const HALF_WHEELBASE_M = 0.256;

@@ -1,10 +1,10 @@
 /** What somebody points at: a bright rim and a pin on a subgoal, its way, and its segment as a thick arc. */
 
 import { BackSide, CylinderGeometry, Group, Mesh, MeshBasicMaterial, SphereGeometry } from 'three';
+import type { Theme } from '../colours/theme.ts';
 import { segmentArc } from '../scene/segmentArc.ts';
-import type { Target } from '../ui/attention.ts';
-import type { Theme } from '../ui/theme.ts';
-import type { Seen } from './protocol.ts';
+import type { Target } from '../scene/selection.ts';
+import type { Seen } from './painterProtocol.ts';
 import { colour } from './relief.ts';
 import { Strokes } from './strokes.ts';
 import { MARKS_ORDER } from './subgoals.ts';

@@ -1,13 +1,13 @@
 /** The planner's thinking in the 3D view: surfaces, segments, ways, and marks on what somebody points at. */
 
 import { Group } from 'three';
-import type { Pose } from '../core/protocol.ts';
+import type { Theme } from '../colours/theme.ts';
+import type { Pose } from '../protocol/simulationProtocol.ts';
 import type { Layers } from '../scene/layers.ts';
-import type { Target } from '../ui/attention.ts';
-import type { Theme } from '../ui/theme.ts';
+import type { Target } from '../scene/selection.ts';
 import { Bands } from './bands.ts';
 import { Marks } from './marks.ts';
-import type { Scenery, Seen } from './protocol.ts';
+import type { Scenery, Seen } from './painterProtocol.ts';
 import { Ways } from './ways.ts';
 
 type Height = (x: number, y: number) => number;

@@ -1,18 +1,18 @@
 /** Draws the 3D view as it is told to. Draws only when something changed. */
 
 import { AmbientLight, DirectionalLight, Group, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
-import type { Ground, GroundPatch, Pose } from '../core/protocol.ts';
-import { HeightField } from '../scene/heightfield.ts';
+import { wrap } from '../base/format.ts';
+import type { Theme } from '../colours/theme.ts';
+import { HeightField } from '../ground/heightField.ts';
+import type { Ground, GroundPatch, Pose } from '../protocol/simulationProtocol.ts';
 import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
 import { sensorAt } from '../scene/sensor.ts';
-import { wrap } from '../ui/format.ts';
-import type { Theme } from '../ui/theme.ts';
 import { Ghosts } from './ghosts.ts';
 import { Husky } from './husky.ts';
 import { Overlays } from './overlays.ts';
 import type { Pacer } from './pacer.ts';
+import { DEPTH_M, type FromPainter, type Look, type Scenery, type Seen, type ToPainter } from './painterProtocol.ts';
 import { Places } from './places.ts';
-import { DEPTH_M, type FromPainter, type Look, type Scenery, type Seen, type ToPainter } from './protocol.ts';
 import { Refusals } from './refusals.ts';
 import { Relief } from './relief.ts';
 import { Returns } from './returns.ts';

@@ -10,10 +10,10 @@ import {
   Vector2,
   Vector3,
 } from 'three';
+import { VIRIDIS } from '../colours/scale.ts';
+import type { Theme } from '../colours/theme.ts';
 import { FARTHEST_RANGE_M, POINT_COLOURS, type PointColours } from '../scene/layers.ts';
-import { VIRIDIS } from '../ui/scale.ts';
-import type { Theme } from '../ui/theme.ts';
-import type { Seen } from './protocol.ts';
+import type { Seen } from './painterProtocol.ts';
 import { colour } from './relief.ts';
 import { scaleTexture } from './scaleTexture.ts';
 

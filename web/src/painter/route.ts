@@ -4,7 +4,7 @@ import { InstancedInterleavedBuffer, InterleavedBufferAttribute } from 'three';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
-import type { Theme } from '../ui/theme.ts';
+import type { Theme } from '../colours/theme.ts';
 import { colour } from './relief.ts';
 
 /** Points are kept at this distance, so that the longest trials fit. */

@@ -1,10 +1,10 @@
 /** Segments as arcs at the radius where subgoals lie, and the way to the chosen subgoal on the ground. */
 
 import { Color, Group } from 'three';
+import type { Theme } from '../colours/theme.ts';
 import type { Layers } from '../scene/layers.ts';
 import { segmentArc } from '../scene/segmentArc.ts';
-import type { Theme } from '../ui/theme.ts';
-import type { Seen } from './protocol.ts';
+import type { Seen } from './painterProtocol.ts';
 import { colour } from './relief.ts';
 import { Strokes } from './strokes.ts';
 import { MARKS_ORDER } from './subgoals.ts';

@@ -1,6 +1,6 @@
 /** Segments of the skyline as arcs in the world. */
 
-import type { Segment } from '../core/protocol.ts';
+import type { Segment } from '../protocol/simulationProtocol.ts';
 
 const ARC_STEP_RAD = Math.PI / 90;
 

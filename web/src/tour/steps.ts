@@ -1,10 +1,10 @@
 /** The paper, step by step, on the live scene. */
 
-import type { Frame, SessionInfo } from '../core/protocol.ts';
+import { degrees, fixed, grouped } from '../base/format.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Layers } from '../scene/layers.ts';
-import type { CameraMode } from '../scene/viewpoint.ts';
-import { type Finder, subgoalTarget } from '../ui/attention.ts';
-import { degrees, fixed, grouped } from '../ui/format.ts';
+import { type Finder, subgoalTarget } from '../scene/selection.ts';
+import type { CameraMode } from '../view/viewpoint.ts';
 
 export interface Step {
   readonly title: string;

@@ -1,7 +1,7 @@
 /** The course that the page shows now, for other trials on it. */
 
-import type { App } from '../app.ts';
-import type { Course } from './protocol.ts';
+import type { App } from '../app/app.ts';
+import type { Course } from './trialsProtocol.ts';
 
 /** Nothing until the first scenario is there. */
 export function courseOf(app: App): Course | undefined {

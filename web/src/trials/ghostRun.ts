@@ -1,9 +1,9 @@
 /** What is known of one ghost: its rows by tick and how it stands. */
 
-import { POSE } from '../core/columns.ts';
-import { named, only } from '../core/decode.ts';
-import type { Pose } from '../core/protocol.ts';
-import { ROW, type Row, standing, type TrialResult } from './protocol.ts';
+import { POSE } from '../bindings/columns.ts';
+import { named, only } from '../bindings/decode.ts';
+import type { Pose } from '../protocol/simulationProtocol.ts';
+import { ROW, type Row, standing, type TrialResult } from './trialsProtocol.ts';
 
 const STRIDE = ROW.length;
 const FIRST_TICKS = 512;

@@ -1,12 +1,12 @@
 /** Trials on one course, as plain data. Runs in the worker. */
 
-import { METRICS } from '../core/columns.ts';
-import { named } from '../core/decode.ts';
-import { sectionsOf, withOverride } from '../core/overrides.ts';
-import type { Metrics, Outcome } from '../core/protocol.ts';
-import { scenarioFile } from '../core/toml.ts';
-import { type Course, ROW, type Summary, standing, type TrialResult } from './protocol.ts';
-import type { TrialsModule, WasmGround, WasmRunner } from './wasm.ts';
+import { METRICS } from '../bindings/columns.ts';
+import { named } from '../bindings/decode.ts';
+import type { TrialsModule, WasmGround, WasmRunner } from '../bindings/trialsModule.ts';
+import { sectionsOf, withOverride } from '../experiment/overrides.ts';
+import { scenarioFile } from '../experiment/scenarioFiles.ts';
+import type { Metrics, Outcome } from '../protocol/simulationProtocol.ts';
+import { type Course, ROW, type Summary, standing, type TrialResult } from './trialsProtocol.ts';
 
 export class Runner {
   readonly planner: string;

@@ -1,0 +1,77 @@
+/** The sheet for links and files. */
+
+import type { App } from '../app/app.ts';
+import { byId, setText } from '../base/dom.ts';
+import { linkTo, MAX_LINK_CHARACTERS } from '../experiment/link.ts';
+import { download } from '../files/download.ts';
+import { heightsAscii, heightsPng } from '../files/heights.ts';
+import { zip } from '../files/zip.ts';
+
+export class ShareSheet {
+  readonly #app: App;
+  readonly #sheet = byId('share-sheet', HTMLDialogElement);
+  readonly #note = byId('share-note', HTMLElement);
+  readonly #state = byId('share-state', HTMLElement);
+  readonly #link = byId('link', HTMLInputElement);
+  readonly #copy = byId('copy-link', HTMLButtonElement);
+
+  constructor(app: App) {
+    this.#app = app;
+    this.#copy.addEventListener('click', () => app.attempt(this.#copyLink()));
+    this.#saves('save-experiment', async (name) => {
+      const json = `${JSON.stringify(app.bench.experiment, undefined, 1)}\n`;
+      download(`${name}.json`, new Blob([json], { type: 'application/json' }));
+    });
+    this.#saves('save-scenario', async (name) => download(`${name}.zip`, zip(await app.files())));
+    this.#saves('save-png', async (name) => download(`${name}.png`, await heightsPng(ground(app))));
+    this.#saves('save-asc', async (name) => download(`${name}.asc`, heightsAscii(ground(app))));
+  }
+
+  async open(): Promise<void> {
+    const { experiment } = this.#app.bench;
+    if (!experiment) return;
+    setText(this.#state, '');
+    const link = await linkTo(location.href.split('?')[0] ?? '', experiment);
+    const short = link.length <= MAX_LINK_CHARACTERS;
+    this.#link.value = short ? link : '';
+    this.#copy.disabled = !short;
+    this.#link.hidden = !short;
+    const changed = this.#app.state()?.disturbed
+      ? ' Ground or route changed during this run: restart it to see that run.'
+      : '';
+    setText(
+      this.#note,
+      short
+        ? `The link holds terrain, strokes, start, route and settings (${link.length} characters) and drives the same run from its start.${changed}`
+        : `This is too much for a link that chats carry (${link.length} characters, ${MAX_LINK_CHARACTERS} at most). Save the experiment as a file and send that.`,
+    );
+    if (!this.#sheet.open) this.#sheet.showModal();
+    if (short) this.#copy.focus();
+  }
+
+  async #copyLink(): Promise<void> {
+    this.#link.select();
+    try {
+      await navigator.clipboard.writeText(this.#link.value);
+      setText(this.#state, 'Copied.');
+    } catch {
+      setText(this.#state, 'The browser does not let the page copy: the link is selected, copy it from there.');
+    }
+  }
+
+  #saves(id: string, save: (name: string) => Promise<void>): void {
+    byId(id, HTMLButtonElement).addEventListener('click', () => {
+      const name = (this.#app.bench.experiment?.name ?? 'experiment').replace(/[^\w-]+/g, '-');
+      // What goes wrong is said in the sheet, which covers the notice.
+      save(name).then(
+        () => setText(this.#state, ''),
+        (error: unknown) => setText(this.#state, error instanceof Error ? error.message : String(error)),
+      );
+    });
+  }
+}
+
+function ground(app: App) {
+  if (!app.field) throw new Error('There is no ground yet.');
+  return app.field;
+}
