@@ -1,11 +1,11 @@
 //! gpflow's numbers (version 2.9.2, float64) beside ours: the fixtures' form and the comparison.
 
 use glam::DVec2;
-use mapless::bound::CollapsedBound;
-use mapless::exact_gp::ExactGp;
-use mapless::hyperparameters::{Hyperparameters as Ours, LogGradient};
-use mapless::kernel::RationalQuadratic;
-use mapless::sparse_gp::SparseGp;
+use mapless::gp::bound::CollapsedBound;
+use mapless::gp::exact::ExactGp;
+use mapless::gp::hyperparameters::{Hyperparameters as Ours, LogGradient};
+use mapless::gp::kernel::RationalQuadratic;
+use mapless::gp::sparse::SparseGp;
 use serde::Deserialize;
 
 /// One scene with gpflow's posterior and bound for several hyperparameters, and its exact process on a part of the inputs.

@@ -1,9 +1,9 @@
 //! Learning on the repository's scene gives recorded bits; native and browser tests compare with the same number, so a pass of
 //! both shows that bound, gradient and both optimisers agree on every target.
 
-use mapless::hyperparameters::Hyperparameters;
-use mapless::kernel::RationalQuadratic;
-use mapless::learning::{Learned, Learner, LearningConfig, Optimiser};
+use mapless::gp::hyperparameters::Hyperparameters;
+use mapless::gp::kernel::RationalQuadratic;
+use mapless::gp::learning::{Learned, Learner, LearningConfig, Optimiser};
 
 use crate::gpflow;
 

@@ -5,9 +5,9 @@
 
 use glam::DVec2;
 use mapless::PlannerConfig;
-use mapless::hyperparameters::Hyperparameters;
-use mapless::learning::{HyperparameterBounds, Learner, LearningConfig, Stop};
-use mapless::sparse_gp::SparseGp;
+use mapless::gp::hyperparameters::Hyperparameters;
+use mapless::gp::learning::{HyperparameterBounds, Learner, LearningConfig, Stop};
+use mapless::gp::sparse::SparseGp;
 use mapless_tests::{gpflow, learned_bits};
 
 /// Mean height of the edge, in degrees, over the highest return of a column, at the default threshold.

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use mapless::Command;
 use mapless::config::ControllerConfig;
-use mapless::controller::Controller;
+use mapless::control::controller::Controller;
 use mapless::pose::Pose;
 
 /// How far before the robot along the path the point lies that it steers to, metres. Half of it is about how much a

@@ -4,10 +4,10 @@ use core::{array, fmt};
 use std::str::FromStr;
 
 use glam::{DVec2, Vec3};
-use mapless::plane::Plane;
 use mapless::pose::Pose;
-use mapless::profile::Column;
-use mapless::{ConfigError, Decision, Insight, Navigator, Planner, PlannerConfig};
+use mapless::skyline::profile::Column;
+use mapless::terrain::plane::Plane;
+use mapless::{ConfigError, Decision, Navigator, PerceptionOverride, Planner, PlannerConfig};
 use mapless_world::{Caster, HeightField, SensorPose, Skyline, true_skyline};
 
 use crate::kind::UnknownName;
@@ -125,7 +125,7 @@ impl Navigator for TrueSight {
             Skyline::Wall => Column::Wall,
         };
         let ground = |place_m| true_plane(caster.field(), place_m);
-        let insight = Insight {
+        let insight = PerceptionOverride {
             profile: truth.of_profile().then_some(&profile),
             ground: truth.of_ground().then_some(&ground),
         };
@@ -159,7 +159,7 @@ mod tests {
     use super::*;
     use crate::testing::{field, undulating};
     use glam::DVec3;
-    use mapless::occupancy::column_azimuth_rad;
+    use mapless::skyline::occupancy::column_azimuth_rad;
     use mapless_world::{SensorConfig, attitude_on};
 
     fn standing(field: &HeightField, place: DVec2, yaw_rad: f64) -> Pose {

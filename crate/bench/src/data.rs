@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use mapless::PlannerConfig;
-use mapless::hyperparameters::Hyperparameters;
-use mapless::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad, column_of};
+use mapless::gp::hyperparameters::Hyperparameters;
+use mapless::skyline::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad, column_of};
 use mapless_world::{Caster, HeightField, RING_COUNT, SensorPose, random, ring_elevation_rad};
 
 use crate::BenchError;

@@ -1,7 +1,7 @@
 //! Why a piece of work cannot be measured.
 
-use mapless::hyperparameters::RegressionError;
-use mapless::sparse_gp::GpError;
+use mapless::gp::GpError;
+use mapless::gp::hyperparameters::RegressionError;
 
 /// Why a request has no measurement.
 #[derive(Debug, thiserror::Error)]

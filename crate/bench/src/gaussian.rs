@@ -1,8 +1,8 @@
 //! Regression: the posterior on a whole surface, and the bound with all its gradients.
 
 use glam::DVec2;
-use mapless::bound::CollapsedBound;
-use mapless::sparse_gp::SparseGp;
+use mapless::gp::bound::CollapsedBound;
+use mapless::gp::sparse::SparseGp;
 
 use crate::BenchError;
 use crate::data::{farthest_points, full_scan, hyperparameters, level_scan, queries, regression};

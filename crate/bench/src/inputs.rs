@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::DVec2;
-use mapless::hyperparameters::Hyperparameters;
+use mapless::gp::hyperparameters::Hyperparameters;
 use mapless_world::{Caster, RING_COUNT, SensorConfig, ring_elevation_rad};
 
 use crate::BenchError;

@@ -123,7 +123,7 @@ impl Work for Tick {
             // In the pit there is nowhere to go; the whole of the perception runs all the same.
             Status::Stopped(mapless::StopReason::NoSubgoal) => Ok(()),
             Status::Stopped(reason) => Err(BenchError::Stopped(reason)),
-            Status::Driving | Status::Arrived | Status::Retreating | Status::Looking => Ok(()),
+            Status::Driving | Status::Arrived | Status::Backtracking | Status::Searching => Ok(()),
         }
     }
 

@@ -19,7 +19,7 @@ use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
-use mapless::learning::LearningMode;
+use mapless::gp::learning::LearningMode;
 use mapless_baselines::{NavigatorKind, Truth};
 use mapless_trials::{Outcome, Preset};
 use mapless_world::generate::Difficulty;

@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use glam::{DVec2, DVec3};
-use mapless::perception::PredictedSurface;
 use mapless::pose::Pose;
+use mapless::skyline::surface::PredictedSurface;
 use mapless::{Planner, Step};
 use mapless_scans::read_scan;
 

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, ensure};
 use mapless::Navigator;
-use mapless::learning::LearningMode;
+use mapless::gp::learning::LearningMode;
 use mapless_baselines::{NavigatorKind, Truth};
 use mapless_trials::{LoadedScenario, Outcome, Trial};
 

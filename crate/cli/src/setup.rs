@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Context as _;
 use mapless::PlannerConfig;
-use mapless::learning::LearningMode;
+use mapless::gp::learning::LearningMode;
 use mapless_trials::{LoadedScenario, Preset};
 
 #[derive(clap::Args)]

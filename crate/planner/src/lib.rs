@@ -4,14 +4,14 @@
 //! It implements Jardali, Ali and Liu, "Autonomous Mapless Navigation on Uneven Terrains" (ICRA 2024), called *the paper*
 //! throughout. One [`Planner::step`] runs the whole method:
 //!
-//! 1. [`occupancy`]: the returns within r_oc = 7 m become an occupancy surface over azimuth and elevation.
-//! 2. [`perception`]: a sparse Gaussian process ([`sparse_gp`]) over it gives a mean and a variance surface.
-//! 3. [`profile`]: the edge of the variance surface is the skyline of the terrain.
-//! 4. [`segments`]: its stretches of one elevation, each with a verdict.
-//! 5. [`subgoals`]: places on the segments, in the world frame.
-//! 6. [`forecast`]: what the best way there, over the ground seen so far, promises.
-//! 7. [`cost`]: the cheapest one is chosen.
-//! 8. [`controller`]: a PID drives to it.
+//! 1. [`skyline::occupancy`]: the returns within r_oc = 7 m become an occupancy surface over azimuth and elevation.
+//! 2. [`skyline::perception`]: a sparse Gaussian process ([`gp::sparse`]) over it gives a mean and a variance surface.
+//! 3. [`skyline::profile`]: the edge of the variance surface is the skyline of the terrain.
+//! 4. [`skyline::segments`]: its stretches of one elevation, each with a verdict.
+//! 5. [`decision::subgoals`]: places on the segments, in the world frame.
+//! 6. [`route::forecast`]: what the best way there, over the ground seen so far, promises.
+//! 7. [`decision::cost`]: the cheapest one is chosen.
+//! 8. [`control::controller`]: a PID drives to it.
 //!
 //! The crate does no input or output, reads no clock, starts no thread and draws no random number, and its results have
 //! the same bits on every target.
@@ -36,55 +36,25 @@
 //! # Ok::<(), mapless::ConfigError>(())
 //! ```
 
-pub mod angle;
-mod ascent;
-pub mod bound;
-mod candidates;
-mod cholesky;
 pub mod config;
-pub mod controller;
-pub mod cost;
-mod dead_ends;
-mod edge;
-mod elementary;
+pub mod control;
+pub mod decision;
 mod error;
-pub mod exact_gp;
-pub mod forecast;
-mod ground;
-pub mod hyperparameters;
-mod inducing;
-pub mod kernel;
-mod kernel_panels;
-mod lattice;
-pub mod learning;
-mod linalg;
+pub mod gp;
+pub mod math;
 mod navigator;
-pub mod occupancy;
-mod panels;
-mod patience;
-pub mod perception;
-pub mod plane;
 mod planner;
 pub mod pose;
-pub mod profile;
-mod projection;
-mod pursuit;
-mod reduction;
-mod retreat;
-mod sectors;
-pub mod segments;
-mod slopes;
-pub mod sparse_gp;
-mod step;
-pub mod subgoals;
+pub mod route;
+pub mod skyline;
+pub mod terrain;
 #[cfg(test)]
 mod testing;
-mod ways;
 
 pub use config::PlannerConfig;
-pub use controller::Command;
+pub use control::controller::Command;
+pub use decision::step::{PerceptionOverride, Status, Step, StopReason};
 pub use error::ConfigError;
 pub use navigator::{Decision, Navigator};
 pub use planner::Planner;
-pub use step::{Insight, Status, Step, StopReason};
-pub use ways::WayPoint;
+pub use route::state_lattice::PathPoint;

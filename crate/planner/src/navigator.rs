@@ -2,10 +2,10 @@
 
 use glam::{DVec2, Vec3};
 
-use crate::controller::Command;
+use crate::control::controller::Command;
+use crate::decision::step::Status;
 use crate::planner::Planner;
 use crate::pose::Pose;
-use crate::step::Status;
 
 /// What a navigator decided.
 #[derive(Clone, Copy, Debug, PartialEq)]

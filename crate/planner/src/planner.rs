@@ -4,31 +4,32 @@ use core::f64::consts::PI;
 
 use glam::{DVec2, DVec3, Vec3};
 
-use crate::angle::wrap_rad;
-use crate::candidates::Candidates;
-use crate::config::{CostModel, DecisionConfig, ForecastConfig, PlannerConfig};
-use crate::controller::{Command, Controller};
-use crate::cost::{self, Situation};
-use crate::dead_ends::DeadEnds;
+use crate::config::{CostModel, DecisionConfig, PlannerConfig, StateLatticeConfig};
+use crate::control::backtrack::{Backtrack, BacktrackCommand};
+use crate::control::controller::{Command, Controller};
+use crate::decision::candidates::Candidates;
+use crate::decision::committed_target::CommittedTarget;
+use crate::decision::cost::{self, Situation};
+use crate::decision::detour_budget::DetourBudget;
+use crate::decision::step::{PerceptionOverride, Status, Step, StopReason};
+use crate::decision::subgoals::{Subgoal, bearing_rad};
 use crate::error::ConfigError;
-use crate::ground::Ground;
-use crate::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad};
-use crate::patience::Patience;
-use crate::perception::{Perception, PredictedSurface};
+use crate::gp::jitter::GpError;
+use crate::math::angle::wrap_rad;
 use crate::pose::Pose;
-use crate::profile::ElevationProfile;
-use crate::pursuit::Pursuit;
-use crate::retreat::{Back, Retreat};
-use crate::segments::{Segment, cut_segments};
-use crate::sparse_gp::GpError;
-use crate::step::{Insight, Status, Step, StopReason};
-use crate::subgoals::{Subgoal, bearing_rad};
-use crate::ways::{Reached, WayPoint, Ways, length_m};
+use crate::route::heuristic_table::HeuristicTable;
+use crate::route::state_lattice::{PathPoint, ReachedState, StateLattice, length_m};
+use crate::skyline::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad};
+use crate::skyline::perception::Perception;
+use crate::skyline::profile::ElevationProfile;
+use crate::skyline::segments::{Segment, cut_segments};
+use crate::skyline::surface::PredictedSurface;
+use crate::terrain::elevation_window::ElevationWindow;
 
 /// Poses and goals farther from the origin make no sense; cells and places are counted in 32 bits.
 const FARTHEST_M: f64 = 1e6;
 /// Room for the longest way.
-const MOST_WAY_POINTS: usize = 256;
+const MAX_PATH_POINTS: usize = 256;
 /// What is known of dead ends is brought up to date when the robot has driven this far.
 const LEARN_SPACING_M: f64 = 0.5;
 /// On the way back it drives as fast as with this much left of it.
@@ -49,21 +50,21 @@ pub struct Planner {
     profile: ElevationProfile,
     segments: Vec<Segment>,
     subgoals: Vec<Subgoal>,
-    ground: Ground,
+    ground: ElevationWindow,
     controller: Controller,
-    ways: Ways,
-    way: Vec<WayPoint>,
+    lattice: StateLattice,
+    path: Vec<PathPoint>,
     /// As configured, less what patience lost takes off.
     decision: DecisionConfig,
-    dead_ends: DeadEnds,
-    patience: Option<Patience>,
-    pursuit: Pursuit,
-    retreat: Retreat,
+    heuristic: HeuristicTable,
+    patience: Option<DetourBudget>,
+    committed: CommittedTarget,
+    backtrack: Backtrack,
     learned_at_m: Option<DVec2>,
-    ends: Vec<(Reached, f64)>,
+    ends: Vec<(ReachedState, f64)>,
     goal_m: Option<DVec2>,
     last_bearing_rad: Option<f64>,
-    looked_ticks: u32,
+    searched_ticks: u32,
     status: Status,
     command: Command,
     chosen: Option<usize>,
@@ -76,28 +77,28 @@ impl Planner {
     /// [`ConfigError`] for a value that makes no sense.
     pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
         config.validate()?;
-        let ways = Ways::new(config.forecast, &config.limits, config.perception.surface_radius_m);
+        let lattice = StateLattice::new(config.forecast, &config.limits, config.perception.surface_radius_m);
         Ok(Self {
             observed: OccupancySurface::new(config.perception.surface_radius_m),
             perception: Perception::new(config.perception),
             profile: Vec::new(),
             segments: Vec::new(),
             subgoals: Vec::new(),
-            ground: Ground::new(&config),
+            ground: ElevationWindow::new(&config),
             controller: Controller::new(config.controller),
-            way: Vec::with_capacity(MOST_WAY_POINTS),
+            path: Vec::with_capacity(MAX_PATH_POINTS),
             decision: config.decision,
-            dead_ends: DeadEnds::new(config.forecast.step_m),
+            heuristic: HeuristicTable::new(config.forecast.step_m),
             patience: None,
-            pursuit: Pursuit::default(),
-            retreat: Retreat::new(),
+            committed: CommittedTarget::default(),
+            backtrack: Backtrack::new(),
             learned_at_m: None,
-            ends: Vec::with_capacity(ways.count() + 1),
-            ways,
+            ends: Vec::with_capacity(lattice.count() + 1),
+            lattice,
             goal_m: None,
             last_bearing_rad: None,
-            looked_ticks: 0,
-            status: Status::Looking,
+            searched_ticks: 0,
+            status: Status::Searching,
             command: Command::STOP,
             chosen: None,
             config,
@@ -113,8 +114,8 @@ impl Planner {
     pub fn reset(&mut self) {
         self.perception.reset(self.config.perception);
         self.ground.clear();
-        self.ways.clear();
-        self.retreat.clear();
+        self.lattice.clear();
+        self.backtrack.clear();
         self.goal_m = None;
     }
 
@@ -123,7 +124,7 @@ impl Planner {
     ///
     /// The answer to anything that makes no sense is a stop with its reason.
     pub fn step(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2) -> Step<'_> {
-        self.step_with(points_m, pose, goal_m, Insight::default())
+        self.step_with(points_m, pose, goal_m, PerceptionOverride::default())
     }
 
     /// As [`Planner::step`], with what `insight` tells in place of what the scans say.
@@ -132,30 +133,30 @@ impl Planner {
         points_m: &[Vec3],
         pose: &Pose,
         goal_m: DVec2,
-        insight: Insight<'_>,
+        overrides: PerceptionOverride<'_>,
     ) -> Step<'_> {
         self.chosen = None;
-        self.way.clear();
+        self.path.clear();
         self.subgoals.clear();
         self.segments.clear();
         if self.goal_m != Some(goal_m) {
             self.goal_m = Some(goal_m);
-            self.dead_ends.clear();
+            self.heuristic.clear();
             self.patience = None;
-            self.mind_steepness(true);
-            self.ways.stand();
-            self.pursuit.stand();
-            self.retreat.end();
+            self.scale_slope_cost(true);
+            self.lattice.stand();
+            self.committed.stand();
+            self.backtrack.end();
             self.learned_at_m = None;
             self.last_bearing_rad = None;
-            self.looked_ticks = 0;
+            self.searched_ticks = 0;
             self.controller.reset();
         }
-        self.status = self.decide(points_m, pose, goal_m, insight);
+        self.status = self.decide(points_m, pose, goal_m, overrides);
         self.command = match self.status {
-            Status::Driving | Status::Retreating => self.command,
-            Status::Looking if self.may_look_around() => self.controller.look_around(),
-            Status::Looking => Command::STOP,
+            Status::Driving | Status::Backtracking => self.command,
+            Status::Searching if self.may_spin() => self.controller.spin(),
+            Status::Searching => Command::STOP,
             Status::Arrived | Status::Stopped(_) => {
                 self.controller.reset();
                 Command::STOP
@@ -170,12 +171,12 @@ impl Planner {
             status: self.status,
             command: self.command,
             observed: &self.observed,
-            effort: self.perception.effort(),
+            diagnostics: self.perception.diagnostics(),
             profile: &self.profile,
             segments: &self.segments,
             subgoals: &self.subgoals,
             chosen: self.chosen,
-            way: &self.way,
+            path: &self.path,
         }
     }
 
@@ -188,15 +189,21 @@ impl Planner {
         self.perception.surface(&self.observed)
     }
 
-    fn decide(&mut self, points_m: &[Vec3], pose: &Pose, goal_m: DVec2, insight: Insight<'_>) -> Status {
+    fn decide(
+        &mut self,
+        points_m: &[Vec3],
+        pose: &Pose,
+        goal_m: DVec2,
+        overrides: PerceptionOverride<'_>,
+    ) -> Status {
         let near = |place_m: DVec2| place_m.abs().max_element() < FARTHEST_M;
         if !(pose.is_finite() && near(pose.plan_m()) && near(goal_m)) {
             return Status::Stopped(StopReason::InvalidInput);
         }
-        if points_m.is_empty() && insight.profile.is_none() {
+        if points_m.is_empty() && overrides.profile.is_none() {
             return Status::Stopped(StopReason::EmptyScan);
         }
-        if let Err(error) = self.perceive(points_m, insight) {
+        if let Err(error) = self.perceive(points_m, overrides) {
             return Status::Stopped(StopReason::NoPerception(error));
         }
         self.remember(points_m, pose);
@@ -208,32 +215,32 @@ impl Planner {
             CostModel::Paper => self.choose(pose, goal_m),
             CostModel::Forecast => {
                 let here_m = pose.plan_m();
-                if self.patience.get_or_insert_with(|| Patience::new(here_m, goal_m)).lost(here_m) {
-                    self.mind_steepness(false);
-                    self.dead_ends.scale(IMPATIENT_SHARE);
+                if self.patience.get_or_insert_with(|| DetourBudget::new(here_m, goal_m)).lost(here_m) {
+                    self.scale_slope_cost(false);
+                    self.heuristic.scale(IMPATIENT_SHARE);
                 }
-                match insight.ground {
-                    Some(told) => self.ways.search(&told, pose),
-                    None => self.ways.search(&self.ground, pose),
+                match overrides.ground {
+                    Some(told) => self.lattice.search(&told, pose),
+                    None => self.lattice.search(&self.ground, pose),
                 }
                 self.choose(pose, goal_m).or_else(|| {
-                    self.ways.search_escape();
+                    self.lattice.search_escape();
                     self.choose(pose, goal_m)
                 })
             }
         };
-        if self.config.decision.cost_model == CostModel::Forecast && self.goes_back(chosen, pose) {
-            return Status::Retreating;
+        if self.config.decision.cost_model == CostModel::Forecast && self.backtracks(chosen, pose) {
+            return Status::Backtracking;
         }
         let Some(chosen) = chosen else {
-            self.looked_ticks += 1;
+            self.searched_ticks += 1;
             self.last_bearing_rad = None;
-            self.ways.stand();
-            self.pursuit.stand();
-            let given_up = self.looked_ticks > self.config.decision.look_ticks;
-            return if given_up { Status::Stopped(StopReason::NoSubgoal) } else { Status::Looking };
+            self.lattice.stand();
+            self.committed.stand();
+            let given_up = self.searched_ticks > self.config.decision.look_ticks;
+            return if given_up { Status::Stopped(StopReason::NoSubgoal) } else { Status::Searching };
         };
-        self.looked_ticks = 0;
+        self.searched_ticks = 0;
         self.chosen = Some(chosen);
         let subgoal = self.subgoals[chosen];
         self.last_bearing_rad = Some(pose.yaw_rad + subgoal.bearing_rad);
@@ -243,10 +250,10 @@ impl Planner {
                 self.controller.drive(distance_m, subgoal.bearing_rad, self.config.period_s)
             }
             CostModel::Forecast => {
-                if let Some(place_m) = self.pursuit.head_for(&subgoal, pose) {
-                    self.dead_ends.raise(place_m, IN_VAIN_HALF_SIDE_M, IN_VAIN_M);
-                    if self.ways.stands_steep() {
-                        self.turn_back(pose.plan_m());
+                if let Some(place_m) = self.committed.head_for(&subgoal, pose) {
+                    self.heuristic.raise(place_m, IN_VAIN_HALF_SIDE_M, IN_VAIN_M);
+                    if self.lattice.is_on_steep_ground() {
+                        self.meet_steeper_ground(pose.plan_m());
                     }
                 }
                 self.learn(pose, goal_m);
@@ -257,70 +264,70 @@ impl Planner {
     }
 
     /// Minds steep ground as configured or, without patience, less: on ways and in the choice.
-    fn mind_steepness(&mut self, patient: bool) {
-        let ForecastConfig { escape_margin_rad, impatient_margin_rad, .. } = self.config.forecast;
+    fn scale_slope_cost(&mut self, patient: bool) {
+        let StateLatticeConfig { escape_margin_rad, impatient_margin_rad, .. } = self.config.forecast;
         let (share, least_margin_rad) =
             if patient { (1.0, escape_margin_rad) } else { (IMPATIENT_SHARE, impatient_margin_rad) };
-        self.ways.mind_steepness(share);
-        self.ways.keep_margin(least_margin_rad);
+        self.lattice.scale_slope_cost(share);
+        self.lattice.keep_margin(least_margin_rad);
         let DecisionConfig { steepness_weight, climb_weight, .. } = self.config.decision;
         self.decision.steepness_weight = share * steepness_weight;
         self.decision.climb_weight = share * climb_weight;
     }
 
     /// Whether turning on the spot stays within the tilt limits, as far as this planner minds.
-    fn may_look_around(&self) -> bool {
-        self.config.decision.cost_model == CostModel::Paper || self.ways.may_turn_around()
+    fn may_spin(&self) -> bool {
+        self.config.decision.cost_model == CostModel::Paper || self.lattice.may_turn_around()
     }
 
     /// Goes back the way it came, from where nothing leads on or the robot stands too steep, until it stands on calm ground some way back
     /// and something leads on again. Whether it does.
-    fn goes_back(&mut self, chosen: Option<usize>, pose: &Pose) -> bool {
+    fn backtracks(&mut self, chosen: Option<usize>, pose: &Pose) -> bool {
         let here_m = pose.plan_m();
-        self.retreat.be_at(pose);
-        if !self.retreat.is_on() {
-            if chosen.is_none() || self.ways.stands_too_steep() {
-                self.turn_back(here_m);
+        self.backtrack.be_at(pose);
+        if !self.backtrack.is_on() {
+            if chosen.is_none() || self.lattice.is_too_steep() {
+                self.meet_steeper_ground(here_m);
             }
-        } else if chosen.is_some() && self.ways.is_calm() && self.retreat.has_gone_far(here_m) {
-            self.retreat.end();
+        } else if chosen.is_some() && self.lattice.is_calm() && self.backtrack.has_gone_far(here_m) {
+            self.backtrack.end();
         }
-        if !self.retreat.is_on() {
+        if !self.backtrack.is_on() {
             return false;
         }
-        let Some(back) = self.retreat.next(pose, |turn_rad| self.ways.safe_turn_rad(turn_rad)) else {
+        let Some(back) = self.backtrack.next(pose, |turn_rad| self.lattice.safe_turn_rad(turn_rad)) else {
             return false;
         };
-        self.looked_ticks = 0;
+        self.searched_ticks = 0;
         self.last_bearing_rad = None;
-        self.ways.stand();
-        self.pursuit.stand();
-        let reverse = matches!(back, Back::Drive { reverse: true, .. });
-        let point = |position_m| WayPoint { position_m, cost_m: 0.0, reverse };
-        self.way.clear();
-        self.way.push(point(here_m));
-        self.way.extend(self.retreat.way_back_m().map(point));
-        let share = self.ways.share_here();
+        self.lattice.stand();
+        self.committed.stand();
+        let reverse = matches!(back, BacktrackCommand::Drive { reverse: true, .. });
+        let point = |position_m| PathPoint { position_m, cost_m: 0.0, reverse };
+        self.path.clear();
+        self.path.push(point(here_m));
+        self.path.extend(self.backtrack.way_back_m().map(point));
+        let share = self.lattice.share_here();
         let period_s = self.config.period_s;
         self.command = match back {
-            Back::Brake => Command::STOP,
-            Back::Turn { by_rad } => {
+            BacktrackCommand::Brake => Command::STOP,
+            BacktrackCommand::Turn { by_rad } => {
                 let turning = self.controller.drive(0.0, by_rad, period_s);
-                self.controller.slowed(Command { linear_m_s: 0.0, ..turning }, share)
+                self.controller.regulated(Command { linear_m_s: 0.0, ..turning }, share)
             }
-            Back::Drive { turn_rad_m, reverse } => {
-                let distance_m = length_m(&self.way).max(LEAST_BACK_M);
+            BacktrackCommand::Drive { turn_rad_m, reverse } => {
+                let distance_m = length_m(&self.path).max(LEAST_BACK_M);
                 let driving = self.controller.drive_arc(distance_m, turn_rad_m, reverse, period_s);
-                self.controller.slowed(driving, share)
+                self.controller.regulated(driving, share)
             }
         };
         true
     }
 
     /// Turns back from ground that turned out steeper than it had looked.
-    fn turn_back(&mut self, here_m: DVec2) {
-        if let Some(travel) = self.retreat.begin(here_m) {
-            self.ways.turn_back(travel);
+    fn meet_steeper_ground(&mut self, here_m: DVec2) {
+        if let Some(travel) = self.backtrack.begin(here_m) {
+            self.lattice.meet_steeper_ground(travel);
         }
     }
 
@@ -331,26 +338,26 @@ impl Planner {
         if reverse {
             command.linear_m_s = -command.linear_m_s;
         }
-        self.controller.slowed(command, share)
+        self.controller.regulated(command, share)
     }
 
     /// Drives along the way to a subgoal.
     fn follow(&mut self, subgoal: &Subgoal, pose: &Pose) -> Command {
         let end_m = subgoal.position_m.truncate();
-        let reached = self.ways.to(end_m);
+        let reached = self.lattice.to(end_m);
         if let Some(reached) = reached {
-            self.ways.follow(reached, &mut self.way);
+            self.lattice.follow(reached, &mut self.path);
         }
-        if let Some(last) = self.way.last_mut() {
+        if let Some(last) = self.path.last_mut() {
             // The subgoal lies up to half a step from the last place.
             last.position_m = end_m;
         }
-        let next = self.ways.shortcut(&self.way);
-        let ahead = self.ways.drive(&next);
+        let next = self.lattice.lookahead(&self.path);
+        let ahead = self.lattice.drive(&next);
         let bearing = bearing_rad(pose, ahead.position_m);
-        let way_m = subgoal.forecast.map_or(0.0, |f| f.way_m);
-        let share = self.ways.share_ahead(&self.way, &ahead);
-        self.drive_along(way_m, bearing, ahead.reverse, share)
+        let path_m = subgoal.forecast.map_or(0.0, |f| f.path_m);
+        let share = self.lattice.share_ahead(&self.path, &ahead);
+        self.drive_along(path_m, bearing, ahead.reverse, share)
     }
 
     /// Learns how far the goal is from the places around by the best of the ways on: to the goal itself or to where what was seen ends,
@@ -361,35 +368,36 @@ impl Planner {
             return;
         }
         self.learned_at_m = Some(here);
-        let left_m = |place_m| self.dead_ends.left_m(place_m, goal_m);
-        let frontier = self.ways.frontier().map(|(reached, place_m)| (reached, left_m(place_m)));
-        let goal = self.ways.to_within(goal_m, self.config.goal_tolerance_m);
+        let left_m = |place_m| self.heuristic.left_m(place_m, goal_m);
+        let frontier = self.lattice.frontier().map(|(reached, place_m)| (reached, left_m(place_m)));
+        let goal = self.lattice.to_within(goal_m, self.config.goal_tolerance_m);
         self.ends.clear();
         self.ends.extend(frontier.chain(goal.map(|(reached, _)| (reached, 0.0))));
         let DecisionConfig { distance_weight, steepness_weight, climb_weight, .. } = self.decision;
         // The prices of the subgoals' cost: a risk counts for the way to r_oc there, and 2 r_oc of distance for one.
         let tilt_price = if distance_weight > 0.0 { 2.0 * steepness_weight / distance_weight } else { 0.0 };
-        for (place_m, to_goal_m) in self.ways.remaining(&self.ends, tilt_price, climb_weight) {
-            self.dead_ends.learn(place_m, goal_m, to_goal_m);
+        for (place_m, to_goal_m) in self.lattice.remaining(&self.ends, tilt_price, climb_weight) {
+            self.heuristic.learn(place_m, goal_m, to_goal_m);
         }
     }
 
     /// Places the subgoals and chooses one; `None` when there is no candidate.
     fn choose(&mut self, pose: &Pose, goal_m: DVec2) -> Option<usize> {
         self.subgoals.clear();
-        let mut candidates = Candidates { config: &self.config, pose, ways: &self.ways, way: &mut self.way };
+        let mut candidates =
+            Candidates { config: &self.config, pose, lattice: &self.lattice, path: &mut self.path };
         candidates.on_segments(&self.segments, &mut self.subgoals);
         if let Some(goal) = candidates.goal(goal_m, &self.profile) {
             self.subgoals.push(goal);
             return Some(self.subgoals.len() - 1);
         }
         if self.config.decision.cost_model == CostModel::Forecast {
-            match self.pursuit.again(&mut candidates) {
+            match self.committed.again(&mut candidates) {
                 Ok(again) => self.subgoals.extend(again),
-                Err(place_m) => self.dead_ends.raise(place_m, IN_VAIN_HALF_SIDE_M, IN_VAIN_M),
+                Err(place_m) => self.heuristic.raise(place_m, IN_VAIN_HALF_SIDE_M, IN_VAIN_M),
             }
             if self.subgoals.iter().all(|subgoal| subgoal.refusal.is_some()) {
-                let left_m = |place_m| self.dead_ends.left_m(place_m, goal_m);
+                let left_m = |place_m| self.heuristic.left_m(place_m, goal_m);
                 self.subgoals.extend(candidates.edge_of_sight(&self.profile, left_m));
             }
         }
@@ -398,14 +406,14 @@ impl Planner {
             goal_m,
             surface_radius_m: self.config.perception.surface_radius_m,
             last_bearing_rad: self.last_bearing_rad,
-            dead_ends: &self.dead_ends,
+            heuristic: &self.heuristic,
         };
         cost::choose(&mut self.subgoals, &self.decision, &situation)
     }
 
-    fn perceive(&mut self, points_m: &[Vec3], insight: Insight<'_>) -> Result<(), GpError> {
+    fn perceive(&mut self, points_m: &[Vec3], overrides: PerceptionOverride<'_>) -> Result<(), GpError> {
         self.observed.project(points_m);
-        match insight.profile {
+        match overrides.profile {
             None => self.perception.profile(&self.observed, &mut self.profile)?,
             Some(told) => {
                 self.profile.clear();

@@ -3,11 +3,11 @@
 use glam::{DVec2, Vec3};
 
 use crate::config::PlannerConfig;
-use crate::ground::Ground;
+use crate::terrain::elevation_window::ElevationWindow;
 
 /// Returns on the ground all around, up to two metres away; none where it has no height.
-pub(crate) fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> Ground {
-    let mut ground = Ground::new(&PlannerConfig::default());
+pub(crate) fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> ElevationWindow {
+    let mut ground = ElevationWindow::new(&PlannerConfig::default());
     ground.advance();
     for i in -40..=40 {
         for j in -40..=40 {
@@ -24,7 +24,7 @@ pub(crate) fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> Ground {
 pub(crate) fn undulating_scan(from: usize, to: usize) -> Vec<Vec3> {
     (from..to)
         .flat_map(|column| {
-            let azimuth = crate::occupancy::column_azimuth_rad(column);
+            let azimuth = crate::skyline::occupancy::column_azimuth_rad(column);
             let top = 5 + (3.0 * libm::sin(3.0 * azimuth)).round() as i32;
             (0..top).map(move |ring| {
                 let elevation = (-15.0 + 2.0 * f64::from(ring)).to_radians();

@@ -78,7 +78,7 @@ fn drive(ticks: u64) -> Vec<usize> {
         let before = ALLOCATIONS.get();
         let step = planner.step(&scan.points, &pose, DVec2::splat(33.0));
         let during = ALLOCATIONS.get() - before;
-        assert!(matches!(step.status, Status::Driving | Status::Looking), "{:?}", step.status);
+        assert!(matches!(step.status, Status::Driving | Status::Searching), "{:?}", step.status);
         let command =
             DriveCommand { speed_m_s: step.command.linear_m_s, turn_rate_rad_s: step.command.angular_rad_s };
         allocations.push(during);

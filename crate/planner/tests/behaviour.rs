@@ -4,12 +4,12 @@
 
 use glam::{DVec2, DVec3, Vec3};
 use mapless::config::InducingInputs;
-use mapless::plane::Plane;
+use mapless::decision::subgoals::Subgoal;
 use mapless::pose::Pose;
-use mapless::profile::Column;
-use mapless::segments::Verdict;
-use mapless::subgoals::Subgoal;
-use mapless::{Command, Insight, Planner, PlannerConfig, Status, StopReason};
+use mapless::skyline::profile::Column;
+use mapless::skyline::segments::Verdict;
+use mapless::terrain::plane::Plane;
+use mapless::{Command, PerceptionOverride, Planner, PlannerConfig, Status, StopReason};
 use proptest::prelude::*;
 
 const START: Pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
@@ -74,7 +74,7 @@ fn a_wall_all_around_ends_in_a_named_stop() {
         let points = scan(walled(1.5));
         let first = planner.step(&points, &START, AHEAD);
         assert!(first.segments.iter().all(|segment| segment.verdict == Verdict::Wall));
-        assert_eq!(first.status, Status::Looking);
+        assert_eq!(first.status, Status::Searching);
         assert!(first.command.linear_m_s.abs() < 1e-12 && first.command.angular_rad_s > 0.0);
         for _ in 0..planner.config().decision.look_ticks {
             planner.step(&points, &START, AHEAD);
@@ -114,8 +114,8 @@ fn a_goal_in_sight_is_driven_to_and_arrived_at() {
 /// A planner that is told the ground.
 fn step_told(goal_m: DVec2, ground: impl Fn(DVec2) -> Option<Plane>) -> (Status, Option<Subgoal>) {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
-    let insight = Insight { ground: Some(&ground), ..Insight::default() };
-    let step = planner.step_with(&scan(level), &START, goal_m, insight);
+    let overrides = PerceptionOverride { ground: Some(&ground), ..PerceptionOverride::default() };
+    let step = planner.step_with(&scan(level), &START, goal_m, overrides);
     (step.status, step.chosen.map(|chosen| step.subgoals[chosen]))
 }
 

@@ -5,10 +5,10 @@
 
 use glam::DVec2;
 use mapless::PlannerConfig;
-use mapless::bound::CollapsedBound;
-use mapless::hyperparameters::{Hyperparameters, RegressionError};
-use mapless::kernel::RationalQuadratic;
-use mapless::learning::{
+use mapless::gp::bound::CollapsedBound;
+use mapless::gp::hyperparameters::{Hyperparameters, RegressionError};
+use mapless::gp::kernel::RationalQuadratic;
+use mapless::gp::learning::{
     HyperparameterBounds, Learned, Learner, LearningConfig, LearningError, LearningMode, Optimiser, Stop,
 };
 use proptest::prelude::*;

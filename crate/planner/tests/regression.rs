@@ -3,11 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use glam::DVec2;
-use mapless::bound::CollapsedBound;
-use mapless::exact_gp::ExactGp;
-use mapless::hyperparameters::{Hyperparameters, LogGradient, RegressionError};
-use mapless::kernel::RationalQuadratic;
-use mapless::sparse_gp::{GpError, SparseGp};
+use mapless::gp::bound::CollapsedBound;
+use mapless::gp::exact::ExactGp;
+use mapless::gp::hyperparameters::{Hyperparameters, LogGradient, RegressionError};
+use mapless::gp::kernel::RationalQuadratic;
+use mapless::gp::{GpError, sparse::SparseGp};
 use proptest::prelude::*;
 
 /// Hyperparameters from logarithms, in the order of [`as_array`].

@@ -1,10 +1,10 @@
 //! When the planner turns back.
 
 use glam::{DVec2, DVec3};
-use mapless::plane::Plane;
 use mapless::pose::Pose;
-use mapless::profile::Column;
-use mapless::{Insight, Planner, PlannerConfig, Status};
+use mapless::skyline::profile::Column;
+use mapless::terrain::plane::Plane;
+use mapless::{PerceptionOverride, Planner, PlannerConfig, Status};
 
 const GOAL_M: DVec2 = DVec2::new(20.0, 0.0);
 
@@ -13,8 +13,8 @@ fn step(planner: &mut Planner, x_m: f64, pitch_rad: f64) -> (Status, f64) {
     let pose = Pose { position_m: DVec3::new(x_m, 0.0, 0.0), roll_rad: 0.0, pitch_rad, yaw_rad: 0.0 };
     let profile = |_: f64| Column::Ground { elevation_rad: 0.0 };
     let ground = |_: DVec2| Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 });
-    let insight = Insight { profile: Some(&profile), ground: Some(&ground) };
-    let step = planner.step_with(&[], &pose, GOAL_M, insight);
+    let overrides = PerceptionOverride { profile: Some(&profile), ground: Some(&ground) };
+    let step = planner.step_with(&[], &pose, GOAL_M, overrides);
     (step.status, step.command.linear_m_s)
 }
 
@@ -29,11 +29,11 @@ fn it_goes_back_from_where_it_stands_steeper_than_it_was_told_and_on_again_a_met
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
     drive(&mut planner, 3.0);
     let steep_rad = 0.75;
-    assert_eq!(step(&mut planner, 3.1, steep_rad), (Status::Retreating, 0.0), "it moves yet");
+    assert_eq!(step(&mut planner, 3.1, steep_rad), (Status::Backtracking, 0.0), "it moves yet");
     let (status, speed_m_s) = step(&mut planner, 3.1, steep_rad);
-    assert!(status == Status::Retreating && speed_m_s < 0.0, "{status:?}, {speed_m_s} m/s");
+    assert!(status == Status::Backtracking && speed_m_s < 0.0, "{status:?}, {speed_m_s} m/s");
     for x_m in [3.0, 2.9, 2.8, 2.7, 2.6, 2.5, 2.4, 2.3, 2.2] {
-        assert_eq!(step(&mut planner, x_m, 0.0).0, Status::Retreating, "not yet a metre back");
+        assert_eq!(step(&mut planner, x_m, 0.0).0, Status::Backtracking, "not yet a metre back");
     }
     assert_eq!(step(&mut planner, 2.0, 0.0).0, Status::Driving);
 }
@@ -42,7 +42,7 @@ fn it_goes_back_from_where_it_stands_steeper_than_it_was_told_and_on_again_a_met
 fn steepen(planner: &mut Planner, x_m: f64, to_pitch_rad: f64, step_rad: f64) -> Status {
     let steps = (to_pitch_rad / step_rad) as i32;
     let pitches_rad = (0..=steps).rev().map(|k| to_pitch_rad - step_rad * f64::from(k));
-    pitches_rad.fold(Status::Looking, |_, pitch_rad| step(planner, x_m, pitch_rad).0)
+    pitches_rad.fold(Status::Searching, |_, pitch_rad| step(planner, x_m, pitch_rad).0)
 }
 
 #[test]
@@ -53,14 +53,14 @@ fn it_turns_back_the_sooner_the_faster_the_ground_gets_steeper() {
         let mut planner = Planner::new(PlannerConfig::default()).unwrap();
         drive(&mut planner, 3.0);
         let status = steepen(&mut planner, 3.1, pitch_rad, step_rad);
-        assert_eq!(status == Status::Retreating, turns_back, "{step_rad} rad a step: {status:?}");
+        assert_eq!(status == Status::Backtracking, turns_back, "{step_rad} rad a step: {status:?}");
     }
 }
 
 #[test]
 fn a_robot_that_has_not_driven_has_no_way_back() {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
-    assert_ne!(step(&mut planner, 0.0, 0.75).0, Status::Retreating);
+    assert_ne!(step(&mut planner, 0.0, 0.75).0, Status::Backtracking);
 }
 
 #[test]
@@ -77,6 +77,6 @@ fn without_patience_it_goes_on_where_it_would_have_turned_back() {
             }
         }
         let status = steepen(&mut planner, 3.0, steep_rad, 0.01);
-        assert_eq!(status == Status::Retreating, turns_back, "{laps} laps: {status:?}");
+        assert_eq!(status == Status::Backtracking, turns_back, "{laps} laps: {status:?}");
     }
 }

@@ -186,7 +186,7 @@ fn scalar(text: &mut String, value: &Value) {
 mod tests {
     use super::*;
     use mapless::PlannerConfig;
-    use mapless::learning::LearningConfig;
+    use mapless::gp::learning::LearningConfig;
 
     const SCENARIO: &str = "terrain = \"a.toml\"\nstart = [1, 2, 0]\ngoal = [3, 4]\nseed = 7\n";
 

@@ -3,9 +3,9 @@
 use core::f64::consts::TAU;
 
 use glam::DVec2;
-use mapless::occupancy::{COLUMNS, column_azimuth_rad};
 use mapless::pose::Pose;
-use mapless::profile::Column;
+use mapless::skyline::occupancy::{COLUMNS, column_azimuth_rad};
+use mapless::skyline::profile::Column;
 use mapless::{Planner, PlannerConfig, StopReason};
 use mapless_world::random::{key, uniform};
 use mapless_world::{

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use mapless::perception::PredictedSurface;
+use mapless::gp::GpError;
 use mapless::pose::Pose;
-use mapless::sparse_gp::GpError;
+use mapless::skyline::surface::PredictedSurface;
 use mapless::{Command, Decision, Navigator, Planner, PlannerConfig, Status, Step, StopReason};
 use mapless_world::{
     Brush, Caster, DriveCommand, DriveError, HeightField, Husky, HuskyConfig, HuskyState, SampleRect, Scan,
@@ -169,7 +169,7 @@ impl<N: Navigator> Trial<N> {
             scan: Scan::default(),
             husky,
             navigator,
-            decision: Decision { status: Status::Looking, command: Command::STOP },
+            decision: Decision { status: Status::Searching, command: Command::STOP },
             start: scenario.start,
             waypoints_m: scenario.waypoints_m.clone(),
             passed: 0,
@@ -237,7 +237,7 @@ impl<N: Navigator> Trial<N> {
             }
             Status::Arrived => Some(Outcome::Reached),
             Status::Stopped(_) => Some(Outcome::NoSubgoal),
-            Status::Driving | Status::Retreating | Status::Looking => self.drive(command),
+            Status::Driving | Status::Backtracking | Status::Searching => self.drive(command),
         };
         self.tick += 1;
         let here_m = self.husky.state().position;
@@ -326,7 +326,7 @@ impl<N: Navigator> Trial<N> {
     pub fn stop_reason(&self) -> Option<StopReason> {
         match self.decision.status {
             Status::Stopped(reason) => Some(reason),
-            Status::Driving | Status::Arrived | Status::Retreating | Status::Looking => None,
+            Status::Driving | Status::Arrived | Status::Backtracking | Status::Searching => None,
         }
     }
 

@@ -1,9 +1,9 @@
 //! Planner results as flat arrays.
 
-use mapless::forecast::ReachEnd;
-use mapless::profile::Column;
-use mapless::segments::{Segment, Verdict};
-use mapless::subgoals::{Refusal, Subgoal};
+use mapless::decision::subgoals::{Refusal, Subgoal};
+use mapless::route::forecast::ReachEnd;
+use mapless::skyline::profile::Column;
+use mapless::skyline::segments::{Segment, Verdict};
 
 /// Begin and end azimuth (the end not wrapped), elevation, height, width, verdict. What is unknown is NaN.
 pub(crate) fn segment(segment: &Segment) -> [f64; 6] {

@@ -3,9 +3,9 @@
 mod shown;
 
 use glam::DVec2;
-use mapless::learning::LearningMode;
-use mapless::occupancy::{COLUMNS, RINGS};
-use mapless::perception::ROWS;
+use mapless::gp::learning::LearningMode;
+use mapless::skyline::occupancy::{COLUMNS, RINGS};
+use mapless::skyline::surface::ROWS;
 use mapless_trials::{History, Preset, Scenario, StartPose, Trial, parameters};
 use mapless_world::{HeightField, SensorPose};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};

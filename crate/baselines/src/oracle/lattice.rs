@@ -4,7 +4,7 @@ use super::motions::{HEADINGS, Motion, drives, heading_rad};
 use super::standing::Standing;
 use super::{OracleError, PlanPose};
 use glam::DVec2;
-use mapless::angle::difference_rad;
+use mapless::math::angle::difference_rad;
 
 /// The robot is stood on the ground this often along a motion.
 const CHECK_M: f64 = 0.125;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use glam::DVec2;
-use mapless::cost;
+use mapless::decision::cost;
 use mapless_figures::FigureError;
 use mapless_figures::map::Map;
 use mapless_figures::marks;

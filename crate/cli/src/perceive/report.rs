@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use comfy_table::{CellAlignment, Table, presets};
-use mapless::occupancy::COLUMNS;
-use mapless::profile::Column;
+use mapless::skyline::occupancy::COLUMNS;
+use mapless::skyline::profile::Column;
 use mapless::{Status, Step};
 
 use super::rows::{ColumnRow, CommandRow, CostRow, SegmentRow, SubgoalRow};
@@ -41,8 +41,8 @@ impl PerceptionReport {
         let (status, reason) = match step.status {
             Status::Driving => ("driving", None),
             Status::Arrived => ("arrived", None),
-            Status::Retreating => ("retreating", None),
-            Status::Looking => ("looking", None),
+            Status::Backtracking => ("retreating", None),
+            Status::Searching => ("looking", None),
             Status::Stopped(reason) => ("stopped", Some(reason.to_string())),
         };
         let column = |index: usize| step.profile.get(index).copied().unwrap_or(Column::Unknown);
@@ -54,8 +54,8 @@ impl PerceptionReport {
             command: CommandRow::of(step.command),
             surface_radius_m: step.observed.radius_m(),
             occupied_cells: step.observed.cells().len(),
-            inducing_inputs: step.effort.inducing_inputs,
-            jitter: step.effort.jitter,
+            inducing_inputs: step.diagnostics.inducing_inputs,
+            jitter: step.diagnostics.jitter,
             profile: (0..COLUMNS).map(|index| ColumnRow::of(index, column(index))).collect(),
             segments: step.segments.iter().map(SegmentRow::of).collect(),
             subgoals: step.subgoals.iter().map(SubgoalRow::of).collect(),

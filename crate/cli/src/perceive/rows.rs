@@ -1,11 +1,11 @@
 //! The rows of a perception report: what the planner's types are called in JSON.
 
 use mapless::Command;
-use mapless::cost::Cost;
-use mapless::occupancy::column_azimuth_rad;
-use mapless::profile::Column;
-use mapless::segments::{Segment, Verdict};
-use mapless::subgoals::{Refusal, Subgoal};
+use mapless::decision::cost::Cost;
+use mapless::decision::subgoals::{Refusal, Subgoal};
+use mapless::skyline::occupancy::column_azimuth_rad;
+use mapless::skyline::profile::Column;
+use mapless::skyline::segments::{Segment, Verdict};
 
 #[derive(serde::Serialize)]
 pub(crate) struct CommandRow {

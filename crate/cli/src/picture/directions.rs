@@ -3,7 +3,7 @@
 use std::fmt::{self, Write as _};
 
 use glam::DVec2;
-use mapless::occupancy::COLUMNS;
+use mapless::skyline::occupancy::COLUMNS;
 
 use mapless_figures::page::{self, INK, embed};
 

@@ -4,8 +4,8 @@
 use std::fmt::Write as _;
 
 use glam::DVec2;
-use mapless::occupancy::OccupancySurface;
-use mapless::perception::{PredictedSurface, ROWS};
+use mapless::skyline::occupancy::OccupancySurface;
+use mapless::skyline::surface::{PredictedSurface, ROWS};
 
 use super::directions::{LEFT, Panel, SIZE, grey};
 use mapless_figures::page::{self, ColourBar};

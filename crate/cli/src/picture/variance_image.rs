@@ -4,11 +4,11 @@ use std::fmt::{self, Write as _};
 
 use glam::DVec2;
 use mapless::Step;
-use mapless::occupancy::{COLUMNS, column_azimuth_rad};
-use mapless::perception::{PredictedSurface, ROWS};
-use mapless::profile::Column;
-use mapless::segments::{Segment, Verdict};
-use mapless::subgoals::Subgoal;
+use mapless::decision::subgoals::Subgoal;
+use mapless::skyline::occupancy::{COLUMNS, column_azimuth_rad};
+use mapless::skyline::profile::Column;
+use mapless::skyline::segments::{Segment, Verdict};
+use mapless::skyline::surface::{PredictedSurface, ROWS};
 
 use super::directions::{LEFT, Panel, SIZE, grey};
 use mapless_figures::marks;

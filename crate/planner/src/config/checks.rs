@@ -1,12 +1,12 @@
 //! Checks every value, with its place and what was expected.
 
 use super::{
-    ControllerConfig, DecisionConfig, ForecastConfig, GroundConfig, InducingInputs, PerceptionConfig,
-    PlannerConfig, SegmentConfig,
+    ControllerConfig, DecisionConfig, ElevationWindowConfig, InducingInputs, PerceptionConfig, PlannerConfig,
+    SegmentConfig, StateLatticeConfig,
 };
 use crate::error::{ConfigError, require};
-use crate::hyperparameters::Hyperparameters;
-use crate::learning::LearningMode;
+use crate::gp::hyperparameters::Hyperparameters;
+use crate::gp::learning::LearningMode;
 
 impl PlannerConfig {
     /// Checks every value.
@@ -37,7 +37,8 @@ impl PlannerConfig {
             step_m,
             "at least 0.2 m and a fortieth of planner.perception.surface_radius_m",
         )?;
-        let ForecastConfig { tilt_margin_rad, escape_margin_rad, impatient_margin_rad, .. } = self.forecast;
+        let StateLatticeConfig { tilt_margin_rad, escape_margin_rad, impatient_margin_rad, .. } =
+            self.forecast;
         for (name, margin) in [
             ("tilt_margin_rad", tilt_margin_rad),
             ("escape_margin_rad", escape_margin_rad),
@@ -97,14 +98,14 @@ impl SegmentConfig {
     }
 }
 
-impl GroundConfig {
+impl ElevationWindowConfig {
     fn validate(&self) -> Result<(), ConfigError> {
         let place = "planner.ground";
         positive(self.radius_m, place, "radius_m")?;
         positive(self.cell_m, place, "cell_m")?;
         // Two different places inside the window must not share a slot.
         require(
-            self.cell_m * crate::ground::SIDE as f64 > 2.0 * self.radius_m,
+            self.cell_m * crate::terrain::elevation_window::SIDE as f64 > 2.0 * self.radius_m,
             place,
             "cell_m",
             self.cell_m,
@@ -115,7 +116,7 @@ impl GroundConfig {
     }
 }
 
-impl ForecastConfig {
+impl StateLatticeConfig {
     fn validate(&self) -> Result<(), ConfigError> {
         let place = "planner.forecast";
         positive(self.step_m, place, "step_m")?;

@@ -1,11 +1,11 @@
 //! The two presets: `default`, the best that is known here, and `paper`.
 
 use super::{
-    ControllerConfig, CostModel, DecisionConfig, ForecastConfig, GroundConfig, InducingInputs,
-    PerceptionConfig, PidGains, PlannerConfig, SegmentConfig, TiltLimits,
+    ControllerConfig, CostModel, DecisionConfig, ElevationWindowConfig, InducingInputs, PerceptionConfig,
+    PidGains, PlannerConfig, SegmentConfig, StateLatticeConfig, TiltLimits,
 };
-use crate::kernel::RationalQuadratic;
-use crate::learning::{LearningConfig, LearningMode};
+use crate::gp::kernel::RationalQuadratic;
+use crate::gp::learning::{LearningConfig, LearningMode};
 use crate::pose::SensorMount;
 
 impl Default for PlannerConfig {
@@ -20,8 +20,8 @@ impl Default for PlannerConfig {
             limits: TiltLimits::default(),
             perception: PerceptionConfig::default(),
             segments: SegmentConfig::default(),
-            ground: GroundConfig::default(),
-            forecast: ForecastConfig::default(),
+            ground: ElevationWindowConfig::default(),
+            forecast: StateLatticeConfig::default(),
             decision: DecisionConfig::default(),
             controller: ControllerConfig::default(),
         }
@@ -60,13 +60,13 @@ impl Default for SegmentConfig {
     }
 }
 
-impl Default for GroundConfig {
+impl Default for ElevationWindowConfig {
     fn default() -> Self {
         Self { cell_m: 0.2, radius_m: 9.0, memory_ticks: 3000, curvature_per_m: 0.5 }
     }
 }
 
-impl Default for ForecastConfig {
+impl Default for StateLatticeConfig {
     fn default() -> Self {
         Self {
             step_m: 0.5,

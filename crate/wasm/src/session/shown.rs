@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use js_sys::{Float32Array, Uint8Array};
-use mapless::occupancy::RINGS;
+use mapless::skyline::occupancy::RINGS;
 use mapless::{Navigator as _, Status, StopReason};
 use mapless_world::SensorPose;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -22,9 +22,9 @@ impl Session {
         let activity = match step.status {
             Status::Driving => 0.0,
             Status::Arrived => 1.0,
-            Status::Looking => 2.0,
+            Status::Searching => 2.0,
             Status::Stopped(_) => 3.0,
-            Status::Retreating => 4.0,
+            Status::Backtracking => 4.0,
         };
         let mut values = vec![trial.ticks() as f64, trial.time_s()];
         values.extend(trial.motion());
@@ -66,8 +66,8 @@ impl Session {
         match self.now.trial.step().status {
             Status::Driving => "driving",
             Status::Arrived => "arrived",
-            Status::Retreating => "retreating",
-            Status::Looking => "looking",
+            Status::Backtracking => "retreating",
+            Status::Searching => "looking",
             Status::Stopped(_) => "stopped",
         }
         .to_owned()
@@ -161,7 +161,7 @@ impl Session {
     /// The way to the chosen subgoal, from where the robot stands: world x, y and whether in reverse (0 or 1) for each place.
     /// Empty without one, and where subgoals are judged by the paper's height alone.
     pub fn way(&self) -> Vec<f64> {
-        let places = self.now.trial.step().way.iter();
+        let places = self.now.trial.step().path.iter();
         places
             .flat_map(|one| [one.position_m.x, one.position_m.y, f64::from(u8::from(one.reverse))])
             .collect()

@@ -1,0 +1,125 @@
+//! The paper's simple PID controller: distance error to the subgoal, yaw error α_g*.
+
+use crate::config::{ControllerConfig, PidGains};
+use crate::math::angle::wrap_rad;
+
+/// A turn in place is never slowed to less than this share.
+const LEAST_TURN_SHARE: f64 = 0.4;
+
+/// A velocity command for a differential-drive robot: the paper's u = (v, ω).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Command {
+    /// Forward speed.
+    pub linear_m_s: f64,
+    /// Anticlockwise turn rate.
+    pub angular_rad_s: f64,
+}
+
+impl Command {
+    /// AttitudeEstimate still.
+    pub const STOP: Self = Self { linear_m_s: 0.0, angular_rad_s: 0.0 };
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Pid {
+    integral: f64,
+    last_error: Option<f64>,
+}
+
+impl Pid {
+    fn update(&mut self, error: f64, gains: &PidGains, period_s: f64, most: f64) -> f64 {
+        let rate = self.last_error.map_or(0.0, |last| (error - last) / period_s);
+        self.last_error = Some(error);
+        let wanted = gains.proportional * error
+            + gains.integral * (self.integral + error * period_s)
+            + gains.derivative * rate;
+        // The integral holds while the output is saturated, so that it cannot wind up.
+        if wanted.abs() < most {
+            self.integral += error * period_s;
+        }
+        wanted.clamp(-most, most)
+    }
+}
+
+/// The two loops. Planners that are compared with this one drive through it too.
+#[derive(Clone, Debug)]
+pub struct Controller {
+    config: ControllerConfig,
+    distance: Pid,
+    yaw: Pid,
+}
+
+impl Controller {
+    /// Both loops at rest. The configuration must have been validated.
+    pub fn new(config: ControllerConfig) -> Self {
+        Self { config, distance: Pid::default(), yaw: Pid::default() }
+    }
+
+    /// Forgets the last errors and their integrals, as after a stop.
+    pub fn reset(&mut self) {
+        self.distance = Pid::default();
+        self.yaw = Pid::default();
+    }
+
+    /// Drives towards a point at `distance_m` and `bearing_rad` in the robot frame; turns first when it is far to a side.
+    /// `period_s` is the time since the last call.
+    pub fn drive(&mut self, distance_m: f64, bearing_rad: f64, period_s: f64) -> Command {
+        let config = &self.config;
+        let bearing = wrap_rad(bearing_rad);
+        let turning = self.yaw.update(bearing, &config.yaw, period_s, config.max_turn_rate_rad_s);
+        let forward = self.distance.update(distance_m, &config.distance, period_s, config.max_speed_m_s);
+        let ahead = if bearing.abs() > config.turn_first_rad { 0.0 } else { libm::cos(bearing) };
+        Command { linear_m_s: forward.max(0.0) * ahead, angular_rad_s: turning }
+    }
+
+    /// Drives a distance along an arc with so much of a turn, anticlockwise, for each metre; in reverse where so asked.
+    pub(crate) fn drive_arc(
+        &mut self,
+        distance_m: f64,
+        turn_rad_m: f64,
+        reverse: bool,
+        period_s: f64,
+    ) -> Command {
+        let forward = self.drive(distance_m, 0.0, period_s).linear_m_s;
+        let most_m_s = self.config.max_turn_rate_rad_s / turn_rad_m.abs();
+        let speed_m_s = forward.min(most_m_s);
+        let linear_m_s = if reverse { -speed_m_s } else { speed_m_s };
+        Command { linear_m_s, angular_rad_s: speed_m_s * turn_rad_m }
+    }
+
+    /// The command as slow as a robot should drive that takes up `share` of a tilt limit. A turn in place leaves its wheels where they
+    /// are, by and large, and is not slowed as much.
+    pub(crate) fn regulated(&self, command: Command, share: f64) -> Command {
+        let ControllerConfig { slow_from_share, least_speed_share, .. } = self.config;
+        let left = (1.0 - share) / (1.0 - slow_from_share);
+        let in_place = command.linear_m_s == 0.0;
+        let least = if in_place { least_speed_share.max(LEAST_TURN_SHARE) } else { least_speed_share };
+        let speed = left.clamp(least, 1.0);
+        Command { linear_m_s: speed * command.linear_m_s, angular_rad_s: speed * command.angular_rad_s }
+    }
+
+    /// Turns in place to look around.
+    pub fn spin(&mut self) -> Command {
+        self.reset();
+        Command { linear_m_s: 0.0, angular_rad_s: self.config.look_turn_rate_rad_s }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_the_limits_a_drive_is_slowed_more_than_a_turn_in_place() {
+        let controller = Controller::new(ControllerConfig::default());
+        let ControllerConfig { slow_from_share, least_speed_share, .. } = controller.config;
+        let drive = Command { linear_m_s: 0.8, angular_rad_s: 0.5 };
+        let turn = Command { linear_m_s: 0.0, angular_rad_s: 1.0 };
+        for (command, least_share) in [(drive, least_speed_share), (turn, LEAST_TURN_SHARE)] {
+            assert_eq!(controller.regulated(command, slow_from_share), command);
+            let slowest = controller.regulated(command, 1.5);
+            assert!((slowest.linear_m_s - least_share * command.linear_m_s).abs() < 1e-12);
+            assert!((slowest.angular_rad_s - least_share * command.angular_rad_s).abs() < 1e-12);
+        }
+    }
+}

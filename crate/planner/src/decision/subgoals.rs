@@ -1,0 +1,130 @@
+//! Subgoals on the segments (paper, section V-B) and their place in the world.
+
+use glam::{DVec2, DVec3};
+
+use crate::config::SegmentConfig;
+use crate::decision::cost::Cost;
+use crate::math::angle::wrap_rad;
+use crate::pose::{Pose, SensorMount};
+use crate::route::forecast::Forecast;
+use crate::skyline::segments::{Segment, Verdict};
+
+/// Why a subgoal is not a candidate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// The ground on the way tilts the robot too far too soon.
+    Tilt,
+    /// Too little of the ground on the way was seen.
+    Unseen,
+}
+
+/// A place the robot could drive to next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Subgoal {
+    /// Index of its segment; `None` for the goal itself, for what the robot already headed for, and for where what was seen
+    /// ends.
+    pub segment: Option<usize>,
+    /// Azimuth α_g in the sensor frame, in [-π, π).
+    pub azimuth_rad: f64,
+    /// Elevation β_g in the sensor frame.
+    pub elevation_rad: f64,
+    /// Position in the world frame.
+    pub position_m: DVec3,
+    /// Bearing of the position from the robot's heading, seen from above, in [-π, π).
+    pub bearing_rad: f64,
+    /// What the way there promises; `None` when the steepness is judged by the paper's height alone.
+    pub forecast: Option<Forecast>,
+    /// Why it was refused; `None` for a candidate.
+    pub refusal: Option<Refusal>,
+    /// Its cost, weighted term by term; `None` when refused.
+    pub cost: Option<Cost>,
+}
+
+/// Azimuths of a segment's subgoals: its centre or, from three times the least width on, n - 1 spread evenly.
+pub(crate) fn spread_azimuths(
+    segment: &Segment,
+    robot_width_m: f64,
+    config: &SegmentConfig,
+) -> impl Iterator<Item = f64> + use<> {
+    let whole = (segment.width_m / (robot_width_m + config.safety_margin_m)).floor();
+    let parts = if whole >= 3.0 { whole as usize } else { 2 };
+    let (begin, extent) = (segment.begin_rad, segment.extent_rad);
+    (1..parts).map(move |k| wrap_rad(begin + extent * k as f64 / parts as f64))
+}
+
+/// Whether a segment may carry subgoals. Unknown ones may where only ground already seen is driven on.
+pub(crate) fn carries_subgoals(segment: &Segment, robot_width_m: f64, config: &SegmentConfig) -> bool {
+    match segment.verdict {
+        Verdict::Valid => true,
+        Verdict::Unknown => {
+            config.subgoals_on_unknown && segment.width_m > robot_width_m + config.safety_margin_m
+        }
+        Verdict::TooNarrow | Verdict::TooSteep | Verdict::Wall => false,
+    }
+}
+
+/// The world position of the point at (azimuth, elevation, range) in the sensor frame: ᵂT_R g_R.
+pub(crate) fn world_position_m(
+    pose: &Pose,
+    mount: &SensorMount,
+    azimuth_rad: f64,
+    elevation_rad: f64,
+    range_m: f64,
+) -> DVec3 {
+    let (sin_a, cos_a) = libm::sincos(azimuth_rad);
+    let (sin_e, cos_e) = libm::sincos(elevation_rad);
+    let in_sensor = DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e) * range_m;
+    pose.position_m + pose.world_from_robot() * (mount.offset_m() + in_sensor)
+}
+
+/// Bearing of a world point from the robot's heading, seen from above.
+pub(crate) fn bearing_rad(pose: &Pose, point_m: DVec2) -> f64 {
+    let offset = point_m - pose.plan_m();
+    wrap_rad(libm::atan2(offset.y, offset.x) - pose.yaw_rad)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::PlannerConfig;
+    use proptest::prelude::*;
+
+    fn segment(begin_rad: f64, extent_rad: f64) -> Segment {
+        Segment {
+            begin_rad,
+            extent_rad,
+            elevation_rad: Some(-0.1),
+            height_m: Some(0.1),
+            width_m: 7.0 * extent_rad,
+            verdict: Verdict::Valid,
+        }
+    }
+
+    #[test]
+    fn a_narrow_segment_has_its_centre_and_a_wide_one_n_minus_one() {
+        let config = PlannerConfig::default().segments;
+        let least = 0.685 + config.safety_margin_m;
+        let narrow: Vec<f64> = spread_azimuths(&segment(3.0, 2.9 * least / 7.0), 0.685, &config).collect();
+        assert_eq!(narrow.len(), 1);
+        assert!((narrow[0] - wrap_rad(3.0 + 1.45 * least / 7.0)).abs() < 1e-12);
+        let wide: Vec<f64> = spread_azimuths(&segment(0.0, 5.5 * least / 7.0), 0.685, &config).collect();
+        assert_eq!(wide.len(), 4);
+        assert!((wide[1] - wide[0] - 1.1 * least / 7.0).abs() < 1e-12);
+    }
+
+    proptest! {
+        #[test]
+        fn the_world_position_has_the_bearing_and_range_of_its_direction(
+            azimuth in -3.1..3.1_f64, elevation in -0.25..0.25_f64, yaw in -3.0..3.0_f64,
+            x in -10.0..10.0_f64,
+        ) {
+            let pose = Pose { position_m: DVec3::new(x, 2.0, 1.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: yaw };
+            let mount = SensorMount::default();
+            let point = world_position_m(&pose, &mount, azimuth, elevation, 7.0);
+            prop_assert!((bearing_rad(&pose, point.truncate()) - azimuth).abs() < 1e-9);
+            let sensor = pose.position_m + DVec3::new(0.0, 0.0, mount.height_m);
+            prop_assert!(((point - sensor).length() - 7.0).abs() < 1e-9);
+            prop_assert!((point.z - sensor.z - 7.0 * libm::sin(elevation)).abs() < 1e-9);
+        }
+    }
+}

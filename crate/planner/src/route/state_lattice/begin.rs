@@ -1,0 +1,163 @@
+//! How ways begin: from where the robot stands, which is no place of the lattice.
+
+use core::f64::consts::{FRAC_1_SQRT_2, TAU};
+
+use glam::{DVec2, IVec2};
+
+use super::gaps::Station;
+use super::{BEGIN, FIRST_DIRECTIONS, FIRST_STEP_M, First, JOIN_M, MILLIMETRES, StateLattice};
+use crate::terrain::headings::{HEADINGS, nearest};
+use crate::terrain::slopes::Slopes;
+
+/// ElevationWindow known no farther than this from the robot may be that under its wheels alone.
+const WHEELS_M: f64 = 1.25;
+/// Beginnings within an eighth of a circle of each other are the same.
+const SAME_COSINE: f64 = FRAC_1_SQRT_2;
+
+impl StateLattice {
+    /// From where the robot stands straight to the first known places in each direction that it may turn to.
+    pub(super) fn begin(&mut self) {
+        let count = FIRST_DIRECTIONS as i32;
+        let standing = Slopes::facing(self.attitude.gradient, self.first_direction(self.facing));
+        let most_change_m = self.config.change_cost_m * f64::from(1 << self.changes);
+        for (side, sign) in [1, -1].into_iter().enumerate() {
+            self.turns[side] = count / 2;
+            for turn in 0..=count / 2 {
+                let facing = self.first_direction(self.facing + sign * turn);
+                let allowed = self.traversability.most();
+                // Where it stands on more than its limits allow, a turn may still not make the pitch worse.
+                let slopes = Slopes::facing(self.attitude.gradient, facing);
+                let steeper =
+                    slopes.across > allowed.across || slopes.along > allowed.along.max(standing.along);
+                if turn > 0 && steeper {
+                    self.turns[side] = turn - 1;
+                    break;
+                }
+                let turn_m = self.config.turn_cost_m * f64::from(turn) * HEADINGS as f64 / f64::from(count);
+                for reverse in [false, true] {
+                    let first = First { facing, reverse };
+                    let change_m = if self.continues(&first) { 0.0 } else { most_change_m };
+                    if !reverse {
+                        self.begin_here(self.facing + sign * turn, &first, turn_m + change_m);
+                    }
+                    self.begin_along(self.facing + sign * turn, &first, turn_m + change_m);
+                }
+            }
+        }
+    }
+
+    /// How many directions the robot turns to the left, or if negative to the right, until it faces one. The controller turns
+    /// the shorter way.
+    fn turn_to(&self, index: i32) -> i32 {
+        let count = FIRST_DIRECTIONS as i32;
+        let left = (index - self.facing).rem_euclid(count);
+        if left <= count / 2 { left } else { left - count }
+    }
+
+    /// Whether a way that begins like this begins as the last one meant to.
+    pub(super) fn continues(&self, first: &First) -> bool {
+        self.last
+            .is_none_or(|last| last.reverse == first.reverse && last.facing.dot(first.facing) > SAME_COSINE)
+    }
+
+    pub(super) fn first_direction(&self, index: i32) -> DVec2 {
+        self.first_directions[index.rem_euclid(FIRST_DIRECTIONS as i32) as usize]
+    }
+
+    /// At the place nearest to the robot, when that is too near to drive to.
+    fn begin_here(&mut self, index: i32, first: &First, cost_m: f64) {
+        let Some(offset) = self.traversability.nearest(self.here_m) else { return };
+        let away_m = (self.traversability.position_m(offset) - self.here_m).length();
+        let heading = nearest(first.facing);
+        if away_m < FIRST_STEP_M && self.traversability.risk(offset, heading).is_finite() {
+            self.begin_with(offset, heading, index, cost_m + away_m);
+        }
+    }
+
+    /// With a first state, in which the robot is once it faces the direction with an index.
+    fn begin_with(&mut self, offset: IVec2, heading: usize, index: i32, cost_m: f64) {
+        let state = self.traversability.index(offset) * HEADINGS + heading;
+        let from = BEGIN + index.rem_euclid(FIRST_DIRECTIONS as i32) as u32;
+        self.reach(state, from, (cost_m * MILLIMETRES) as u32);
+    }
+
+    /// Straight ahead or in reverse to the next known place and, where no beam reaches the ground at the wheels, to the first
+    /// one beyond; `index` is that of the facing.
+    fn begin_along(&mut self, index: i32, first: &First, cost_m: f64) {
+        let travel = if first.reverse { -first.facing } else { first.facing };
+        let heading = nearest(first.facing);
+        let mut seen_m = 0.0;
+        let mut passed_risk = 0.0_f64;
+        let steps = (self.config.blind_radius_m / self.config.step_m) as usize;
+        for step in 1..=steps {
+            let along_m = self.config.step_m * step as f64;
+            let Some(offset) = self.traversability.nearest(self.here_m + travel * along_m) else { return };
+            if self.traversability.is_at_cliff(offset) {
+                return;
+            }
+            if self.traversability.is_hidden(offset, heading) {
+                if seen_m > WHEELS_M {
+                    return;
+                }
+                continue;
+            }
+            // From the ground at the wheels the search itself goes on.
+            let beyond_blind = along_m - seen_m > 1.5 * self.config.step_m;
+            seen_m = along_m;
+            if !beyond_blind && along_m > JOIN_M {
+                return;
+            }
+            let safe = self.begin_at(offset, index, first, cost_m, passed_risk);
+            // The place nearest to the robot may miss by rounding what it already stands on.
+            if beyond_blind && along_m > JOIN_M || !safe && step > 1 {
+                return;
+            }
+            let risk = self.traversability.risk(offset, heading);
+            if risk.is_finite() {
+                passed_risk = passed_risk.max(risk);
+            }
+        }
+    }
+
+    /// Straight to a place, over what has `passed_risk`, unless that is not safe.
+    fn begin_at(&mut self, offset: IVec2, index: i32, first: &First, cost_m: f64, passed_risk: f64) -> bool {
+        let Some(plane) = self.traversability.plane(offset) else { return false };
+        let path = self.traversability.position_m(offset) - self.here_m;
+        let distance_m = path.length();
+        if distance_m < FIRST_STEP_M {
+            return true;
+        }
+        let heading = nearest(first.facing);
+        let start =
+            Station { distance_m: 0.0, height_m: self.attitude.height_m, gradient: self.attitude.gradient };
+        let end = Station { distance_m, height_m: plane.height_m, gradient: plane.gradient };
+        let risk = self.risk_between(&start, &end, path / distance_m, 0.0);
+        let risk = risk.max(self.traversability.risk(offset, heading)).max(passed_risk);
+        if !risk.is_finite() {
+            return false;
+        }
+        let price = if first.reverse { self.prices.reverse } else { 1.0 };
+        let cost_m = cost_m
+            + price * distance_m * (1.0 + self.prices.tilt * risk)
+            + self.prices.climb * (end.height_m - start.height_m).abs();
+        self.begin_with(offset, heading, index, cost_m);
+        true
+    }
+
+    /// Whether the robot may turn on the spot until it faces a direction.
+    pub(super) fn may_turn_to(&self, facing: DVec2) -> bool {
+        let [most_left, most_right] = self.turns;
+        (-most_right..=most_left).contains(&self.turn_to(index_of(facing)))
+    }
+
+    /// Whether the robot may turn all around where it stands.
+    pub(crate) fn may_turn_around(&self) -> bool {
+        self.turns.iter().all(|&turns| turns == FIRST_DIRECTIONS as i32 / 2)
+    }
+}
+
+/// The first direction nearest to a facing.
+fn index_of(facing: DVec2) -> i32 {
+    let bearing_rad = libm::atan2(facing.y, facing.x);
+    (bearing_rad / TAU * FIRST_DIRECTIONS as f64).round() as i32
+}

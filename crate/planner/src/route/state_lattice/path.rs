@@ -1,0 +1,197 @@
+//! What was found: how far the ways reach, where each leads, and what to head for on it.
+
+use glam::DVec2;
+
+use super::{BEGIN, FIRST_STEP_M, MILLIMETRES, PathPoint, ReachedState, StateLattice, UNREACHED};
+use crate::route::forecast::{Forecast, ReachEnd};
+use crate::terrain::headings::{DIRECTIONS, HEADINGS, STEPS, nearest};
+use crate::terrain::slopes::Slopes;
+
+/// The robot minds what lies this far ahead; ground that was not seen, or is not safe, counts as this share of the tilt limits.
+const AHEAD_M: f64 = 1.0;
+const BLIND_SHARE: f64 = 0.75;
+/// How many steps of the same change of its attitude the robot is ready for.
+const GETS_STEEPER_TICKS: f64 = 5.0;
+
+/// How long a way is.
+pub(crate) fn length_m(path: &[PathPoint]) -> f64 {
+    path.windows(2).map(|leg| (leg[1].position_m - leg[0].position_m).length()).sum()
+}
+
+impl StateLattice {
+    /// The cheapest way to the place nearest to a point; `None` when there is none.
+    pub(crate) fn to(&self, point_m: DVec2) -> Option<ReachedState> {
+        self.cheapest(self.traversability.index(self.traversability.nearest(point_m)?))
+    }
+
+    /// The cheapest way to a place; `None` when there is none.
+    pub(super) fn cheapest(&self, place: usize) -> Option<ReachedState> {
+        let states = place * HEADINGS..(place + 1) * HEADINGS;
+        let state = states.min_by_key(|&state| self.costs_mm[state])?;
+        (self.costs_mm[state] != UNREACHED).then_some(ReachedState { state: state as u32 })
+    }
+
+    /// The cheapest way to a point or, where none leads there, to the place next to it within a distance; and where that is.
+    pub(crate) fn to_within(&self, point_m: DVec2, distance_m: f64) -> Option<(ReachedState, DVec2)> {
+        let around = || {
+            let places =
+                self.reached().map(|(reached, place_m)| ((place_m - point_m).length(), reached, place_m));
+            let next = places.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|next| next.0 <= distance_m);
+            next.map(|(_, reached, place_m)| (reached, place_m))
+        };
+        self.to(point_m).map(|reached| (reached, point_m)).or_else(around)
+    }
+
+    /// How far one can get along the straight line from the robot in a direction, up to `length_m`, whatever the way there.
+    pub(crate) fn reach_along(&self, direction: DVec2, length_m: f64) -> (f64, ReachEnd) {
+        let steps = (length_m / self.config.step_m).ceil() as usize;
+        let distance_m = |step: usize| (self.config.step_m * step as f64).min(length_m);
+        let at = |step: usize| self.here_m + direction * distance_m(step);
+        let last = (1..=steps).rev().find(|&step| self.to(at(step)).is_some()).unwrap_or(0);
+        if last == steps {
+            return (length_m, ReachEnd::Whole);
+        }
+        let known = self
+            .traversability
+            .nearest(at(last + 1))
+            .is_some_and(|place| self.traversability.plane(place).is_some());
+        let end = if known { ReachEnd::Tilt } else { ReachEnd::Unseen };
+        // Stop short of what is steep or unseen: the body reaches further than its centre.
+        let most_m = distance_m(last) - self.config.clearance_m;
+        let reach = (1..last).rev().find(|&step| distance_m(step) <= most_m && self.to(at(step)).is_some());
+        (reach.map_or(0.0, distance_m), end)
+    }
+
+    /// Writes the places on the way to a place, the robot's own first, to `way`, and gives what the way promises.
+    pub(crate) fn follow(&self, reached: ReachedState, path: &mut Vec<PathPoint>) -> Forecast {
+        path.clear();
+        let (mut across, mut along) = (0.0_f64, 0.0_f64);
+        let (mut risk_sum, mut count, mut climb_m) = (0.0, 0.0, 0.0);
+        let mut state = reached.state;
+        while state < BEGIN {
+            let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
+            let from = self.came_from[state as usize];
+            let turned = from < BEGIN && from as usize / HEADINGS == place;
+            if !turned {
+                let offset = self.traversability.offset(place);
+                risk_sum += self.traversability.risk(offset, heading);
+                count += 1.0;
+                if let Some(plane) = self.traversability.plane(offset) {
+                    let slopes = Slopes::facing(plane.gradient, DIRECTIONS[heading % DIRECTIONS.len()]);
+                    across = across.max(slopes.across);
+                    along = along.max(slopes.along);
+                }
+                let height_m = |state: u32| self.height_m(ReachedState { state });
+                let last_height_m = if from < BEGIN { height_m(from) } else { self.attitude.height_m };
+                climb_m += (height_m(state) - last_height_m).abs();
+                let position_m = self.traversability.position_m(offset);
+                let last_m = if from < BEGIN {
+                    self.traversability.position_m(self.traversability.offset(from as usize / HEADINGS))
+                } else {
+                    self.here_m
+                };
+                let cost_m = f64::from(self.costs_mm[state as usize]) / MILLIMETRES;
+                let reverse = (position_m - last_m).dot(STEPS[heading].as_dvec2()) < 0.0;
+                path.push(PathPoint { position_m, cost_m, reverse });
+            }
+            state = from;
+        }
+        path.push(PathPoint { position_m: self.here_m, cost_m: 0.0, reverse: false });
+        path.reverse();
+        let stands_there = |point: &PathPoint| (point.position_m - self.here_m).length() < FIRST_STEP_M;
+        if path.len() > 2 && stands_there(&path[1]) {
+            path.remove(1);
+        }
+        Forecast {
+            path_m: length_m(path),
+            climb_m,
+            mean_risk: if count > 0.0 { risk_sum / count } else { 0.0 },
+            max_roll_rad: libm::atan(across),
+            max_pitch_rad: libm::atan(along),
+            ..Forecast::default()
+        }
+    }
+
+    /// What the way to a place costs.
+    pub(crate) fn cost_m(&self, reached: ReachedState) -> f64 {
+        f64::from(self.costs_mm[reached.state as usize]) / MILLIMETRES
+    }
+
+    /// Height of the ground at a place that was reached.
+    pub(crate) fn height_m(&self, reached: ReachedState) -> f64 {
+        let offset = self.traversability.offset(reached.state as usize / HEADINGS);
+        self.traversability.plane(offset).map_or(self.attitude.height_m, |plane| plane.height_m)
+    }
+
+    /// Where to head for on a way: the farthest place before it changes between forward and reverse that costs no more to drive
+    /// to straight.
+    pub(crate) fn lookahead(&self, path: &[PathPoint]) -> PathPoint {
+        let stay = PathPoint { position_m: self.here_m, cost_m: 0.0, reverse: false };
+        let Some(&first) = path.get(1) else { return stay };
+        let blind_m = (first.position_m - self.here_m).length();
+        let leg = path[1..].iter().take_while(|point| point.reverse == first.reverse);
+        let straight = |point: &&PathPoint| self.straight_cost_m(point, blind_m) <= point.cost_m;
+        *leg.filter(straight).last().unwrap_or(&first)
+    }
+
+    /// What the straight line to a place on a way costs, given that its first part is fine; infinite where the robot may not turn
+    /// to it.
+    pub(super) fn straight_cost_m(&self, point: &PathPoint, blind_m: f64) -> f64 {
+        let path = point.position_m - self.here_m;
+        let facing = if point.reverse { -path } else { path };
+        if !self.may_turn_to(facing) {
+            return f64::INFINITY;
+        }
+        let length_m = path.length();
+        let heading = nearest(facing);
+        let count = (2.0 * length_m / self.config.step_m).ceil();
+        let (mut risk, mut climb_m) = (0.0, 0.0);
+        let mut height_m = self.attitude.height_m;
+        for k in 1..=count as usize {
+            let share = k as f64 / count;
+            let at = self.traversability.nearest(self.here_m + path * share);
+            if let Some(plane) = at.and_then(|at| self.traversability.plane(at)) {
+                climb_m += (plane.height_m - height_m).abs();
+                height_m = plane.height_m;
+            }
+            if share * length_m <= blind_m {
+                continue;
+            }
+            risk += at.map_or(f64::INFINITY, |at| self.traversability.risk(at, heading));
+        }
+        let price = if point.reverse { self.prices.reverse } else { 1.0 };
+        price * length_m * (1.0 + self.prices.tilt * risk / count) + self.prices.climb * climb_m
+    }
+
+    /// The share of the tilt limits that the robot takes up or soon will where it is, in slope: ground that gets steeper fast may go on to
+    /// do so.
+    pub(crate) fn share_here(&self) -> f64 {
+        self.attitude.slopes_within(GETS_STEEPER_TICKS).share_of(self.traversability.limits())
+    }
+
+    /// The share of the tilt limits that the robot takes up or soon will, in slope: on a way, and straight to what it heads for, which may lie
+    /// elsewhere.
+    pub(crate) fn share_ahead(&self, path: &[PathPoint], ahead: &PathPoint) -> f64 {
+        let here = PathPoint { position_m: self.here_m, ..*ahead };
+        self.share_here().max(self.share_along(path)).max(self.share_along(&[here, *ahead]))
+    }
+
+    fn share_along(&self, path: &[PathPoint]) -> f64 {
+        let mut share = 0.0_f64;
+        for leg in path.windows(2) {
+            let (from_m, path_m) = (leg[0].position_m, leg[1].position_m - leg[0].position_m);
+            let steps = (path_m.length() / self.config.step_m).ceil();
+            for step in 1..=steps as usize {
+                let at_m = from_m + path_m * (step as f64 / steps);
+                if (at_m - self.here_m).length() > AHEAD_M {
+                    return share;
+                }
+                let place = self.traversability.nearest(at_m);
+                let risk =
+                    place.map_or(f64::INFINITY, |place| self.traversability.risk(place, nearest(path_m)));
+                share = share.max(if risk.is_finite() { risk.sqrt() } else { BLIND_SHARE });
+            }
+        }
+        share
+    }
+}

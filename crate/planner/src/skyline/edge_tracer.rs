@@ -1,0 +1,254 @@
+//! The edge of the variance surface, traced without predicting the rest.
+//!
+//! The kernel forgets what lies a few length-scales away, so only the returns near the highest one of some column
+//! nearby bear on the edge; in front of a wall that leaves out most of them. From its highest return, each column is followed
+//! up to the first free row.
+
+use crate::config::PerceptionConfig;
+use crate::gp::jitter::GpError;
+use crate::skyline::beam_gp::{BeamGp, Query, RingMask};
+use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface, RING_STEP_RAD, RINGS};
+use crate::skyline::profile::{Column, ElevationProfile};
+use crate::skyline::surface::{
+    GpDiagnostics, REACH_LENGTH_SCALES, ROW_STEP_RAD, ROWS, ROWS_PER_RING, SECTORS, row_elevation_rad,
+};
+
+/// Rows of a column looked at together.
+const ROWS_AT_ONCE: usize = 4;
+
+/// Every cell of every column.
+pub(crate) fn all_cells(observed: &OccupancySurface) -> Vec<RingMask> {
+    (0..COLUMNS).map(|column| occupied_rings(observed, column)).collect()
+}
+
+fn occupied_rings(observed: &OccupancySurface, column: usize) -> RingMask {
+    observed.column(column).iter().fold(0, |mask, cell| mask | 1 << cell.ring)
+}
+
+/// Follows the edge around the circle.
+#[derive(Clone, Debug)]
+pub(crate) struct EdgeTracer {
+    threshold: f64,
+    /// How many rings the kernel reaches at each number of columns away.
+    reach_rings: Vec<usize>,
+    masks: Vec<RingMask>,
+    searches: Vec<Search>,
+    queries: Vec<Query>,
+    variances: Vec<f64>,
+}
+
+impl EdgeTracer {
+    pub(crate) fn new(config: &PerceptionConfig) -> Self {
+        let [azimuth_scale, elevation_scale] = config.kernel.length_scales_rad;
+        let most = REACH_LENGTH_SCALES * azimuth_scale / COLUMN_STEP_RAD;
+        let reach_rings = (0..=(most as usize).min(COLUMNS / 2))
+            .map(|columns| {
+                let across = COLUMN_STEP_RAD * columns as f64 / azimuth_scale;
+                let along = (REACH_LENGTH_SCALES * REACH_LENGTH_SCALES - across * across).max(0.0).sqrt();
+                ((along * elevation_scale / RING_STEP_RAD).ceil() as usize).min(RINGS)
+            })
+            .collect();
+        Self {
+            threshold: config.variance_threshold,
+            reach_rings,
+            masks: Vec::new(),
+            searches: Vec::new(),
+            queries: Vec::new(),
+            variances: Vec::new(),
+        }
+    }
+
+    /// The profile of the observed surface, and what it took.
+    ///
+    /// # Errors
+    /// [`GpError::IllConditioned`].
+    pub(crate) fn trace(
+        &mut self,
+        observed: &OccupancySurface,
+        gp: &mut BeamGp,
+        profile: &mut ElevationProfile,
+    ) -> Result<GpDiagnostics, GpError> {
+        self.mark_cells(observed);
+        gp.observe(observed, &self.masks);
+        let mut diagnostics =
+            GpDiagnostics { inducing_inputs: gp.inducing_inputs(), ..GpDiagnostics::default() };
+        profile.clear();
+        profile.resize(COLUMNS, Column::Unknown);
+        for sector in 0..SECTORS {
+            self.searches.clear();
+            for (in_sector, column) in gp.sector_columns(sector).enumerate() {
+                if let Some(cell) = observed.column(column).last() {
+                    self.searches.push(Search::new(column, in_sector, ROWS_PER_RING * cell.ring));
+                }
+            }
+            if self.searches.is_empty() || !gp.enter(sector)? {
+                continue;
+            }
+            diagnostics.jitter = diagnostics.jitter.max(gp.jitter());
+            self.search_sector(sector, gp, profile);
+        }
+        Ok(diagnostics)
+    }
+
+    /// Looks at a few rows of every column that is not finished, until all are.
+    fn search_sector(&mut self, sector: usize, gp: &mut BeamGp, profile: &mut [Column]) {
+        while !self.searches.is_empty() {
+            self.queries.clear();
+            for search in &self.searches {
+                let column = search.in_sector;
+                self.queries.extend(search.next_rows().map(|row| Query { column, row }));
+            }
+            gp.relative_variances(sector, &self.queries, &mut self.variances);
+            let mut seen = self.queries.iter().zip(&self.variances);
+            let threshold = self.threshold;
+            self.searches.retain_mut(|search| {
+                let rows = search.next_rows().len();
+                for (query, &variance) in seen.by_ref().take(rows) {
+                    search.variances[query.row] = variance;
+                }
+                match search.advance(threshold) {
+                    Some(found) => {
+                        profile[search.column] = found;
+                        false
+                    }
+                    None => true,
+                }
+            });
+        }
+    }
+
+    /// Marks the cells within the kernel's reach of the highest return of some column.
+    fn mark_cells(&mut self, observed: &OccupancySurface) {
+        self.masks.clear();
+        self.masks.resize(COLUMNS, 0);
+        for column in 0..COLUMNS {
+            let Some(highest) = observed.column(column).last().map(|cell| cell.ring) else { continue };
+            for (apart, &reach) in self.reach_rings.iter().enumerate() {
+                let rings = rings_between(highest.saturating_sub(reach), (highest + reach).min(RINGS - 1));
+                self.masks[(column + apart) % COLUMNS] |= rings;
+                self.masks[(column + COLUMNS - apart) % COLUMNS] |= rings;
+            }
+        }
+        for (column, mask) in self.masks.iter_mut().enumerate() {
+            *mask &= occupied_rings(observed, column);
+        }
+    }
+}
+
+/// The rings from `low` to `high`, both included.
+fn rings_between(low: usize, high: usize) -> RingMask {
+    (RingMask::MAX << low) & (RingMask::MAX >> (RINGS - 1 - high))
+}
+
+/// The search for the edge in one column: up from its highest return to the first free row, or down to the first occupied one.
+#[derive(Clone, Debug)]
+struct Search {
+    column: usize,
+    /// The column within the sector.
+    in_sector: usize,
+    start: usize,
+    /// Rows looked at, `begin..end`, with their variances.
+    begin: usize,
+    end: usize,
+    next: (usize, usize),
+    variances: [f64; ROWS],
+}
+
+impl Search {
+    fn new(column: usize, in_sector: usize, start: usize) -> Self {
+        let next = (start, (start + ROWS_AT_ONCE).min(ROWS));
+        Self { column, in_sector, start, begin: start, end: start, next, variances: [1.0; ROWS] }
+    }
+
+    fn next_rows(&self) -> core::ops::Range<usize> {
+        self.next.0..self.next.1
+    }
+
+    /// Takes note of the rows just looked at; gives the answer, or decides which rows come next.
+    fn advance(&mut self, threshold: f64) -> Option<Column> {
+        self.begin = self.begin.min(self.next.0);
+        self.end = self.end.max(self.next.1);
+        let occupied = |row: &usize| self.variances[*row] < threshold;
+        if occupied(&self.start) {
+            if let Some(free) = (self.start..self.end).find(|row| !occupied(row)) {
+                return Some(self.edge(free - 1, threshold));
+            }
+            if self.end == ROWS {
+                return Some(Column::Wall);
+            }
+            self.next = (self.end, (self.end + ROWS_AT_ONCE).min(ROWS));
+        } else {
+            if let Some(highest) = (self.begin..self.start).rev().find(occupied) {
+                return Some(self.edge(highest, threshold));
+            }
+            if self.begin == 0 {
+                return Some(Column::Unknown);
+            }
+            self.next = (self.begin.saturating_sub(ROWS_AT_ONCE), self.begin);
+        }
+        None
+    }
+
+    /// The edge between an occupied row and the free one above it.
+    fn edge(&self, row: usize, threshold: f64) -> Column {
+        let (below, above) = (self.variances[row], self.variances[row + 1]);
+        let share = (threshold - below) / (above - below);
+        Column::Ground { elevation_rad: row_elevation_rad(row) + share * ROW_STEP_RAD }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::PlannerConfig;
+    use crate::skyline::perception::Perception;
+    use crate::skyline::profile::read_profile;
+    use crate::testing::undulating_scan;
+    use glam::Vec3;
+
+    fn trace(points_m: &[Vec3]) -> (ElevationProfile, ElevationProfile) {
+        let config = PlannerConfig::default().perception;
+        let mut observed = OccupancySurface::new(7.0);
+        observed.project(points_m);
+        let mut perception = Perception::new(config);
+        let (mut traced, mut read) = (Vec::new(), Vec::new());
+        perception.profile(&observed, &mut traced).unwrap();
+        let surface = perception.surface(&observed).unwrap();
+        read_profile(&observed, surface, config.variance_threshold, &mut read);
+        (traced, read)
+    }
+
+    fn assert_same(traced: &[Column], read: &[Column], tolerance_deg: f64) {
+        for (column, pair) in traced.iter().zip(read).enumerate() {
+            match pair {
+                (Column::Ground { elevation_rad: a }, Column::Ground { elevation_rad: b }) => {
+                    assert!((a - b).abs().to_degrees() < tolerance_deg, "column {column}: {a} {b}");
+                }
+                (traced, read) => assert_eq!(traced, read, "column {column}"),
+            }
+        }
+    }
+
+    #[test]
+    fn the_traced_edge_is_that_of_the_whole_surface() {
+        for (from, to) in [(0, 360), (90, 270), (10, 40)] {
+            let (traced, read) = trace(&undulating_scan(from, to));
+            assert_same(&traced, &read, 0.05);
+        }
+    }
+
+    #[test]
+    fn a_turned_scan_gives_the_turned_profile() {
+        let scan = undulating_scan(100, 200);
+        let (here, _) = trace(&scan);
+        for columns in [1, 7, 90, 180, 263] {
+            let (sin, cos) = libm::sincos(COLUMN_STEP_RAD * columns as f64);
+            let (sin, cos) = (sin as f32, cos as f32);
+            let turned: Vec<Vec3> =
+                scan.iter().map(|p| Vec3::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y, p.z)).collect();
+            let (mut there, _) = trace(&turned);
+            there.rotate_left(columns);
+            assert_eq!(here, there, "turned by {columns} columns");
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! The elevation profile: the border between occupied (low variance) and free (high variance) directions, one column of
+//! azimuth at a time (paper, section V-B).
+
+use crate::skyline::occupancy::{COLUMNS, OccupancySurface};
+use crate::skyline::surface::{PredictedSurface, ROW_STEP_RAD, ROWS, row_elevation_rad};
+
+/// What one column of the variance surface shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Column {
+    /// Terrain up to an elevation angle.
+    Ground {
+        /// The skyline, in the sensor frame.
+        elevation_rad: f64,
+    },
+    /// No return within r_oc: a crest or a drop hides the ground.
+    Unknown,
+    /// Occupied up to the sensor's highest ring.
+    Wall,
+}
+
+/// The profile of one scan, [`COLUMNS`] columns.
+pub type ElevationProfile = Vec<Column>;
+
+/// Reads the profile off the variance surface: in each column the highest place where the relative variance falls below
+/// `threshold`, interpolated between rows.
+pub(crate) fn read_profile(
+    observed: &OccupancySurface,
+    predicted: &PredictedSurface,
+    threshold: f64,
+    profile: &mut ElevationProfile,
+) {
+    profile.clear();
+    profile.extend((0..COLUMNS).map(|column| {
+        if observed.column(column).is_empty() {
+            Column::Unknown
+        } else {
+            read_column(predicted.variance_column(column), threshold)
+        }
+    }));
+}
+
+fn read_column(variance: &[f64], threshold: f64) -> Column {
+    let Some(row) = variance.iter().rposition(|&v| v < threshold) else {
+        return Column::Unknown;
+    };
+    if row + 1 == ROWS {
+        return Column::Wall;
+    }
+    let share = (threshold - variance[row]) / (variance[row + 1] - variance[row]);
+    Column::Ground { elevation_rad: row_elevation_rad(row) + share * ROW_STEP_RAD }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_edge_lies_between_an_occupied_and_a_free_row(
+            variance in prop::collection::vec(0.0..1.0_f64, ROWS),
+            threshold in 0.05..0.95_f64,
+        ) {
+            match read_column(&variance, threshold) {
+                Column::Unknown => prop_assert!(variance.iter().all(|&v| v >= threshold)),
+                Column::Wall => prop_assert!(variance[ROWS - 1] < threshold),
+                Column::Ground { elevation_rad } => {
+                    let row = variance.iter().rposition(|&v| v < threshold).unwrap();
+                    prop_assert!(variance[row + 1..].iter().all(|&v| v >= threshold));
+                    let low = row_elevation_rad(row);
+                    prop_assert!(elevation_rad >= low && elevation_rad <= low + ROW_STEP_RAD);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! ElevationWindow that was looked at and is not there.
+//!
+//! A scan says nothing of an edge but that no returns come from beyond it, and a plane through the ground before it goes on where
+//! there is none. But ground that went on would have been seen while the robot came nearer.
+
+use glam::{DVec2, DVec3};
+
+use super::{ElevationWindow, FOOTPRINT_RADII_M};
+use crate::skyline::occupancy::LOWEST_ELEVATION_RAD;
+use crate::terrain::plane::Plane;
+
+/// Views are kept this far apart, and so many of them: the rings of a scan lie half a metre apart where they sweep over the ground
+/// that is about to be too near to be seen.
+const SPACING_M: f64 = 0.25;
+pub(super) const MOST_VIEWS: usize = 256;
+/// What was in so many views was swept over by a ring.
+const FEWEST_VIEWS: usize = 3;
+/// ElevationWindow is surely in view up to this distance, this far above the lowest beam, and where the beams meet it no flatter than this.
+const SURELY_SEEN_M: f64 = 4.5;
+const ABOVE_LOWEST_RAD: f64 = 0.02;
+const LEAST_INCIDENCE: f64 = 0.1;
+/// ElevationWindow that rises like this hides what follows, be it as level as a ramp's end.
+const RISING_SLOPE: f64 = 0.1;
+
+/// What is as near as this to the robot and was in view was seen under all wheels, or it is not there.
+const BY_NOW_SEEN_M: f64 = 2.0;
+/// From a place to where its wheels may stand.
+const BESIDE_M: f64 = 0.5;
+
+/// So many points to each side of a place are looked at, so far apart. A small rise hides fewer than this share of them.
+const HOLE_LOOKS: i32 = 3;
+const HOLE_LOOK_M: f64 = 0.1;
+const HOLE_SHARE: f64 = 0.5;
+
+/// Returns this near to a place tell of a drop there if one lies so much lower than another, and the line through both is as steep as
+/// this. On 1.15 a robot exceeds a limit with every heading, as tan² 45° + tan² 30° is its square.
+const DROP_RADIUS_M: f64 = 0.7;
+const LEAST_DROP_M: f64 = 0.3;
+const DROP_SLOPE: f64 = 1.2;
+
+/// Where the sensor was.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    tick: u64,
+    sensor_m: DVec3,
+    up: DVec3,
+}
+
+impl ElevationWindow {
+    /// The scan was taken from here, by a sensor whose axis is the unit vector `up`.
+    pub(crate) fn looked_from(&mut self, sensor_m: DVec3, up: DVec3) {
+        let (tick, memory_ticks) = (self.tick, self.config.memory_ticks);
+        self.views.retain(|view| tick - view.tick <= memory_ticks);
+        if self.views.iter().any(|view| (view.sensor_m - sensor_m).length() < SPACING_M) {
+            return;
+        }
+        if self.views.len() == MOST_VIEWS {
+            self.views.pop_front();
+        }
+        self.views.push_back(View { tick, sensor_m, up });
+    }
+
+    /// Whether there is nothing under a wheel at a place, as it would have been seen from the side of `here_m`, or the ground drops off
+    /// there. What `was_missing` stays so while no returns come from it.
+    pub(super) fn is_cliff(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool {
+        (was_negative_obstacle || self.would_be_seen(place_m, here_m)) && self.lacks_returns_beside(place_m)
+            || self.has_drop(place_m, (place_m - here_m).normalize_or_zero())
+    }
+
+    /// Whether ground that went on at a place near the robot, as it lies on the robot's side of it, would have been seen.
+    fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool {
+        let before = |from_place: DVec2| from_place.dot(here_m - place_m) > 0.0;
+        let plane = || {
+            FOOTPRINT_RADII_M
+                .iter()
+                .find_map(|&radius_m| self.moments_near(place_m, radius_m, before).plane())
+        };
+        (place_m - here_m).length() < BY_NOW_SEEN_M
+            && plane().is_some_and(|plane| self.was_in_view(place_m, &plane))
+    }
+
+    /// Whether no return comes from most of the ground at a place or beside it.
+    fn lacks_returns_beside(&self, place_m: DVec2) -> bool {
+        let sides = [-BESIDE_M, 0.0, BESIDE_M];
+        sides.into_iter().any(|y| sides.into_iter().any(|x| self.lacks_returns(place_m + DVec2::new(x, y))))
+    }
+
+    /// Whether no return comes from most of the ground around a place.
+    fn lacks_returns(&self, place_m: DVec2) -> bool {
+        let looks = (-HOLE_LOOKS..=HOLE_LOOKS)
+            .flat_map(|y| (-HOLE_LOOKS..=HOLE_LOOKS).map(move |x| DVec2::new(f64::from(x), f64::from(y))));
+        let (mut unseen, mut count) = (0, 0);
+        for look in looks {
+            count += 1;
+            unseen += u32::from(self.height_m(place_m + look * HOLE_LOOK_M, DVec2::ZERO).is_none());
+        }
+        f64::from(unseen) >= HOLE_SHARE * f64::from(count)
+    }
+
+    /// Whether the ground around a place drops off in the direction of the unit vector `away`: between two returns it is somewhere as
+    /// steep as the line through both.
+    fn has_drop(&self, place_m: DVec2, away: DVec2) -> bool {
+        let near = || self.cells_near(place_m, DROP_RADIUS_M).map(|cell| cell.mean_m);
+        let lowest_m = near().map(|mean_m| mean_m.z).fold(f64::INFINITY, f64::min);
+        near().filter(|high_m| high_m.z - lowest_m > LEAST_DROP_M).any(|high_m| {
+            near().map(|low_m| high_m - low_m).any(|drop_m| {
+                let across_m = drop_m.truncate();
+                drop_m.z > LEAST_DROP_M
+                    && drop_m.z > DROP_SLOPE * across_m.length()
+                    && across_m.dot(away) < 0.0
+            })
+        })
+    }
+
+    /// Whether ground with this plane would have been seen at a place, while it was not too near.
+    fn was_in_view(&self, place_m: DVec2, plane: &Plane) -> bool {
+        self.views.iter().filter(|view| view.holds(place_m.extend(plane.height_m), plane)).count()
+            >= FEWEST_VIEWS
+    }
+}
+
+impl View {
+    fn holds(&self, point_m: DVec3, plane: &Plane) -> bool {
+        let away = point_m - self.sensor_m;
+        let distance_m = away.length();
+        let beam = away / distance_m;
+        let normal = (-plane.gradient).extend(1.0).normalize();
+        let rises = plane.gradient.dot(beam.truncate().normalize_or_zero()) > RISING_SLOPE;
+        distance_m < SURELY_SEEN_M
+            && beam.dot(self.up) > libm::sin(LOWEST_ELEVATION_RAD + ABOVE_LOWEST_RAD)
+            && -beam.dot(normal) > LEAST_INCIDENCE
+            && !rises
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::PlannerConfig;
+    use crate::testing::strewn;
+
+    const AHEAD_M: DVec2 = DVec2::new(2.0, 0.0);
+
+    /// Has looked around while it drove to the origin from `from_m`, nose up by `pitch_rad`.
+    fn come_from(from_m: DVec2, pitch_rad: f64) -> ElevationWindow {
+        let mut ground = ElevationWindow::new(&PlannerConfig::default());
+        let up = DVec3::new(-libm::sin(pitch_rad), 0.0, libm::cos(pitch_rad));
+        for step in 0..=10 {
+            ground.advance();
+            ground.looked_from((from_m * (1.0 - 0.1 * f64::from(step))).extend(0.8), up);
+        }
+        ground
+    }
+
+    fn strewn_but(is_hidden: impl Fn(DVec2) -> bool) -> ElevationWindow {
+        strewn(|place| (!is_hidden(place)).then_some(0.0))
+    }
+
+    #[test]
+    fn beyond_an_edge_and_in_a_trench_no_return_comes_from_most_of_the_ground() {
+        let edge = strewn_but(|place| place.x > 0.3);
+        assert!(!edge.lacks_returns(DVec2::ZERO) && edge.lacks_returns(DVec2::new(0.5, 0.0)));
+        let trench = strewn_but(|place| place.x.abs() < 0.5);
+        assert!(trench.lacks_returns(DVec2::ZERO) && trench.lacks_returns(DVec2::new(-0.25, 0.0)));
+    }
+
+    #[test]
+    fn what_a_small_rise_hides_is_no_hole() {
+        let behind_rises = strewn_but(|place| (place.x - 0.1).abs() < 0.25);
+        assert!(!behind_rises.lacks_returns(DVec2::ZERO));
+        let far_apart = strewn_but(|place| place.x.rem_euclid(0.5) > 0.1);
+        assert!(!far_apart.lacks_returns(DVec2::ZERO), "rings half a metre apart");
+    }
+
+    #[test]
+    fn a_ledge_drops_off_for_who_stands_above_and_a_hill_does_not() {
+        let ledge = strewn(|place| (place.x.abs() > 0.3).then_some(if place.x < 0.0 { 0.0 } else { -1.0 }));
+        assert!(ledge.has_drop(DVec2::ZERO, DVec2::X));
+        assert!(!ledge.has_drop(DVec2::ZERO, -DVec2::X), "seen from its foot");
+        assert!(!ledge.has_drop(DVec2::new(-1.2, 0.0), DVec2::X), "well before it");
+        assert!(!strewn(|place| Some(-place.x)).has_drop(DVec2::ZERO, DVec2::X), "45°");
+    }
+
+    #[test]
+    fn ground_that_went_on_before_a_ledge_would_be_seen_though_its_foot_was() {
+        let mut ground = strewn(|place| {
+            (!(-0.1..0.6).contains(&place.x)).then_some(if place.x < 0.0 { 0.0 } else { -1.0 })
+        });
+        for step in 0..=10 {
+            ground.looked_from(DVec3::new(-4.0 + 0.25 * f64::from(step), 0.0, 0.8), DVec3::Z);
+        }
+        assert!(ground.would_be_seen(DVec2::ZERO, DVec2::new(-1.5, 0.0)));
+        assert!(!ground.would_be_seen(DVec2::ZERO, DVec2::new(1.5, 0.0)), "its foot ends there");
+    }
+
+    fn sloping(slope: f64) -> Plane {
+        Plane { height_m: 0.0, gradient: DVec2::new(slope, 0.0), gradient_deviation: 0.0 }
+    }
+
+    #[test]
+    fn level_ground_was_seen_from_where_the_robot_came() {
+        assert!(come_from(DVec2::new(-3.0, 0.0), 0.0).was_in_view(AHEAD_M, &sloping(0.0)));
+    }
+
+    #[test]
+    fn no_beam_met_what_was_always_too_near_or_below_the_lowest_one() {
+        assert!(!come_from(DVec2::new(-0.8, 0.0), 0.0).was_in_view(AHEAD_M, &sloping(0.0)));
+        assert!(!come_from(DVec2::new(-3.0, 0.0), 0.3).was_in_view(AHEAD_M, &sloping(0.0)), "nose up");
+    }
+
+    #[test]
+    fn slopes_that_fall_away_or_hide_what_follows_say_nothing() {
+        let ground = come_from(DVec2::new(-3.0, 0.0), 0.0);
+        assert!(ground.was_in_view(AHEAD_M, &sloping(-0.05)));
+        assert!(!ground.was_in_view(AHEAD_M, &sloping(-0.3)));
+        assert!(!ground.was_in_view(AHEAD_M, &sloping(0.3)));
+    }
+
+    #[test]
+    fn views_are_forgotten_with_the_ground_seen_from_them() {
+        let mut ground = come_from(DVec2::new(-3.0, 0.0), 0.0);
+        for _ in 0..=PlannerConfig::default().ground.memory_ticks {
+            ground.advance();
+            ground.looked_from(DVec3::new(0.0, 0.0, 0.8), DVec3::Z);
+        }
+        assert!(!ground.was_in_view(AHEAD_M, &sloping(0.0)));
+    }
+}
