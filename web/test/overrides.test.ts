@@ -40,7 +40,15 @@ test('sections are written as a scenario file has them', () => {
 });
 
 test('a complaint of the core is brought to its field', () => {
-  const number = { unit: '', text: '', value: 1, kind: 'number', range: [0, 1] } as const;
+  const number = {
+    unit: '',
+    text: '',
+    value: 1,
+    kind: 'number',
+    range: [0, 1] as [number, number],
+    choices: undefined,
+    paper: undefined,
+  } as const;
   const groups: ParameterGroup[] = [
     { table: 'planner.controller', title: '', parameters: [{ ...number, name: 'max_speed_m_s' }] },
     { table: 'robot', title: '', parameters: [{ ...number, name: 'max_speed_m_s' }] },

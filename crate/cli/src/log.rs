@@ -54,8 +54,8 @@ impl Log {
         let status = match status {
             Status::Driving => "driving",
             Status::Arrived => "arrived",
-            Status::Backtracking => "retreating",
-            Status::Searching => "looking",
+            Status::Backtracking => "backtracking",
+            Status::Searching => "searching",
             Status::Stopped(_) => "stopped",
         };
         let decision = format!("{:.6},{:.6},{subgoal},{status}", command.linear_m_s, command.angular_rad_s);

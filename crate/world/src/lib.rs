@@ -31,7 +31,7 @@ pub use caster::Caster;
 pub use config::ConfigError;
 pub use height_field::{FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M};
 pub use husky::{DriveCommand, DriveError, Husky, HuskyConfig, HuskyState};
-pub use sculpt::{Brush, BrushKind, SampleRect, Stroke, StrokeError};
+pub use sculpt::{Brush, BrushKind, SampleRect, Stroke, StrokeError, StrokeKind, StrokeTable};
 pub use skyline::{Skyline, true_skyline};
 pub use slopes::SlopeDistribution;
 #[cfg(not(target_arch = "wasm32"))]

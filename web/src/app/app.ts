@@ -112,18 +112,22 @@ export class App {
     if (!info || !frame || !field) return undefined;
     const {
       buffers: _buffers,
-      path: _path,
+      trail: _trail,
       rows: _rows,
       anew: _anew,
       ahead: _ahead,
-      way: _way,
-      world_from_sensor: _sensor,
+      path: _path,
+      sensor: _sensor,
       segments,
       subgoals,
+      stop_reason: stopReason,
+      waypoints_passed: waypointsPassed,
       ...rest
     } = frame;
     return {
       ...rest,
+      stopReason,
+      waypointsPassed,
       scenario: info.scenario,
       preset: info.preset,
       learning: info.learning,
@@ -307,7 +311,7 @@ export class App {
       const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
       if (!goal || reached) return { waypoints: [], goal: place };
       // What the robot has been to stays behind it.
-      return { waypoints: [...waypoints.slice(this.#frame?.waypointsPassed ?? 0), place], goal };
+      return { waypoints: [...waypoints.slice(this.#frame?.waypoints_passed ?? 0), place], goal };
     });
   }
 

@@ -13,11 +13,14 @@ import type { Frame, Heading, Place, SessionInfo, Setting } from '../protocol/si
 import type { App } from './app.ts';
 
 /** Arrays and what only drawing needs stay out. */
-type Drawn = 'buffers' | 'path' | 'rows' | 'anew' | 'ahead' | 'way' | 'world_from_sensor' | 'segments' | 'subgoals';
+type Drawn = 'buffers' | 'trail' | 'rows' | 'anew' | 'ahead' | 'path' | 'sensor' | 'segments' | 'subgoals';
 
 /** What the page shows, as plain data. */
-export type MaplessState = Omit<Frame, Drawn> &
+export type MaplessState = Omit<Frame, Drawn | 'stop_reason' | 'waypoints_passed'> &
   Pick<SessionInfo, 'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'waypoints' | 'goal' | 'overrides'> & {
+    /** Why the planner stopped, where it did. */
+    readonly stopReason: string | undefined;
+    readonly waypointsPassed: number;
     readonly playing: boolean;
     readonly speed: number;
     readonly ground: { readonly columns: number; readonly rows: number; readonly cell_m: number };

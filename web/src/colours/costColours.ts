@@ -5,10 +5,10 @@ import { costColour, type Rgb } from './scale.ts';
 
 /** Gives each candidate its colour; the refused have none, and the goal itself, once chosen, that of the least cost. */
 export function costColours(subgoals: readonly Subgoal[]): (one: Subgoal) => Rgb | undefined {
-  const totals = subgoals.filter((one) => one.terms).map((one) => one.total);
+  const totals = subgoals.flatMap(({ cost }) => (cost ? [cost.total] : []));
   const [lowest, highest] = [Math.min(...totals), Math.max(...totals)];
   return (one) => {
-    if (one.terms) return costColour(one.total, lowest, highest);
+    if (one.cost) return costColour(one.cost.total, lowest, highest);
     return one.chosen ? costColour(0, 0, 0) : undefined;
   };
 }

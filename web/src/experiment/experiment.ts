@@ -4,6 +4,7 @@
  */
 
 import type { Heading, Learning, Place, Preset, Setup } from '../protocol/simulationProtocol.ts';
+import type { Stroke, StrokeKind } from '../wasm/mapless_wasm.js';
 import type { Overrides } from './overrides.ts';
 
 export const VERSION = 1;
@@ -24,6 +25,8 @@ export type Terrain =
   /** The text of a recipe, and the file that it imports, if it does. */
   | { readonly recipe: string; readonly imported?: ImportedFile };
 
+export type { Stroke, StrokeKind };
+
 export const STROKE_KINDS = [
   'raise',
   'lower',
@@ -34,22 +37,7 @@ export const STROKE_KINDS = [
   'boulder',
   'ramp',
   'ditch',
-] as const;
-export type StrokeKind = (typeof STROKE_KINDS)[number];
-
-/** One tool in one go. The names are those of a recipe's `[[stroke]]`. */
-export interface Stroke {
-  readonly kind: StrokeKind;
-  readonly radius_m: number;
-  /** The largest change of a height by one touch. */
-  readonly strength_m: number;
-  /** Of `level`. */
-  readonly height_m?: number;
-  /** Of `roughen`. */
-  readonly seed?: number;
-  /** x, y of each touch in whole centimetres; `ramp` and `ditch` go from each place to the next. */
-  readonly points_cm: readonly number[];
-}
+] as const satisfies readonly StrokeKind[];
 
 export interface Experiment {
   readonly version: typeof VERSION;

@@ -1,7 +1,8 @@
 /** Parameters that differ from the defaults, by the names and tables of scenario files. Plain data, never changed in place. */
 
-export type OverrideValue = number | string | boolean | readonly (OverrideValue | Overrides)[];
-export type Overrides = { readonly [key: string]: OverrideValue | Overrides };
+import type { Overrides, OverrideValue } from '../wasm/mapless_wasm.js';
+
+export type { Overrides, OverrideValue };
 
 /** The value of `name` in a table such as `planner.forecast`, if it is overridden. */
 export function override(overrides: Overrides, table: string, name: string): OverrideValue | undefined {

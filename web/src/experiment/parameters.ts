@@ -1,29 +1,8 @@
-/** What the core tells of each parameter (`mapless_trials::parameters`). */
+/** What the core tells of each parameter, as people read it. */
 
-import type { OverrideValue } from './overrides.ts';
+import type { OverrideValue, Parameter, ParameterGroup } from '../wasm/mapless_wasm.js';
 
-interface Described {
-  readonly name: string;
-  readonly unit: string;
-  readonly text: string;
-  /** The default, of the preset. */
-  readonly value: OverrideValue;
-  /** What the paper gives, where it gives one. */
-  readonly paper?: OverrideValue;
-}
-
-export type Parameter = Described &
-  (
-    | { readonly kind: 'number' | 'whole' | 'pair'; readonly range: readonly [low: number, high: number] }
-    | { readonly kind: 'switch' }
-    | { readonly kind: 'choice'; readonly choices: readonly string[] }
-  );
-
-export interface ParameterGroup {
-  readonly table: string;
-  readonly title: string;
-  readonly parameters: readonly Parameter[];
-}
+export type { Parameter, ParameterGroup };
 
 const UNITS = /_(m|m2|rad|s|m_s|m_s2|rad_s|rad_s2|ticks|length_scales)$/;
 

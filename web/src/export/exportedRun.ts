@@ -1,8 +1,8 @@
 /** A run as its files describe it. */
 
-import { MOTION, POSE } from '../bindings/columns.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
-import type { RunRecord } from '../run/record.ts';
+import { MOTION, POSE } from '../run/columns.ts';
+import { ACTIVITIES, type RunRecord } from '../run/record.ts';
 
 /** A run as it was at one moment: its files take a while to write, and meanwhile it goes on. */
 export interface Run {
@@ -32,9 +32,6 @@ export function trajectoryCsv({ frame, record }: Run): string {
   return `${lines.join('\n')}\n`;
 }
 
-/** In the order of the record's codes. */
-const ACTIVITIES = ['driving', 'arrived', 'looking', 'stopped', 'retreating'];
-
 /** Six decimals, with the sign of a negative zero, as the command line writes them. */
 function decimals(value: number): string {
   return Object.is(value, -0) ? '-0.000000' : value.toFixed(6);
@@ -42,13 +39,13 @@ function decimals(value: number): string {
 
 /** The result as `mapless run --json` prints it; the outcome of a run that has not ended is `running`. */
 export function runJson({ frame, record }: Run): string {
-  const { outcome, stopReason, metrics, tick, time_s, digest } = frame;
+  const { outcome, stop_reason, metrics, tick, time_s, digest } = frame;
   const times_ms = Float64Array.from({ length: record.before(frame.tick) }, (_, row) =>
     record.get(row, 'planner_ms'),
   ).sort();
   const result = {
     outcome,
-    reason: stopReason ?? null,
+    reason: stop_reason ?? null,
     metrics,
     ticks: tick,
     sim_time_s: time_s,

@@ -38,9 +38,7 @@ export class DecisionPanel {
   session({ preset }: SessionInfo): void {
     const terms = preset === 'paper' ? TERMS.slice(0, PAPER_TERMS) : TERMS;
     this.#legend.replaceChildren(
-      ...terms.map((name, index) =>
-        html('li', `legend-item term-${index % 6}`, [html('i', 'legend-key'), name.replace('_', ' ')]),
-      ),
+      ...terms.map((name, index) => html('li', `legend-item term-${index % 6}`, [html('i', 'legend-key'), name])),
     );
     this.#lines = Array.from({ length: SHOWN }, () => newLine(terms.length));
     this.#list.replaceChildren(...this.#lines.map(({ row }) => html('li', '', [row])));
@@ -62,7 +60,8 @@ export class DecisionPanel {
 
   show({ activity, subgoals, segments }: Frame): void {
     const colourOf = costColours(subgoals);
-    const candidates = subgoals.filter((one) => one.terms).sort((a, b) => a.total - b.total);
+    const total = ({ cost }: Subgoal) => cost?.total ?? Number.NaN;
+    const candidates = subgoals.filter(({ cost }) => cost).sort((a, b) => total(a) - total(b));
     setText(
       this.#summary,
       activity === 'arrived' ? 'nothing left to decide' : summary(candidates.length, subgoals, segments),
@@ -81,18 +80,19 @@ export class DecisionPanel {
       if (!one) return;
       const colour = colourOf(one);
       line.dot.style.backgroundColor = colour ? css(colour) : '';
-      setText(line.where, one.terms ? direction(one.azimuth_rad) : 'the goal');
-      line.bars.forEach((bar, term) => {
-        bar.style.width = `${((100 * Math.max(one.terms?.[term] ?? 0, 0)) / longest).toFixed(2)}%`;
+      setText(line.where, one.cost ? direction(one.azimuth_rad) : 'the goal');
+      line.bars.forEach((bar, index) => {
+        const term = TERMS[index];
+        bar.style.width = `${((100 * Math.max((term && one.cost?.[term]) ?? 0, 0)) / longest).toFixed(2)}%`;
       });
-      setText(line.total, fixed(one.total, 2));
+      setText(line.total, fixed(total(one), 2));
     });
   }
 }
 
 /** Length of a candidate's bar: the terms that charge something. */
-function positive(one: Subgoal): number {
-  return (one.terms ?? []).reduce((sum, term) => sum + Math.max(term, 0), 0);
+function positive({ cost }: Subgoal): number {
+  return TERMS.reduce((sum, term) => sum + Math.max(cost?.[term] ?? 0, 0), 0);
 }
 
 function summary(candidates: number, subgoals: Frame['subgoals'], segments: Frame['segments']): string {

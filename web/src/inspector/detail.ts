@@ -2,7 +2,7 @@
 
 import { html, setText } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
-import { type Frame, type SessionInfo, type Subgoal, TERMS } from '../protocol/simulationProtocol.ts';
+import { type Cost, type Frame, type SessionInfo, TERMS } from '../protocol/simulationProtocol.ts';
 import type { Target } from '../scene/selection.ts';
 import { segmentReason, segmentTitle, subgoalReason, subgoalState, subgoalTitle, VERDICT_WORDS } from './explain.ts';
 
@@ -48,14 +48,14 @@ export class DetailCard {
     const segment = target?.segment === undefined ? undefined : frame.segments[target.segment];
     this.#card.hidden = !info || !(subgoal || segment);
     this.#close.hidden = !pinned;
-    this.#terms.hidden = !subgoal?.terms;
+    this.#terms.hidden = !subgoal?.cost;
     if (!info) return;
     if (subgoal) {
       setText(this.#title, subgoalTitle(subgoal));
       setText(this.#reason, subgoalReason(subgoal, frame));
       setText(this.#segment, segment ? `Segment: ${segmentReason(segment, info)}` : '');
       this.#state(subgoalState(subgoal));
-      if (subgoal.terms) this.#showTerms(subgoal, info);
+      if (subgoal.cost) this.#showTerms(subgoal.cost, info);
     } else if (segment) {
       setText(this.#title, segmentTitle(segment));
       setText(this.#reason, segmentReason(segment, info));
@@ -78,16 +78,19 @@ export class DetailCard {
     this.#chip.dataset.state = words.replaceAll(' ', '-');
   }
 
-  #showTerms(subgoal: Subgoal, { preset }: SessionInfo): void {
-    const longest = Math.max(...(subgoal.terms ?? []), 1e-9);
-    this.#lines.forEach(({ row, bar, value }, index) => {
-      const cost = subgoal.terms?.[index] ?? 0;
+  #showTerms(terms: Cost, { preset }: SessionInfo): void {
+    const longest = Math.max(...TERMS.map((name) => terms[name]), 1e-9);
+    TERMS.forEach((name, index) => {
+      const line = this.#lines[index];
+      if (!line) return;
+      const { row, bar, value } = line;
+      const cost = terms[name];
       // The paper has the first three.
       row.hidden = preset === 'paper' && index > 2;
       bar.style.width = `${((100 * Math.max(cost, 0)) / longest).toFixed(1)}%`;
       setText(value, fixed(cost, 3));
     });
-    setText(this.#total.value, fixed(subgoal.total, 3));
+    setText(this.#total.value, fixed(terms.total, 3));
   }
 }
 

@@ -21,7 +21,7 @@ export function subgoalTitle(one: Subgoal): string {
 
 export function subgoalState(one: Subgoal): string {
   if (one.chosen) return 'chosen';
-  return one.refusal === 'none' ? 'candidate' : 'refused';
+  return one.refusal ? 'refused' : 'candidate';
 }
 
 /** What its way promises, or how high it lies where that is all that counts. */
@@ -42,7 +42,8 @@ export function subgoalReason(one: Subgoal, { pose }: Frame): string {
     tilt: 'then it gets too steep, so the subgoal lies before that.',
     unseen: 'then no scan has seen the ground, so the subgoal lies before that.',
   }[forecast.end];
-  return `Forecast: ${reach} of way with ${tilt}; ${beyond}`;
+  const path = `${fixed(forecast.path_m, 1)} m of path to ${reach} away`;
+  return `Forecast: ${path}, ${fixed(forecast.climb_m, 2)} m up and down, ${tilt}; ${beyond}`;
 }
 
 /** From which direction to which a segment goes, the left end first, as in the image. */
@@ -62,7 +63,8 @@ export function segmentReason(one: Segment, { demands, occupancy_radius_m }: Ses
   const most_m = occupancy_radius_m * Math.sin(max_slope_rad);
   const wide = one.width_m > least_m;
   const needed = `more than ${fixed(least_m, 2)} m (robot ${fixed(robot_width_m, 2)} m, margin ${fixed(safety_margin_m, 2)} m)`;
-  const height = `${fixed(Math.abs(one.height_m), 2)} m ${one.height_m < 0 ? 'below' : 'above'} the robot’s feet`;
+  const height_m = one.height_m ?? Number.NaN;
+  const height = `${fixed(Math.abs(height_m), 2)} m ${height_m < 0 ? 'below' : 'above'} the robot’s feet`;
   switch (one.verdict) {
     case 'valid':
       return `${width}, ${height} at ${fixed(occupancy_radius_m, 0)} m: wide enough and not too steep.`;
@@ -83,5 +85,5 @@ export function segmentReason(one: Segment, { demands, occupancy_radius_m }: Ses
 
 /** The goal itself stands on no segment and is not weighed. */
 export function isGoal(one: Subgoal): boolean {
-  return one.segment === undefined && one.terms === undefined;
+  return one.segment === undefined && one.cost === undefined;
 }

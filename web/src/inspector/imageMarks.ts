@@ -6,7 +6,7 @@ import { css } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
 import type { Frame, Segment, Subgoal } from '../protocol/simulationProtocol.ts';
 import type { Target } from '../scene/selection.ts';
-import { HALF_TURN, LABEL_FONT, type Plot, visitRuns } from './imagePlot.ts';
+import { HALF_TURN, LABEL_FONT, type Mark, type Plot, visitRuns } from './imagePlot.ts';
 
 type Context = CanvasRenderingContext2D;
 
@@ -61,13 +61,14 @@ export function drawProfile(context: Context, plot: Plot, profile: Float32Array,
 /** The level of each segment, with an arrow where it lies beyond the image; where the plot is large enough, also where it begins and ends, and how wide it is. */
 export function drawSegments(context: Context, plot: Plot, segments: readonly Segment[], theme: Theme): void {
   for (const segment of segments) {
-    if (Number.isNaN(segment.elevation_rad)) continue;
+    const { elevation_rad } = segment;
+    if (elevation_rad === undefined) continue;
     const valid = segment.verdict === 'valid';
     context.strokeStyle = valid ? css(theme.ink) : css(theme.danger);
     context.lineWidth = valid ? 2.5 : 2;
     const dashes = valid ? [] : segment.verdict === 'too_narrow' ? [2, 2] : [7, 3];
     visitPlaces(plot, segment, (left, right) => {
-      const { y, beyond } = plot.mark(segment.elevation_rad, 2);
+      const { y, beyond } = plot.mark(elevation_rad, 2);
       context.setLineDash(dashes);
       stroke(context, left + 1, y, right - 1, y);
       context.setLineDash([]);
@@ -82,6 +83,7 @@ export function drawSegments(context: Context, plot: Plot, segments: readonly Se
         context,
         plot,
         segment,
+        { y, beyond },
         (Math.max(left, plot.left) + Math.min(right, plot.left + plot.width)) / 2,
         theme,
       );
@@ -89,13 +91,12 @@ export function drawSegments(context: Context, plot: Plot, segments: readonly Se
   }
 }
 
-function drawWidth(context: Context, plot: Plot, segment: Segment, x: number, theme: Theme): void {
+function drawWidth(context: Context, plot: Plot, segment: Segment, mark: Mark, x: number, theme: Theme): void {
   const text = `${fixed(segment.width_m, 1)} m`;
   context.font = LABEL_FONT;
   const width = context.measureText(text).width + 8;
   if (plot.x(segment.begin_rad) - plot.x(segment.end_rad) < width + 4) return;
-  const { y: level, beyond } = plot.mark(segment.elevation_rad, 2);
-  const y = beyond === 1 ? level + 24 : Math.max(level - 24, plot.top + 9);
+  const y = mark.beyond === 1 ? mark.y + 24 : Math.max(mark.y - 24, plot.top + 9);
   context.fillStyle = css(theme.surface);
   context.globalAlpha = 0.8;
   context.beginPath();

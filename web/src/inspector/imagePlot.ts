@@ -1,9 +1,8 @@
 /** The frame of the unfolded image: scales, axes, and the marks for columns without a skyline. */
 
-import { kindOf } from '../bindings/decode.ts';
 import { css, type Rgb } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
-import type { ColumnKind } from '../protocol/simulationProtocol.ts';
+import { COLUMN_KINDS, type ColumnKind } from '../protocol/simulationProtocol.ts';
 
 /** The occupancy surface's limits. */
 export const HALF_TURN = Math.PI;
@@ -17,6 +16,12 @@ const SCALE_MARGIN = 86;
 const DETAILED = { width: 620, height: 260 };
 
 /** Where azimuth and elevation lie on the canvas, in CSS pixels. */
+/** Where an elevation is drawn, and whether it lies beyond the image, above or below. */
+export interface Mark {
+  readonly y: number;
+  readonly beyond: -1 | 0 | 1;
+}
+
 export interface Plot {
   readonly left: number;
   readonly top: number;
@@ -27,7 +32,7 @@ export interface Plot {
   x(azimuth_rad: number): number;
   y(elevation_rad: number): number;
   /** The same, but no nearer to an edge than `margin`, and whether it lies beyond the upper (1) or the lower one (-1). */
-  mark(elevation_rad: number, margin: number): { readonly y: number; readonly beyond: -1 | 0 | 1 };
+  mark(elevation_rad: number, margin: number): Mark;
 }
 
 /** Azimuth and elevation ticks, and the horizon. */
@@ -140,7 +145,11 @@ export function visitRuns(
   for (let begin = 0; begin < kinds.length; ) {
     let end = begin + 1;
     while (end < kinds.length && kinds[end] === kinds[begin]) end += 1;
-    visit(kindOf(kinds[begin]), -HALF_TURN + (begin - 0.5) * step, -HALF_TURN + (end - 0.5) * step);
+    visit(
+      COLUMN_KINDS[kinds[begin] ?? 0] ?? 'unknown',
+      -HALF_TURN + (begin - 0.5) * step,
+      -HALF_TURN + (end - 0.5) * step,
+    );
     begin = end;
   }
 }

@@ -5,7 +5,7 @@ import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { direction } from './decision.ts';
 
 export function reason(frame: Frame, info: SessionInfo): string {
-  const { metrics, stopReason } = frame;
+  const { metrics, stop_reason } = frame;
   switch (frame.outcome) {
     case 'running':
       return activity(frame);
@@ -18,7 +18,7 @@ export function reason(frame: Frame, info: SessionInfo): string {
     case 'stuck':
       return 'It stayed within half a metre for a minute.';
     case 'no_subgoal':
-      return stopReason ? sentence(stopReason) : 'It found no subgoal.';
+      return stop_reason ? sentence(stop_reason) : 'It found no subgoal.';
     case 'left_terrain':
       return 'A wheel would have left the terrain.';
     case 'timeout':
@@ -26,16 +26,16 @@ export function reason(frame: Frame, info: SessionInfo): string {
   }
 }
 
-function activity({ activity, tick, subgoals, stopReason }: Frame): string {
+function activity({ activity, tick, subgoals, stop_reason }: Frame): string {
   if (tick === 0) return 'Looks around from the start.';
-  if (activity === 'retreating')
+  if (activity === 'backtracking')
     return 'The ground is steeper than it looked, or nothing leads on: goes back the way it came.';
-  if (activity === 'looking') return 'No way is safe enough: turns on the spot to look around.';
-  if (activity === 'stopped') return stopReason ? sentence(stopReason) : 'Stands still.';
+  if (activity === 'searching') return 'No way is safe enough: turns on the spot to look around.';
+  if (activity === 'stopped') return stop_reason ? sentence(stop_reason) : 'Stands still.';
   const chosen = subgoals.find((one) => one.chosen);
   if (!chosen) return '';
-  if (!chosen.terms) return 'The goal is in sight and the way is clear: drives straight to it.';
-  const candidates = subgoals.filter((one) => one.terms).length;
+  if (!chosen.cost) return 'The goal is in sight and the way is clear: drives straight to it.';
+  const candidates = subgoals.filter(({ cost }) => cost).length;
   const way = direction(chosen.azimuth_rad);
   const heads = way === 'ahead' ? 'Straight ahead' : `Heads ${way}`;
   return candidates === 1 ? `${heads}: the only candidate.` : `${heads}: the cheapest of ${candidates} candidates.`;

@@ -18,8 +18,8 @@ export const OUTCOME_WORDS: Record<Outcome, string> = {
 const ACTIVITY_WORDS: Record<Activity, string> = {
   driving: 'Driving',
   arrived: 'Driving',
-  retreating: 'Going back',
-  looking: 'Looking around',
+  backtracking: 'Backtracking',
+  searching: 'Searching',
   stopped: 'Standing',
 };
 

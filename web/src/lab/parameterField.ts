@@ -111,7 +111,7 @@ function makeInputs(parameter: Parameter, path: string): Input[] {
   if (parameter.kind === 'choice') {
     const select = html('select');
     select.id = path;
-    for (const name of parameter.choices) {
+    for (const name of parameter.choices ?? []) {
       const option = html('option', '', [shown(name)]);
       option.value = name;
       select.append(option);
@@ -136,6 +136,6 @@ function makeInputs(parameter: Parameter, path: string): Input[] {
 function facts(parameter: Parameter): string {
   const own = `Default ${shown(parameter.value)}`;
   const paper = parameter.paper === undefined ? 'paper: not given' : `paper ${shown(parameter.paper)}`;
-  const usual = 'range' in parameter ? `usual ${parameter.range.join(' to ')}` : undefined;
+  const usual = parameter.range ? `usual ${parameter.range.join(' to ')}` : undefined;
   return [own, paper, usual].filter((fact) => fact !== undefined).join(' · ');
 }

@@ -158,7 +158,7 @@ export class SeedsTab implements Tab {
     const lines: [string, string][] = [
       ['Goal reached', `${reached} of ${trials} (95 %: ${percent(low)} to ${percent(high)})`],
       ...METRIC_ROWS.map(({ key, name, unit, decimals }): [string, string] => {
-        const [mean, deviation] = metrics[key];
+        const { mean, deviation } = metrics[key];
         return [name, `${fixed(mean, decimals)} ± ${fixed(deviation, decimals)} ${unit}`];
       }),
     ];

@@ -46,7 +46,7 @@ export class Marks {
       this.#pin.position.set(subgoal.x, subgoal.y, z);
     }
     this.#arc.clear();
-    if (segment) this.#arc.add(segmentArc(segment, seen.world_from_sensor, radius_m), this.#look.color);
+    if (segment) this.#arc.add(segmentArc(segment, seen.sensor, radius_m), this.#look.color);
     this.#arc.done();
   }
 }

@@ -194,8 +194,8 @@ export class Painter {
       this.#ahead.clear();
     }
     if (seen.ahead) this.#ahead.extend(seen.ahead);
-    this.#waypoints.passed(seen.waypointsPassed);
-    this.#route.extend(seen.path);
+    this.#waypoints.passed(seen.waypoints_passed);
+    this.#route.extend(seen.trail);
     this.#returns.show(seen, this.#scenery?.occupancy_radius_m ?? 0);
     this.#subgoals.show(seen.subgoals, this.#height);
     this.#overlays.show(seen);

@@ -18,17 +18,17 @@ const SCENERY = [
 const SEEN = [
   'pose',
   'returns',
-  'world_from_sensor',
+  'sensor',
   'surfaces',
   'threshold',
   'segments',
   'subgoals',
-  'way',
-  'buffers',
   'path',
+  'buffers',
+  'trail',
   'anew',
   'ahead',
-  'waypointsPassed',
+  'waypoints_passed',
 ] as const satisfies readonly (keyof Frame)[];
 
 /** What the view shows of a scenario. */

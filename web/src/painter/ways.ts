@@ -41,22 +41,21 @@ export class Ways {
     if (this.#way.line.visible) this.#showWay(seen, height);
   }
 
-  #showSegments({ segments, world_from_sensor }: Seen, radius_m: number): void {
+  #showSegments({ segments, sensor }: Seen, radius_m: number): void {
     this.#segments.clear();
     for (const one of segments) {
-      const arc = segmentArc(one, world_from_sensor, radius_m);
+      const arc = segmentArc(one, sensor, radius_m);
       this.#segments.add(arc, one.verdict === 'valid' ? this.#valid : this.#refused);
     }
     this.#segments.done();
   }
 
-  #showWay({ way, pose }: Seen, height: Height): void {
+  #showWay({ path, pose }: Seen, height: Height): void {
     this.#way.clear();
     let from = [pose.x, pose.y, height(pose.x, pose.y) + LIFT_M];
-    for (let at = 0; at < way.length; at += 3) {
-      const [x = 0, y = 0, reverse] = way.subarray(at, at + 3);
+    for (const { x, y, reverse } of path) {
       const to = [x, y, height(x, y) + LIFT_M];
-      this.#way.add([...from, ...to], reverse === 1 ? this.#refused : this.#valid);
+      this.#way.add([...from, ...to], reverse ? this.#refused : this.#valid);
       from = to;
     }
     this.#way.done();

@@ -6,17 +6,43 @@
  */
 
 import type { Experiment, Stroke, Terrain } from '../experiment/experiment.ts';
-import type { Overrides } from '../experiment/overrides.ts';
-import type { ParameterGroup } from '../experiment/parameters.ts';
+import type {
+  Frame as CoreFrame,
+  Cost,
+  FrameBuffers,
+  Ground,
+  GroundPatch,
+  Heading,
+  Learning,
+  Overrides,
+  ParameterGroup,
+  Place,
+  Preset,
+  Scene,
+  Timeline,
+} from '../wasm/mapless_wasm.js';
 
-/** How a trial stands: `running`, or how it ended. */
-export type Outcome = 'running' | 'reached' | 'tilt_limit' | 'stuck' | 'no_subgoal' | 'left_terrain' | 'timeout';
-
-/** `default` is the best mapless planner known to the project, `paper` the literal text of the paper. */
-export type Preset = 'default' | 'paper';
-
-/** When the planner learns the hyperparameters of its Gaussian process. */
-export type Learning = 'fixed' | 'once' | 'every_scan';
+/** What crosses from the core as it is. */
+export type {
+  Activity,
+  Cost,
+  FrameBuffers,
+  Ground,
+  GroundPatch,
+  Heading,
+  Learning,
+  Metrics,
+  Outcome,
+  PathPoint,
+  Place,
+  Pose,
+  Preset,
+  Segment,
+  SensorPose,
+  Subgoal,
+  Timeline,
+  Verdict,
+} from '../wasm/mapless_wasm.js';
 
 /** How the planner is set up. */
 export interface Setting {
@@ -24,220 +50,49 @@ export interface Setting {
   readonly learning: Learning;
 }
 
-export interface Place {
-  readonly x: number;
-  readonly y: number;
-}
-
-export interface Heading extends Place {
-  /** Counter-clockwise from east, in radians. */
-  readonly heading_rad: number;
-}
-
-/** A regular grid of heights; row 0 is the southern edge, column 0 the western one. */
-export interface Ground {
-  readonly columns: number;
-  readonly rows: number;
-  readonly cell_m: number;
-  /** `rows × columns` heights in metres. */
-  readonly heights_m: Float32Array<ArrayBuffer>;
-}
-
-/** New heights of a rectangle of the grid, row by row from its south-western corner. */
-export interface GroundPatch {
-  readonly column: number;
-  readonly row: number;
-  readonly columns: number;
-  readonly rows: number;
-  readonly heights_m: Float32Array<ArrayBuffer>;
-}
-
 /** What a scenario is made of, after its files were read. */
-export interface SessionInfo extends Setting {
+export interface SessionInfo extends Setting, Scene {
   readonly scenario: string;
-  readonly seed: number;
-  readonly start: Heading;
-  /** Driven to one after the other, before the goal. */
-  readonly waypoints: readonly Place[];
-  readonly goal: Place;
-  /** Time between two ticks. */
-  readonly period_s: number;
   /** Every parameter, with the value that holds unless it is overridden. */
   readonly parameters: readonly ParameterGroup[];
   readonly overrides: Overrides;
-  readonly limits: { readonly roll_rad: number; readonly pitch_rad: number };
-  /** Radius of the occupancy surface: what lies farther is not looked at. */
-  readonly occupancy_radius_m: number;
-  /** The sensor's height above the ground contact, along the body's z axis. */
-  readonly sensor_height_m: number;
-  /** Lattice of the predicted surfaces; the observed one has a row for each ring of the sensor. */
-  readonly image: { readonly columns: number; readonly rows: number; readonly rings: number };
-  /** What a segment must be to carry subgoals. */
-  readonly demands: SegmentDemands;
 }
 
-export interface SegmentDemands {
-  /** Wider than the robot's width and the margin on it together. */
-  readonly robot_width_m: number;
-  readonly safety_margin_m: number;
-  /** The skyline no higher and no lower than this, seen from the sensor's foot. */
-  readonly max_slope_rad: number;
-  /** Whether columns without a return may carry subgoals, on ground that earlier scans saw. */
-  readonly subgoals_on_unknown: boolean;
-}
-
-export interface Pose extends Place {
-  /** Height of the ground contact under the body's centre. */
-  readonly z: number;
-  readonly roll: number;
-  readonly pitch: number;
-  readonly yaw: number;
-}
-
-/** What was found in one azimuth column of the variance image. */
+/** What `FrameBuffers.kinds` says of a column, by its number. */
 export const COLUMN_KINDS = ['ground', 'unknown', 'wall'] as const;
 export type ColumnKind = (typeof COLUMN_KINDS)[number];
 
-/** Whether subgoals may stand on a segment, and if not, why. */
-export const VERDICTS = ['valid', 'too_narrow', 'too_steep', 'unknown', 'wall'] as const;
-export type Verdict = (typeof VERDICTS)[number];
-
-/** A run of neighbouring columns at one level of the skyline. */
-export interface Segment {
-  readonly begin_rad: number;
-  /** At least `begin_rad`; beyond π where the segment crosses the azimuth behind the robot. */
-  readonly end_rad: number;
-  /** NaN where unknown, and so is the height. */
-  readonly elevation_rad: number;
-  readonly height_m: number;
-  readonly width_m: number;
-  readonly verdict: Verdict;
-}
-
-/** Why a subgoal is no candidate. */
-export const REFUSALS = ['none', 'tilt', 'unseen'] as const;
-export type Refusal = (typeof REFUSALS)[number];
-
-/** Why a forecast ends where it does: at the end of the way, before tilting ground, or before ground never seen. */
-export const REACH_ENDS = ['whole', 'tilt', 'unseen'] as const;
-export type ReachEnd = (typeof REACH_ENDS)[number];
-
-/** What the straight way to a subgoal promises, from the ground that the last scans saw. */
-export interface Forecast {
-  readonly reach_m: number;
-  /** Mean of (tilt / limit)² over the reach. */
-  readonly mean_risk: number;
-  readonly max_roll_rad: number;
-  readonly max_pitch_rad: number;
-  readonly end: ReachEnd;
-}
-
-/** A place where the robot could go next: on the skyline, where it already heads, where what it saw ends, or the goal itself once it is in sight. */
-export interface Subgoal {
-  readonly azimuth_rad: number;
-  readonly elevation_rad: number;
-  /** World frame. */
-  readonly x: number;
-  readonly y: number;
-  readonly z: number;
-  readonly chosen: boolean;
-  readonly refusal: Refusal;
-  /** Index of its segment in the frame; nothing for the goal itself, for where the robot already heads, and for where what it saw ends. */
-  readonly segment: number | undefined;
-  /** Nothing where the cost judges steepness by the paper's height alone. */
-  readonly forecast: Forecast | undefined;
-  /** Weighted cost terms, in the order of `TERMS`; nothing for the refused and for the goal itself. */
-  readonly terms: readonly number[] | undefined;
-  /** Sum of the terms; NaN without them. */
-  readonly total: number;
-}
-
-/** Names of the cost terms. The paper has the first three. */
-export const TERMS = ['direction', 'distance', 'steepness', 'commitment', 'dead end'] as const;
-
-/** What the planner does at present. */
-export type Activity = 'driving' | 'arrived' | 'retreating' | 'looking' | 'stopped';
-
-/** The paper's six metrics, with the names that the command line prints. */
-export interface Metrics {
-  readonly distance_m: number;
-  readonly max_abs_roll_rad: number;
-  readonly max_abs_pitch_rad: number;
-  readonly mean_vibration_rad_s: number;
-  readonly mean_elevation_rate_cm_s: number;
-  readonly curvature_change_rad_m: number;
-}
-
-/** Typed arrays of a frame. They travel to the page and back, so that no tick allocates them anew. */
-export interface FrameBuffers {
-  /** LiDAR returns in the world frame: x, y, z of `Frame.returns` points. */
-  readonly points: Float32Array<ArrayBuffer>;
-  /** Observed occupancy in metres, azimuth-major, a value for each ring, NaN without a return. */
-  readonly observed: Float32Array<ArrayBuffer>;
-  /** Predicted occupancy in metres, azimuth-major: column 0 looks backwards (-π), row 0 is the lowest. */
-  readonly occupancy: Float32Array<ArrayBuffer>;
-  /** Predictive variance as a share of the prior's, on the same lattice. */
-  readonly variance: Float32Array<ArrayBuffer>;
-  /** Elevation of the skyline in each column, in radians; NaN where there is none. */
-  readonly profile: Float32Array<ArrayBuffer>;
-  /** Index into `COLUMN_KINDS` for each column. */
-  readonly kinds: Uint8Array<ArrayBuffer>;
-}
+/** The terms of a subgoal's cost. The paper has the first three. */
+export const TERMS = [
+  'direction',
+  'distance',
+  'steepness',
+  'commitment',
+  'correction',
+] as const satisfies readonly (keyof Cost)[];
 
 /** Hands a frame's arrays over instead of copying them. */
 export function transferables(buffers: FrameBuffers): ArrayBuffer[] {
   return Object.values(buffers).map((array: FrameBuffers[keyof FrameBuffers]) => array.buffer);
 }
 
-/** Where in time one can go, in ticks. */
-export interface Timeline {
-  readonly first: number;
-  readonly end: number;
-  /** Where the route was changed. */
-  readonly changes: readonly number[];
-}
-
 export const TIMELINE_START: Timeline = { first: 0, end: 0, changes: [] };
 
-/** Everything that one planning tick saw, decided and did. At tick 0 there is a scan but no decision yet. */
-export interface Frame {
-  readonly tick: number;
-  readonly time_s: number;
-  readonly outcome: Outcome;
-  readonly activity: Activity;
-  /** Why the planner stopped, where it did. */
-  readonly stopReason: string | undefined;
-  readonly pose: Pose;
-  readonly v_m_s: number;
-  readonly omega_rad_s: number;
-  readonly command: { readonly v_m_s: number; readonly omega_rad_s: number };
-  readonly returns: number;
-  /** Where the scan was taken: the sensor's position, then the directions of its x, y and z axes, in the world. */
-  readonly world_from_sensor: Float64Array;
+/** Everything that one planning tick saw, decided and did, and what came since the frame before. */
+export interface Frame extends CoreFrame {
   /** Whether the surfaces in `buffers` are this tick's; otherwise nobody watches them, or they are not due again yet. */
   readonly surfaces: boolean;
-  /** Share of the prior variance above which space counts as free. */
-  readonly threshold: number;
-  readonly segments: readonly Segment[];
-  readonly subgoals: readonly Subgoal[];
-  /** The way to the chosen one, from where the robot stands: x, y and whether in reverse (0 or 1) for each place; may be empty. */
-  readonly way: Float64Array;
-  readonly metrics: Metrics;
+  readonly buffers: FrameBuffers;
   /** Duration of the planner's last step. */
   readonly planner_ms: number;
-  /** Digest of the whole trajectory so far; the command line prints the same one. */
-  readonly digest: string;
-  readonly buffers: FrameBuffers;
   /** x, y, z after each tick since the frame before; after a jump in time, since the beginning. */
-  readonly path: Float32Array<ArrayBuffer>;
+  readonly trail: Float32Array<ArrayBuffer>;
   /** The ticks since the frame before, as rows of the record (record.ts). */
   readonly rows: Float64Array<ArrayBuffer>;
-  /** Whether `path` takes the place of all before: after a jump in time or a new start. */
+  /** Whether `trail` takes the place of all before: after a jump in time or a new start. */
   readonly anew: boolean;
   /** After a jump back: x, y, z of what came next. */
   readonly ahead: Float32Array<ArrayBuffer> | undefined;
-  readonly timeline: Timeline;
-  readonly waypointsPassed: number;
 }
 
 /** Simulated seconds per second; `Infinity` is as fast as it goes. */

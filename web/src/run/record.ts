@@ -3,10 +3,11 @@
  * when the scan was taken and what the planner decided on it. It grows with the run and is bounded.
  */
 
-import { METRICS, MOTION } from '../bindings/columns.ts';
-import type { Metrics } from '../protocol/simulationProtocol.ts';
+import type { Activity, Metrics } from '../protocol/simulationProtocol.ts';
+import type { Tick } from '../wasm/mapless_wasm.js';
+import { METRICS, MOTION, POSE } from './columns.ts';
 
-/** What a row holds, in its order. The worker appends the last three, which the core cannot measure. */
+/** What a row holds, in its order. */
 export const ROW = [
   'tick',
   'time_s',
@@ -21,6 +22,29 @@ export const ROW = [
 ] as const;
 
 export type RowName = (typeof ROW)[number];
+
+/** What `activity` says, by its number. */
+export const ACTIVITIES: readonly Activity[] = ['driving', 'arrived', 'searching', 'stopped', 'backtracking'];
+
+/** What is kept of a tick. */
+export function rowOf(tick: Tick): number[] {
+  return [
+    tick.tick,
+    tick.time_s,
+    ...POSE.map((name) => tick.pose[name]),
+    tick.v_m_s,
+    tick.omega_rad_s,
+    tick.command.v_m_s,
+    tick.command.omega_rad_s,
+    tick.subgoal?.x ?? Number.NaN,
+    tick.subgoal?.y ?? Number.NaN,
+    ACTIVITIES.indexOf(tick.activity),
+    ...METRICS.map((name) => tick.metrics[name]),
+    tick.scan_ms,
+    tick.planner_ms,
+    tick.motion_ms,
+  ];
+}
 
 /** An hour of simulated time: 7 MB. */
 export const MAX_ROWS = 36_000;

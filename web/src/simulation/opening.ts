@@ -1,34 +1,21 @@
 /** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
 
-import type { CoreModule } from '../bindings/simulationModule.ts';
+import type { Core } from '../bindings/simulationModule.ts';
 import { loadTrials } from '../bindings/trialsModule.ts';
 import { CATALOGUE, TASK, terrainFile } from '../experiment/catalogue.ts';
 import {
   type Experiment,
   MAX_FILE_BYTES,
   MAX_SEED,
-  OVERRIDDEN,
   type Stroke,
   type Terrain,
   VERSION,
 } from '../experiment/experiment.ts';
-import type { Overrides } from '../experiment/overrides.ts';
 import { readExperiment } from '../experiment/readExperiment.ts';
 import { recipeFile, scenarioFile } from '../experiment/scenarioFiles.ts';
 import { unzip } from '../files/unzip.ts';
 import type { Ground, NamedFile, Setup, Source } from '../protocol/simulationProtocol.ts';
-
-/** What `read_scenario` of the core gives. */
-interface ScenarioRead {
-  readonly terrain: string;
-  readonly start: readonly [x: number, y: number, heading_rad: number];
-  readonly waypoints: readonly (readonly [x: number, y: number])[];
-  readonly goal: readonly [x: number, y: number];
-  readonly seed: number;
-  readonly planner?: Overrides;
-  readonly sensor?: Overrides;
-  readonly robot?: Overrides;
-}
+import type { ScenarioRead, TerrainFiles } from '../wasm/mapless_wasm.js';
 
 const ARCHIVE = /\.zip$/i;
 const GRIDS = /\.(png|asc|tiff?)$/i;
@@ -39,39 +26,38 @@ const encoder = new TextEncoder();
 const TERRAIN_FILE = 'terrain.toml';
 
 /** The files of a run: the scenario, the recipe with the strokes and, last, the grid that it imports, if it does. */
-export function filesOf(core: CoreModule, experiment: Experiment): [NamedFile, NamedFile, ...NamedFile[]] {
-  const { terrain, strokes } = experiment;
+export function filesOf(core: Core, experiment: Experiment): [NamedFile, NamedFile, ...NamedFile[]] {
+  const scenario = encoder.encode(scenarioFile(experiment, TERRAIN_FILE));
+  return [{ name: 'scenario.toml', bytes: scenario }, ...filesOfTerrain(core, experiment.terrain, experiment.strokes)];
+}
+
+/** As the core takes them: a recipe, and the grid that it imports, if it does. */
+export function terrainFiles([recipe, imported]: readonly [NamedFile, ...NamedFile[]]): TerrainFiles {
+  return imported ? { ...recipe, imported: imported.bytes } : recipe;
+}
+
+/** The files of a terrain with strokes. */
+function filesOfTerrain(core: Core, terrain: Terrain, strokes: readonly Stroke[]): [NamedFile, ...NamedFile[]] {
   const imported = 'imported' in terrain ? terrain.imported : undefined;
+  const recipe = encoder.encode(recipeFile(baseRecipe(core, terrain), strokes));
   return [
-    { name: 'scenario.toml', bytes: encoder.encode(scenarioFile(experiment, TERRAIN_FILE)) },
-    terrainRecipe(core, terrain, strokes),
+    { name: TERRAIN_FILE, bytes: recipe },
     ...(imported ? [{ name: imported.name, bytes: fromBase64(imported.base64) }] : []),
   ];
 }
 
-function terrainRecipe(core: CoreModule, terrain: Terrain, strokes: readonly Stroke[]): NamedFile {
-  return { name: TERRAIN_FILE, bytes: encoder.encode(recipeFile(baseRecipe(core, terrain), strokes)) };
-}
-
-function importedBytes(terrain: Terrain): Uint8Array<ArrayBuffer> {
-  return fromBase64('imported' in terrain ? (terrain.imported?.base64 ?? '') : '');
-}
-
-function baseRecipe(core: CoreModule, terrain: Terrain): string {
+function baseRecipe(core: Core, terrain: Terrain): string {
   if ('catalogue' in terrain) return terrainFile(`${terrain.catalogue}.toml`);
   if ('recipe' in terrain) return terrain.recipe;
   return core.generated_recipe(terrain.generated.difficulty, terrain.generated.seed);
 }
 
 /** A small picture's worth of a terrain's heights. */
-export function preview(core: CoreModule, terrain: Terrain): Ground {
-  const { name, bytes } = terrainRecipe(core, terrain, []);
-  const read = core.terrain_preview(name, bytes, importedBytes(terrain), PREVIEW_SAMPLES);
-  const [columns = 0, rows = 0, cell_m = 1, ...heights_m] = read;
-  return { columns, rows, cell_m, heights_m: new Float32Array(heights_m) };
+export function preview(core: Core, terrain: Terrain): Ground {
+  return core.terrain_preview(terrainFiles(filesOfTerrain(core, terrain, [])), PREVIEW_SAMPLES);
 }
 
-export async function experimentFrom(core: CoreModule, source: Source): Promise<Experiment> {
+export async function experimentFrom(core: Core, source: Source): Promise<Experiment> {
   if ('experiment' in source) return source.experiment;
   if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setup);
   if ('files' in source) return fromFiles(core, source.files, source.setup);
@@ -81,7 +67,7 @@ export async function experimentFrom(core: CoreModule, source: Source): Promise<
 }
 
 /** The scenario that what was loaded is named after, as it comes; nothing where there is none. */
-export function scenarioOf(core: CoreModule, source: Source, experiment: Experiment): Experiment | undefined {
+export function scenarioOf(core: Core, source: Source, experiment: Experiment): Experiment | undefined {
   if ('scenario' in source) return experiment;
   const { name, terrain: own } = experiment;
   // Files of one's own may bear any name.
@@ -90,41 +76,38 @@ export function scenarioOf(core: CoreModule, source: Source, experiment: Experim
   return fromScenario(read, name, terrain, experiment);
 }
 
-function catalogued(core: CoreModule, scenario: string): { read: ScenarioRead; terrain: Terrain } {
+function catalogued(core: Core, scenario: string): { read: ScenarioRead; terrain: Terrain } {
   const file = `scenarios/${scenario}.toml`;
-  const read = core.read_scenario(file, terrainFile(file)) as ScenarioRead;
+  const read = core.read_scenario(file, terrainFile(file));
   return { read, terrain: { catalogue: stem(read.terrain) } };
 }
 
 /** A generated task, as `mapless generate` writes it. What the oracle cannot solve is drawn anew, so this needs the oracle. */
-async function task(core: CoreModule, name: string): Promise<{ read: ScenarioRead; terrain: Terrain }> {
-  const [scenario = '', recipe = ''] = (await loadTrials()).generated_task(name);
-  return { read: core.read_scenario(`${name}.toml`, scenario) as ScenarioRead, terrain: { recipe } };
+async function task(core: Core, name: string): Promise<{ read: ScenarioRead; terrain: Terrain }> {
+  const { scenario, recipe } = (await loadTrials()).generated_task(name);
+  return { read: core.read_scenario(`${name}.toml`, scenario), terrain: { recipe } };
 }
 
 function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, setup: Setup): Experiment {
   if (read.seed > MAX_SEED) throw new Error(`seed = ${read.seed}: expected at most ${MAX_SEED} in this page`);
-  const [x, y, heading_rad] = read.start;
-  const [goal_x, goal_y] = read.goal;
-  const own = OVERRIDDEN.flatMap((key) => (read[key] ? [[key, read[key]]] : []));
   return {
     version: VERSION,
     name,
     terrain,
     strokes: [],
-    start: { x, y, heading_rad },
-    waypoints: read.waypoints.map(([x, y]) => ({ x, y })),
-    goal: { x: goal_x, y: goal_y },
+    start: read.start,
+    waypoints: read.waypoints,
+    goal: read.goal,
     seed: read.seed,
     preset: setup.preset,
     learning: setup.learning,
     // What is set in the page stays set, unless the scenario sets parameters itself; a file says all there is to it.
-    overrides: own.length > 0 ? Object.fromEntries(own) : setup.overrides,
+    overrides: Object.keys(read.overrides).length > 0 ? read.overrides : setup.overrides,
   };
 }
 
 /** A scenario with the terrain it names, a terrain by itself, or a saved experiment, each also within an archive. */
-function fromFiles(core: CoreModule, given: readonly NamedFile[], setup: Setup): Experiment {
+function fromFiles(core: Core, given: readonly NamedFile[], setup: Setup): Experiment {
   const archive = given.find(({ name }) => ARCHIVE.test(name));
   const files = given.flatMap((file) => {
     if (!ARCHIVE.test(file.name)) return [file];
@@ -140,7 +123,7 @@ function fromFiles(core: CoreModule, given: readonly NamedFile[], setup: Setup):
   const grid = files.find(({ name }) => GRIDS.test(name));
   const recipe = texts.find((file) => file !== scenario);
   if (scenario) {
-    const read = core.read_scenario(scenario.name, scenario.text) as ScenarioRead;
+    const read = core.read_scenario(scenario.name, scenario.text);
     const own = terrainOf(recipe, grid);
     const terrain = own ?? cataloguedTerrain(scenario.name, read.terrain);
     return fromScenario(read, shortName((archive ?? scenario).name), terrain, { ...setup, overrides: {} });
@@ -183,16 +166,11 @@ function cataloguedTerrain(scenario: string, path: string): Terrain {
 }
 
 /** A terrain by itself: start and goal where it is level. */
-function onLevelPlaces(core: CoreModule, terrain: Terrain, name: string, setup: Setup): Experiment {
-  const recipe = terrainRecipe(core, terrain, []);
-  const places = core.level_places(recipe.name, recipe.bytes, importedBytes(terrain));
-  const [x = 0, y = 0, goal_x = 0, goal_y = 0] = places;
-  const heading_rad = Math.round(1000 * Math.atan2(goal_y - y, goal_x - x)) / 1000;
-  const [start, goal] = [
-    [x, y, heading_rad],
-    [goal_x, goal_y],
-  ] as const;
-  return fromScenario({ terrain: '', start, waypoints: [], goal, seed: 1 }, name, terrain, setup);
+function onLevelPlaces(core: Core, terrain: Terrain, name: string, setup: Setup): Experiment {
+  const { start, goal } = core.level_places(terrainFiles(filesOfTerrain(core, terrain, [])));
+  const heading_rad = Math.round(1000 * Math.atan2(goal.y - start.y, goal.x - start.x)) / 1000;
+  const read = { terrain: '', start: { ...start, heading_rad }, waypoints: [], goal, seed: 1, overrides: {} };
+  return fromScenario(read, name, terrain, setup);
 }
 
 function readFile(name: string, json: string): Experiment {

@@ -1,6 +1,6 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
-import { loadCore, panicMessage } from '../bindings/simulationModule.ts';
+import { loadCore } from '../bindings/simulationModule.ts';
 import {
   type Command,
   type Frame,
@@ -10,6 +10,7 @@ import {
   type ToWorker,
   transferables,
 } from '../protocol/simulationProtocol.ts';
+import { rowOf } from '../run/record.ts';
 import { beginningAt } from './beginning.ts';
 import { experimentFrom, filesOf, preview, scenarioOf } from './opening.ts';
 import { Session } from './session.ts';
@@ -66,12 +67,12 @@ function post(message: FromWorker, transfer: Transferable[] = []): void {
 function fail(error: unknown, id?: number): void {
   if (id === undefined) playing = false;
   const panicked = error instanceof WebAssembly.RuntimeError;
-  const plain = error instanceof Error ? error.message : String(error);
-  post({ type: 'failed', id, message: (panicked ? panicMessage() : undefined) ?? plain, panicked });
+  const message = error instanceof Error ? error.message : String(error);
+  post({ type: 'failed', id, message, panicked });
 }
 
 function running(): Session | undefined {
-  return playing && !hidden && session?.outcome === 'running' ? session : undefined;
+  return playing && !hidden && session?.running ? session : undefined;
 }
 
 function schedule(): void {
@@ -102,7 +103,7 @@ function loop(): void {
 
 function advance(): void {
   if (!session) return;
-  rows.push(...session.tick());
+  rows.push(...rowOf(session.tick()));
   notePlace();
   unsent = true;
 }
@@ -110,7 +111,7 @@ function advance(): void {
 /** Posts the newest state unless the page is still busy with earlier ones. */
 function showIfDue(): void {
   const wait_ms = lastFrame_ms + FRAME_INTERVAL_MS - performance.now();
-  const last = session?.outcome !== 'running';
+  const last = !session?.running;
   if (!unsent || inFlight >= FRAMES_IN_FLIGHT) return;
   if (last || wait_ms <= 0) show();
   // What stands still has no tick after which to look again.
@@ -129,11 +130,11 @@ function show(): void {
   lastFrame_ms = began_ms;
   // What stands still shows everything.
   const surfaces = watched && (!running() || began_ms >= surfacesDue_ms);
-  const { tick } = session.status();
+  const { tick } = session.standing;
   const anew = seen === undefined;
-  const path = trail.part(seen === undefined ? 0 : seen + 1, tick);
+  const newest = trail.part(seen === undefined ? 0 : seen + 1, tick);
   const ahead = rewound ? trail.after(tick) : undefined;
-  const frame: Frame = session.frame({ path, anew, ahead, rows: new Float64Array(rows) }, surfaces);
+  const frame: Frame = session.frame({ trail: newest, anew, ahead, rows: new Float64Array(rows) }, surfaces);
   surfacesOld = !surfaces;
   if (surfaces) {
     const took_ms = performance.now() - began_ms;
@@ -143,12 +144,12 @@ function show(): void {
   rows = [];
   unsent = false;
   inFlight += 1;
-  post({ type: 'frame', frame }, [...transferables(frame.buffers), frame.path.buffer, frame.rows.buffer]);
+  post({ type: 'frame', frame }, [...transferables(frame.buffers), frame.trail.buffer, frame.rows.buffer]);
 }
 
 function openFromStart(): void {
   if (!session) return;
-  const { tick, x, y, z } = session.status();
+  const { tick, x, y, z } = session.standing;
   trail.begin(tick, x, y, z);
   seen = undefined;
   rows = [];
@@ -163,7 +164,7 @@ function tellSession(): void {
 
 function notePlace(): void {
   if (!session) return;
-  const { tick, x, y, z } = session.status();
+  const { tick, x, y, z } = session.standing;
   trail.put(tick, x, y, z);
 }
 
@@ -171,11 +172,9 @@ function notePlace(): void {
 async function seek(tick: number, id: number): Promise<void> {
   if (!session) return;
   playing = false;
-  const { first, end } = session.timeline;
-  const target = Math.min(Math.max(Math.round(tick), first), end);
-  session.goBack(target);
+  const target = session.goBack(Math.round(tick));
   let rested_ms = performance.now();
-  while (session.status().tick < target && session.outcome === 'running' && id === newestSeek) {
+  while (session.standing.tick < target && session.running && id === newestSeek) {
     // The record has these ticks already.
     session.tick();
     if (performance.now() - rested_ms < SLICE_MS) continue;
@@ -188,7 +187,7 @@ async function seek(tick: number, id: number): Promise<void> {
 
 /** The ground has changed: what came after the present tick happened on another one. */
 function showPatch(patch: GroundPatch): void {
-  trail.cut(session?.status().tick ?? 0);
+  trail.cut(session?.standing.tick ?? 0);
   notePlace();
   post({ type: 'ground', patch }, [patch.heights_m.buffer]);
   unsent = true;
@@ -269,7 +268,7 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
       break;
     case 'goal':
       session.setRoute(command.waypoints, command.goal);
-      trail.cut(session.status().tick);
+      trail.cut(session.standing.tick);
       tellSession();
       show();
       break;

@@ -1,9 +1,9 @@
 /** What the page and a worker that runs whole trials say to each other. A worker has one job and is then ended. */
 
-import { METRICS, POSE } from '../bindings/columns.ts';
-import { only } from '../bindings/decode.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Ground, Heading, Learning, Metrics, Outcome, Place } from '../protocol/simulationProtocol.ts';
+import { METRICS, POSE } from '../run/columns.ts';
+import type { Spread, TrialStatus } from '../wasm/mapless_wasm_baselines.js';
 
 /** Everything that all trials of a job have in common. */
 export interface Course {
@@ -38,14 +38,11 @@ export type ToTrials =
   /** Asks for what these trials show together, whoever drove them. */
   | { type: 'sum'; results: readonly TrialResult[] };
 
-/** What is known of a trial at one tick, in the order of `WasmRunner.status`. */
+/** What is known of a ghost at one tick. */
 export const ROW = ['tick', 'time_s', ...POSE, ...METRICS] as const;
 
-export type Row = Readonly<Record<(typeof ROW)[number], number>>;
-
-/** How a trial stands by its row. */
-export function standing(row: Row): Pick<TrialResult, 'tick' | 'time_s' | 'metrics'> {
-  return { tick: row.tick, time_s: row.time_s, metrics: only(METRICS, row) };
+export function rowOf({ tick, time_s, pose, metrics }: TrialStatus): number[] {
+  return [tick, time_s, ...POSE.map((name) => pose[name]), ...METRICS.map((name) => metrics[name])];
 }
 
 /** Mean and standard deviation over the trials that reached the goal; NaN where there is none. */
@@ -55,7 +52,7 @@ export interface Summary {
   /** Wilson's 95 % interval of the share that reaches the goal. */
   readonly low: number;
   readonly high: number;
-  readonly metrics: Readonly<Record<keyof Metrics, readonly [mean: number, deviation: number]>>;
+  readonly metrics: Readonly<Record<keyof Metrics, Spread>>;
 }
 
 export type FromTrials =

@@ -1,6 +1,5 @@
 /** The worker of ghosts and batches: runs whole trials beside the page's own, and tells how they stand. */
 
-import { panicMessage } from '../bindings/simulationModule.ts';
 import { loadTrials, type TrialsModule } from '../bindings/trialsModule.ts';
 import { Garage, type Runner, summary } from './runner.ts';
 import type { FromTrials, Job, ToTrials } from './trialsProtocol.ts';
@@ -16,8 +15,7 @@ function post(message: FromTrials, transfer: Transferable[] = []): void {
 }
 
 function words(error: unknown): string {
-  const plain = error instanceof Error ? error.message : String(error);
-  return (error instanceof WebAssembly.RuntimeError ? panicMessage() : undefined) ?? plain;
+  return error instanceof Error ? error.message : String(error);
 }
 
 /** Lets messages in. */

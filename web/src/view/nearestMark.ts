@@ -43,7 +43,7 @@ export function nearestMark(
   }
   if (best || !segments) return best;
   frame.segments.forEach((one, segment) => {
-    const arc = segmentArc(one, frame.world_from_sensor, radius_m);
+    const arc = segmentArc(one, frame.sensor, radius_m);
     for (let at = 0; at < arc.length; at += 3) {
       const [x = 0, y = 0, z = 0] = arc.slice(at, at + 3);
       consider({ x, y, z }, { subgoal: undefined, segment });

@@ -9,8 +9,7 @@ use crate::recipe::GradientNoise;
 use glam::DVec2;
 use profile::{boulder, bump, crater, flat_bottom, flat_top};
 
-pub(crate) use stroke::StrokeTable;
-pub use stroke::{Stroke, StrokeError};
+pub use stroke::{Stroke, StrokeError, StrokeKind, StrokeTable};
 
 /// What a brush does to the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,8 @@
-/** Names of the core's numbers, in its order, that several of its answers share. */
+/** Numbers that are kept in rows, one for each tick, by their names. */
 
-export const POSE = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'] as const;
+import type { Metrics, Pose } from '../protocol/simulationProtocol.ts';
+
+export const POSE = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'] as const satisfies readonly (keyof Pose)[];
 
 /** Pose, speed and turn rate, and what was commanded. */
 export const MOTION = [...POSE, 'v_m_s', 'omega_rad_s', 'command_v_m_s', 'command_omega_rad_s'] as const;
@@ -13,4 +15,4 @@ export const METRICS = [
   'mean_vibration_rad_s',
   'mean_elevation_rate_cm_s',
   'curvature_change_rad_m',
-] as const;
+] as const satisfies readonly (keyof Metrics)[];
