@@ -1,25 +1,24 @@
 /** The page's state and its actions: what buttons, keys, tools and `window.mapless` call. */
 
-import { SPEEDS } from '../controls/controls.ts';
 import { Workbench } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { type Experiment, FIRST_SETUP, type Stroke } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Setup } from '../experiment/setting.ts';
 import { HeightField } from '../ground/heightField.ts';
 import type {
   Beginning,
   Frame,
   Ground,
   GroundPatch,
-  Heading,
   Loaded,
   NamedFile,
-  Place,
   SessionInfo,
-  Setup,
   Source,
 } from '../protocol/simulationProtocol.ts';
 import { RunRecord } from '../run/record.ts';
+import { SPEEDS } from '../run/speeds.ts';
 import type { CoreClient } from '../simulation/simulationClient.ts';
 import { Lingering } from './lingering.ts';
 import { Recovery } from './recovery.ts';

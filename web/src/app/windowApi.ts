@@ -8,8 +8,10 @@ import { number } from '../base/checks.ts';
 import type { Experiment, Stroke } from '../experiment/experiment.ts';
 import { linkTo } from '../experiment/link.ts';
 import type { Overrides } from '../experiment/overrides.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import { readExperiment, readStroke } from '../experiment/readExperiment.ts';
-import type { Frame, Heading, Place, SessionInfo, Setting } from '../protocol/simulationProtocol.ts';
+import type { Setting } from '../experiment/setting.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { App } from './app.ts';
 
 /** Arrays and what only drawing needs stay out. */

@@ -3,12 +3,12 @@
 import { byId, html, setText } from '../base/dom.ts';
 import { CATALOGUE } from '../experiment/catalogue.ts';
 import { LEARNING, MAX_SEED } from '../experiment/experiment.ts';
-import type { SessionInfo, Setting } from '../protocol/simulationProtocol.ts';
+import type { Setting } from '../experiment/setting.ts';
+import type { SessionInfo } from '../protocol/simulationProtocol.ts';
+import { SPEEDS } from '../run/speeds.ts';
 import { TOOLS, type Tool } from '../view/groundTools.ts';
 
 const STOPS_HINT = 'Press the ground for each stop on the way to the goal, in their order';
-
-export const SPEEDS: readonly number[] = [0.5, 1, 2, 4, Number.POSITIVE_INFINITY];
 
 export interface Actions {
   togglePlay(): void;

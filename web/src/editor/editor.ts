@@ -9,14 +9,13 @@ import {
   tidyPlace,
 } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import type {
   Beginning,
   Command,
   Ground,
   GroundPatch,
-  Heading,
   Loaded,
-  Place,
   SessionInfo,
   Source,
 } from '../protocol/simulationProtocol.ts';

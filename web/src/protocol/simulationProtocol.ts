@@ -8,31 +8,11 @@
 import type { Experiment, Stroke, Terrain } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { ParameterGroup } from '../experiment/parameters.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Setting, Setup } from '../experiment/setting.ts';
 
 /** How a trial stands: `running`, or how it ended. */
 export type Outcome = 'running' | 'reached' | 'tilt_limit' | 'stuck' | 'no_subgoal' | 'left_terrain' | 'timeout';
-
-/** `default` is the best mapless planner known to the project, `paper` the literal text of the paper. */
-export type Preset = 'default' | 'paper';
-
-/** When the planner learns the hyperparameters of its Gaussian process. */
-export type Learning = 'fixed' | 'once' | 'every_scan';
-
-/** How the planner is set up. */
-export interface Setting {
-  readonly preset: Preset;
-  readonly learning: Learning;
-}
-
-export interface Place {
-  readonly x: number;
-  readonly y: number;
-}
-
-export interface Heading extends Place {
-  /** Counter-clockwise from east, in radians. */
-  readonly heading_rad: number;
-}
 
 /** A regular grid of heights; row 0 is the southern edge, column 0 the western one. */
 export interface Ground {
@@ -247,11 +227,6 @@ export type Speed = number;
 export interface NamedFile {
   readonly name: string;
   readonly bytes: Uint8Array<ArrayBuffer>;
-}
-
-/** What stays as it is from one scenario to the next. */
-export interface Setup extends Setting {
-  readonly overrides: Overrides;
 }
 
 /** What an experiment is loaded from: a scenario of the catalogue, a document, a terrain without start and goal, or files. */

@@ -15,8 +15,9 @@ import {
 import type { Overrides } from '../experiment/overrides.ts';
 import { readExperiment } from '../experiment/readExperiment.ts';
 import { recipeFile, scenarioFile } from '../experiment/scenarioFiles.ts';
+import type { Setup } from '../experiment/setting.ts';
 import { unzip } from '../files/unzip.ts';
-import type { Ground, NamedFile, Setup, Source } from '../protocol/simulationProtocol.ts';
+import type { Ground, NamedFile, Source } from '../protocol/simulationProtocol.ts';
 
 /** What `read_scenario` of the core gives. */
 interface ScenarioRead {

@@ -6,18 +6,17 @@ import type { CoreModule, CoreSession } from '../bindings/simulationModule.ts';
 import type { Experiment, Stroke } from '../experiment/experiment.ts';
 import { countOverrides, type Overrides, sectionsOf } from '../experiment/overrides.ts';
 import type { ParameterGroup } from '../experiment/parameters.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import { strokeKeys } from '../experiment/scenarioFiles.ts';
+import type { Setting } from '../experiment/setting.ts';
 import type {
   Activity,
   Frame,
   FrameBuffers,
   Ground,
   GroundPatch,
-  Heading,
   Outcome,
-  Place,
   SessionInfo,
-  Setting,
   Timeline,
 } from '../protocol/simulationProtocol.ts';
 import { filesOf } from './opening.ts';

@@ -3,7 +3,9 @@
 import { METRICS, POSE } from '../bindings/columns.ts';
 import { only } from '../bindings/decode.ts';
 import type { Overrides } from '../experiment/overrides.ts';
-import type { Ground, Heading, Learning, Metrics, Outcome, Place } from '../protocol/simulationProtocol.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Learning } from '../experiment/setting.ts';
+import type { Ground, Metrics, Outcome } from '../protocol/simulationProtocol.ts';
 
 /** Everything that all trials of a job have in common. */
 export interface Course {

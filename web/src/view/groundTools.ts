@@ -1,8 +1,8 @@
 /** What pointer and keyboard do to the ground: drop a goal, drop a start, sculpt. */
 
 import type { Brush } from '../editor/strokeInHand.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import { BRUSHES, type BrushName, strength_m } from '../ground/brushes.ts';
-import type { Heading, Place } from '../protocol/simulationProtocol.ts';
 import type { Stage } from './stage.ts';
 
 export const TOOLS = [

@@ -2,10 +2,11 @@
 
 import { Raycaster, Vector2 } from 'three';
 import type { Theme } from '../colours/theme.ts';
+import type { Place } from '../experiment/place.ts';
 import type { HeightField, Vector } from '../ground/heightField.ts';
 import { type Graphics, PainterClient } from '../painter/painterClient.ts';
 import { type GhostStep, sceneryOf, seenIn } from '../painter/painterProtocol.ts';
-import type { Frame, GroundPatch, Place, Pose, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Frame, GroundPatch, Pose, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
 import type { Finder, Target } from '../scene/selection.ts';
 import { sensorAt } from '../scene/sensor.ts';
