@@ -1,6 +1,6 @@
 /** The page's state and its actions: what buttons, keys, tools and `window.mapless` call. */
 
-import { Workbench } from '../editor/editor.ts';
+import { Editor } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { type Experiment, FIRST_SETUP, type Stroke } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
@@ -19,7 +19,7 @@ import type {
 } from '../protocol/simulationProtocol.ts';
 import { RunRecord } from '../run/record.ts';
 import { SPEEDS } from '../run/speeds.ts';
-import type { CoreClient } from '../simulation/simulationClient.ts';
+import type { SimulationClient } from '../simulation/simulationClient.ts';
 import { Lingering } from './lingering.ts';
 import { Recovery } from './recovery.ts';
 import { Seeker } from './seeker.ts';
@@ -42,7 +42,7 @@ export interface Views {
   /** Seconds until the next scenario starts by itself, or nothing. */
   countdown(seconds: number | undefined): void;
   /** The experiment, or what can be undone, has changed. */
-  experiment(bench: Workbench): void;
+  experiment(editor: Editor): void;
   notice(message: string): void;
   clearNotice(): void;
   /** Something takes long to open, which can be stopped. */
@@ -55,7 +55,7 @@ export class App {
   /** The run so far. */
   readonly record = new RunRecord();
   readonly #views: Views;
-  readonly #core: CoreClient;
+  readonly #core: SimulationClient;
   #info: SessionInfo | undefined;
   #frame: Frame | undefined;
   #field: HeightField | undefined;
@@ -68,20 +68,20 @@ export class App {
   /** Whether anything shows the surfaces. */
   #watching = false;
   readonly #recovery: Recovery;
-  readonly bench: Workbench;
+  readonly editor: Editor;
 
-  constructor(core: CoreClient, views: Views) {
+  constructor(core: SimulationClient, views: Views) {
     this.#core = core;
     this.#views = views;
     this.#lingering = new Lingering((seconds) => views.countdown(seconds));
-    this.bench = new Workbench({
+    this.editor = new Editor({
       request: (command) => this.#core.request(command),
       ground: () => this.#field,
       info: () => this.#info,
-      changed: (bench) => this.#views.experiment(bench),
+      changed: (editor) => this.#views.experiment(editor),
     });
     this.#recovery = new Recovery({
-      title: () => this.bench.experiment && entry(this.scenario).title,
+      title: () => this.editor.experiment && entry(this.scenario).title,
       reopen: () => this.#reopen(),
       notice: views.notice,
     });
@@ -159,30 +159,30 @@ export class App {
   async open(source: Source, play = false): Promise<void> {
     this.#lingering.stop();
     // Before anybody has touched the page there is nothing to go back to.
-    await this.bench.open(source, this.#touched || this.bench.canUndo, play);
+    await this.editor.open(source, this.#touched || this.editor.canUndo, play);
     this.#views.clearNotice();
   }
 
   /** Other settings for the experiment as it is. */
   async change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
     this.#lingering.stop();
-    await this.#drive(this.bench.change(part));
+    await this.#drive(this.editor.change(part));
     this.#views.clearNotice();
   }
 
   async undo(): Promise<void> {
     this.#lingering.stop();
-    await this.bench.undo();
+    await this.editor.undo();
   }
 
   async redo(): Promise<void> {
     this.#lingering.stop();
-    await this.bench.redo();
+    await this.editor.redo();
   }
 
   /** The files with which `mapless run` drives the same run. */
   files(): Promise<NamedFile[]> {
-    const { experiment } = this.bench;
+    const { experiment } = this.editor;
     if (!experiment) return Promise.reject(new Error('No scenario is loaded yet.'));
     return this.#core.request({ type: 'export', experiment });
   }
@@ -220,7 +220,7 @@ export class App {
       if (known.from !== 'catalogue') this.touch();
       return known;
     });
-    await this.#drive(this.bench.begin(beginning));
+    await this.#drive(this.editor.begin(beginning));
     this.#views.clearNotice();
     return beginning;
   }
@@ -264,7 +264,7 @@ export class App {
 
   async restart(): Promise<void> {
     this.#lingering.stop();
-    await this.bench.restart();
+    await this.editor.restart();
   }
 
   async next(): Promise<void> {
@@ -295,13 +295,13 @@ export class App {
   /** The goal, with waypoints to drive to before it. */
   async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
     this.#lingering.stop();
-    await this.bench.setRoute(() => ({ waypoints, goal }));
+    await this.editor.setRoute(() => ({ waypoints, goal }));
   }
 
   /** A stop on the way to the goal, after those there are; a robot at its goal goes on to it. */
   async addStop(place: Place): Promise<void> {
     this.#lingering.stop();
-    await this.bench.setRoute(() => {
+    await this.editor.setRoute(() => {
       const { waypoints = [], goal } = this.#info ?? {};
       const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
       if (!goal || reached) return { waypoints: [], goal: place };
@@ -313,7 +313,7 @@ export class App {
   /** Begins anew with these parameters in place of all others, and another seed if given. */
   async setOverrides(overrides: Overrides, seed?: number): Promise<void> {
     this.#lingering.stop();
-    await this.bench.setOverrides(overrides, seed);
+    await this.editor.setOverrides(overrides, seed);
     this.#views.clearNotice();
   }
 
@@ -337,12 +337,12 @@ export class App {
 
   async setStart(start: Heading): Promise<void> {
     this.#lingering.stop();
-    await this.bench.setStart(start);
+    await this.editor.setStart(start);
   }
 
   /** A whole stroke at once. */
   sculpt({ points_cm, ...brush }: Stroke): Promise<void> {
-    const stroke = this.bench.stroke(brush);
+    const stroke = this.editor.stroke(brush);
     for (let at = 0; at + 1 < points_cm.length; at += 2) {
       stroke.touch({ x: (points_cm[at] ?? 0) / 100, y: (points_cm[at + 1] ?? 0) / 100 });
     }
@@ -395,7 +395,7 @@ export class App {
 
   #onSession(info: SessionInfo, loaded: Loaded | undefined): void {
     this.#info = info;
-    if (loaded) this.bench.loaded(loaded);
+    if (loaded) this.editor.loaded(loaded);
     const field = loaded && new HeightField(loaded.ground);
     this.#field = field ?? this.#field;
     this.#views.session(info, field);
@@ -403,7 +403,7 @@ export class App {
 
   #onPatch(patch: GroundPatch): void {
     this.#field?.patch(patch);
-    this.bench.patched(patch);
+    this.editor.patched(patch);
     this.#views.sculpted(patch);
   }
 
@@ -441,7 +441,7 @@ export class App {
   }
 
   async #reopen(): Promise<void> {
-    await this.bench.reopen();
+    await this.editor.reopen();
     await this.setSpeed(this.#speed);
     await this.#core.request({ type: 'watch', surfaces: this.#watching });
   }

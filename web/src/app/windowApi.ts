@@ -94,10 +94,10 @@ export function publish(app: App): void {
     setOverrides: used((overrides: Overrides) => app.setOverrides(overrides)),
     setStart: used((start: Heading) => app.setStart(start)),
     sculpt: used((stroke: Stroke) => app.sculpt(readStroke(stroke))),
-    experiment: () => app.bench.experiment,
+    experiment: () => app.editor.experiment,
     openExperiment: used(async (value: unknown) => app.open({ experiment: readExperiment(value) })),
     link: async () => {
-      const { experiment } = app.bench;
+      const { experiment } = app.editor;
       if (!experiment) throw new Error('No scenario is loaded yet.');
       return linkTo(location.href, experiment);
     },

@@ -11,7 +11,7 @@ import type { NamedFile } from '../protocol/simulationProtocol.ts';
 
 /** What there is to share: the page's experiment, and its ground as it is now. */
 export interface Shared {
-  readonly bench: { readonly experiment: Experiment | undefined };
+  readonly editor: { readonly experiment: Experiment | undefined };
   readonly field: HeightField | undefined;
   /** Whether ground or route changed during the run. */
   state(): { readonly disturbed: boolean } | undefined;
@@ -31,7 +31,7 @@ export class ShareSheet {
     this.#shared = shared;
     this.#copy.addEventListener('click', () => this.#copyLink());
     this.#saves('save-experiment', async (name) => {
-      const json = `${JSON.stringify(shared.bench.experiment, undefined, 1)}\n`;
+      const json = `${JSON.stringify(shared.editor.experiment, undefined, 1)}\n`;
       download(`${name}.json`, new Blob([json], { type: 'application/json' }));
     });
     this.#saves('save-scenario', async (name) => download(`${name}.zip`, zip(await shared.files())));
@@ -40,7 +40,7 @@ export class ShareSheet {
   }
 
   async open(): Promise<void> {
-    const { experiment } = this.#shared.bench;
+    const { experiment } = this.#shared.editor;
     if (!experiment) return;
     setText(this.#state, '');
     const link = await linkTo(location.href.split('?')[0] ?? '', experiment);
@@ -73,7 +73,7 @@ export class ShareSheet {
 
   #saves(id: string, save: (name: string) => Promise<void>): void {
     byId(id, HTMLButtonElement).addEventListener('click', () => {
-      const name = (this.#shared.bench.experiment?.name ?? 'experiment').replace(/[^\w-]+/g, '-');
+      const name = (this.#shared.editor.experiment?.name ?? 'experiment').replace(/[^\w-]+/g, '-');
       // What goes wrong is said in the sheet, which covers the notice.
       save(name).then(
         () => setText(this.#state, ''),

@@ -15,7 +15,7 @@ export interface Source {
   notice(message: string): void;
 }
 
-export class TakeAway {
+export class ExportButtons {
   readonly #source: Source;
   readonly #film = byId('save-film', HTMLButtonElement);
   readonly #camera: Camera | undefined;

@@ -19,7 +19,7 @@ import { neighbour, VarianceImage } from './varianceImage.ts';
 const element = (id: string) => byId(id, HTMLElement);
 const button = (id: string) => byId(id, HTMLButtonElement);
 
-export class Thinking implements TourHost {
+export class Inspector implements TourHost {
   readonly #app: App;
   readonly #stage: Stage | undefined;
   readonly #page = element('app');

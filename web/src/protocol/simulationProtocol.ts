@@ -286,10 +286,12 @@ export interface Loaded {
 }
 
 /** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */
-export type ToWorker = { type: 'request'; id: number; command: Command } | { type: 'recycle'; buffers: FrameBuffers };
+export type ToSimulation =
+  | { type: 'request'; id: number; command: Command }
+  | { type: 'recycle'; buffers: FrameBuffers };
 
 /** From the worker. */
-export type FromWorker =
+export type FromSimulation =
   /** Its thread runs: whatever keeps the page busy, the core loads beside it. */
   | { type: 'started' }
   /** The core is there, and opens what this request asks for. */
