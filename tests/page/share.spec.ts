@@ -3,6 +3,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { deflateRawSync } from 'node:zlib';
 import { type Page, test as plain } from '@playwright/test';
+import { unzipSync } from 'fflate';
 import { driven, said } from './commandLine.ts';
 import { expect, kept, loaded, state, test, until } from './page.ts';
 
@@ -31,19 +32,6 @@ async function runToEnd(page: Page) {
   return { outcome, ticks: tick, digest };
 }
 
-/** Takes an archive of stored files apart by its directory. */
-function unzip(archive: Buffer): Map<string, Buffer> {
-  const files = new Map<string, Buffer>();
-  let at = archive.readUInt32LE(archive.length - 6);
-  while (archive.readUInt32LE(at) === 0x02014b50) {
-    const [size, name] = [archive.readUInt32LE(at + 20), archive.readUInt16LE(at + 28)];
-    const begin = archive.readUInt32LE(at + 42) + 30 + name;
-    files.set(archive.subarray(at + 46, at + 46 + name).toString(), archive.subarray(begin, begin + size));
-    at += 46 + name;
-  }
-  return files;
-}
-
 test('a link drives the same run in another profile, and so does the command line', async ({
   mapless: page,
   browser,
@@ -60,7 +48,8 @@ test('a link drives the same run in another profile, and so does the command lin
   expect(zipped.suggestedFilename()).toBe('ht.zip');
 
   const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
-  for (const [name, bytes] of unzip(readFileSync(await zipped.path()))) writeFileSync(join(folder, name), bytes);
+  const files = unzipSync(readFileSync(await zipped.path()));
+  for (const [name, bytes] of Object.entries(files)) writeFileSync(join(folder, name), bytes);
   const { outcome, ticks, digest } = driven(join(folder, 'scenario.toml'));
   expect({ outcome, ticks, digest }).toEqual(run);
 

@@ -3,9 +3,9 @@
 import { byId, setText } from '../base/dom.ts';
 import type { Experiment } from '../experiment/experiment.ts';
 import { linkTo, MAX_LINK_CHARACTERS } from '../experiment/link.ts';
+import { zip } from '../files/archive.ts';
 import { download } from '../files/download.ts';
 import { heightsAscii, heightsPng } from '../files/heights.ts';
-import { zip } from '../files/zip.ts';
 import type { HeightField } from '../ground/heightField.ts';
 import type { NamedFile } from '../protocol/simulationProtocol.ts';
 

@@ -16,7 +16,7 @@ import type { Overrides } from '../experiment/overrides.ts';
 import { readExperiment } from '../experiment/readExperiment.ts';
 import { recipeFile, scenarioFile } from '../experiment/scenarioFiles.ts';
 import type { Setup } from '../experiment/setting.ts';
-import { unzip } from '../files/unzip.ts';
+import { unzip } from '../files/archive.ts';
 import type { Ground, NamedFile, Source } from '../protocol/simulationProtocol.ts';
 
 /** What `read_scenario` of the core gives. */
@@ -131,7 +131,7 @@ function fromFiles(core: CoreModule, given: readonly NamedFile[], setup: Setup):
     if (!ARCHIVE.test(file.name)) return [file];
     // A grid of the largest size, and what says how to read it.
     limit(file, 2 * MAX_FILE_BYTES);
-    return unzip(file);
+    return unzip(file, 2 * MAX_FILE_BYTES);
   });
   for (const file of files) limit(file, MAX_FILE_BYTES);
   const texts = files.filter(({ name }) => /\.(toml|json)$/i.test(name)).map((file) => ({ ...file, text: text(file) }));
