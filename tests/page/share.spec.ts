@@ -7,7 +7,7 @@ import { unzipSync } from 'fflate';
 import { driven, said } from './commandLine.ts';
 import { expect, kept, loaded, state, test, until } from './page.ts';
 
-/** A boulder and a rough patch ahead of the start of `ht`, another goal behind a stop, and another parameter. */
+/** A boulder and a rough patch ahead of the start of `ht`, another goal behind a waypoint, and another parameter. */
 async function shape(page: Page): Promise<void> {
   await page.evaluate(async () => {
     const { mapless } = window;

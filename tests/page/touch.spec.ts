@@ -72,7 +72,7 @@ test('a finger goes back along the run, and another goal there begins another fu
   await expect(page.locator('#scrub-marks line')).toHaveCount(1);
 });
 
-test('a goal and a stop on the way, set by taps, are driven to', async ({ mapless: page }) => {
+test('a goal and a waypoint, set by taps, are driven to', async ({ mapless: page }) => {
   await shortCourse(page, 2);
   await still(page);
   const { goal: old } = await state(page);
@@ -81,11 +81,11 @@ test('a goal and a stop on the way, set by taps, are driven to', async ({ maples
   await until(page, (now) => moved(now.goal, old));
   const { goal } = await state(page);
   await press(page.locator('#route-tools label'));
-  await expect(page.locator('#tool-hint')).toContainText('stop on the way to the goal');
+  await expect(page.locator('#tool-hint')).toContainText('each waypoint before the goal');
   await tapIn(page.locator('#view'), 0.5, 0.46);
   await until(page, (now) => now.waypoints.length === 1);
   expect(await state(page)).toMatchObject({ goal, waypointsPassed: 0 });
-  await expect(button(page, 'Clear stops')).toBeVisible();
+  await expect(button(page, 'Clear waypoints')).toBeVisible();
   await press(button(page, 'Play'));
   await expect(page.locator('#result-words')).toHaveText('Goal reached');
   expect((await page.locator('#next').boundingBox())?.height, 'a target for a finger').toBeGreaterThanOrEqual(44);

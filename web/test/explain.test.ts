@@ -39,14 +39,14 @@ test('a segment is named from its left end to its right end', () => {
   assert.equal(segmentTitle({ ...segment, begin_rad: -3, end_rad: -3 + 2 * Math.PI }), 'All around');
 });
 
-test('a subgoal says what its way promises, or how high it lies where only that counts', () => {
+test('a subgoal says what its path promises, or how high it lies where only that counts', () => {
   assert.equal(subgoalTitle(subgoal), 'Subgoal 20° left');
   assert.equal(subgoalTitle({ ...subgoal, segment: undefined }), 'The goal itself');
   assert.match(subgoalReason(subgoal, frame), /^0\.50 m higher than the robot/);
   const forecast = { reach_m: 4.2, mean_risk: 0.1, max_roll_rad: 0.2, max_pitch_rad: 0.1, end: 'tilt' } as const;
   assert.match(
     subgoalReason({ ...subgoal, forecast }, frame),
-    /4\.2 m of way with roll up to 11°, pitch up to 6°; then/,
+    /4\.2 m of path with roll up to 11°, pitch up to 6°; then/,
   );
   assert.match(subgoalReason({ ...subgoal, forecast, refusal: 'tilt' }, frame), /^Refused: after 4\.2 m/);
 });

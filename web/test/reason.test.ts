@@ -41,15 +41,15 @@ test('passes on why the planner stopped', () => {
 
 test('says what it does without a candidate', () => {
   const does = (activity: Frame['activity']) => reason(frame({ activity }), info);
-  assert.match(does('retreating'), /goes back the way it came/);
+  assert.match(does('retreating'), /backtracks along its own path/);
   assert.match(does('looking'), /turns on the spot/);
   assert.equal(does('stopped'), 'Stands still.');
 });
 
 test('the chip says what the robot does while it runs, and how the trial ended', () => {
   assert.equal(standing(frame({ activity: 'driving' }), true), 'Driving');
-  assert.equal(standing(frame({ activity: 'retreating' }), true), 'Going back');
-  assert.equal(standing(frame({ activity: 'looking' }), true), 'Looking around');
+  assert.equal(standing(frame({ activity: 'retreating' }), true), 'Backtracking');
+  assert.equal(standing(frame({ activity: 'looking' }), true), 'Searching');
   assert.equal(standing(frame({ activity: 'looking' }), false), 'Paused');
   assert.equal(standing(frame({ outcome: 'stuck', activity: 'stopped' }), true), 'Stuck');
 });

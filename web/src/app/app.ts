@@ -20,7 +20,7 @@ import type {
 import { RunRecord } from '../run/record.ts';
 import { SPEEDS } from '../run/speeds.ts';
 import type { SimulationClient } from '../simulation/simulationClient.ts';
-import { Lingering } from './lingering.ts';
+import { AutoAdvance } from './autoAdvance.ts';
 import { Recovery } from './recovery.ts';
 import { Seeker } from './seeker.ts';
 import type { MaplessState } from './windowApi.ts';
@@ -63,7 +63,7 @@ export class App {
   #speed = 1;
   /** Whether somebody has used the page: then it does nothing by itself any more. */
   #touched = false;
-  readonly #lingering: Lingering;
+  readonly #autoAdvance: AutoAdvance;
   readonly #seeker = new Seeker((tick) => this.#core.request({ type: 'seek', tick }));
   /** Whether anything shows the surfaces. */
   #watching = false;
@@ -73,7 +73,7 @@ export class App {
   constructor(core: SimulationClient, views: Views) {
     this.#core = core;
     this.#views = views;
-    this.#lingering = new Lingering((seconds) => views.countdown(seconds));
+    this.#autoAdvance = new AutoAdvance((seconds) => views.countdown(seconds));
     this.editor = new Editor({
       request: (command) => this.#core.request(command),
       ground: () => this.#field,
@@ -90,7 +90,7 @@ export class App {
   /** Marks the page as used. */
   touch(): void {
     this.#touched = true;
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
   }
 
   get touched(): boolean {
@@ -157,7 +157,7 @@ export class App {
   }
 
   async open(source: Source, play = false): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     // Before anybody has touched the page there is nothing to go back to.
     await this.editor.open(source, this.#touched || this.editor.canUndo, play);
     this.#views.clearNotice();
@@ -165,18 +165,18 @@ export class App {
 
   /** Other settings for the experiment as it is. */
   async change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     await this.#drive(this.editor.change(part));
     this.#views.clearNotice();
   }
 
   async undo(): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     await this.editor.undo();
   }
 
   async redo(): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     await this.editor.redo();
   }
 
@@ -263,7 +263,7 @@ export class App {
   }
 
   async restart(): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     await this.editor.restart();
   }
 
@@ -294,13 +294,13 @@ export class App {
 
   /** The goal, with waypoints to drive to before it. */
   async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     await this.editor.setRoute(() => ({ waypoints, goal }));
   }
 
-  /** A stop on the way to the goal, after those there are; a robot at its goal goes on to it. */
-  async addStop(place: Place): Promise<void> {
-    this.#lingering.stop();
+  /** A waypoint before the goal, after those there are; a robot at its goal goes on to it. */
+  async addWaypoint(place: Place): Promise<void> {
+    this.#autoAdvance.stop();
     await this.editor.setRoute(() => {
       const { waypoints = [], goal } = this.#info ?? {};
       const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
@@ -312,14 +312,14 @@ export class App {
 
   /** Begins anew with these parameters in place of all others, and another seed if given. */
   async setOverrides(overrides: Overrides, seed?: number): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     await this.editor.setOverrides(overrides, seed);
     this.#views.clearNotice();
   }
 
   /** Shows a tick of the run again and pauses there. */
   async seek(tick: number): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     this.#show(false);
     await this.#seeker.to(tick);
   }
@@ -336,7 +336,7 @@ export class App {
   }
 
   async setStart(start: Heading): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     await this.editor.setStart(start);
   }
 
@@ -418,7 +418,7 @@ export class App {
     if (last) this.#core.recycle(last.buffers);
     const ended = last?.outcome === 'running' && frame.outcome !== 'running';
     // If nobody has touched anything, the next scenario comes by itself.
-    if (ended && !this.#touched) this.#lingering.begin(() => this.attempt(this.next()));
+    if (ended && !this.#touched) this.#autoAdvance.begin(() => this.attempt(this.next()));
   }
 
   /** Shows what went wrong instead of leaving a promise unhandled. */
@@ -428,7 +428,7 @@ export class App {
 
   #onFailure(message: string, panicked: boolean): void {
     this.#show(false);
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     if (panicked) this.#recovery.afterPanic(message);
     else this.#views.notice(message);
   }

@@ -40,7 +40,7 @@ export interface MaplessApi {
   pause(): Promise<void>;
   /** Pauses; resolves once the view is drawn and nothing in it moves any more: a picture taken then is the picture. */
   still(): Promise<void>;
-  /** One planning tick, 0.1 s; pauses first. */
+  /** One planning tick; pauses first. */
   step(): Promise<void>;
   restart(): Promise<void>;
   /** Simulated seconds per second; `Infinity` is as fast as it goes. */

@@ -171,7 +171,7 @@ const inspector = new Inspector(app, stage, view);
 const tools = stage
   ? new GroundTools(view, stage, {
       setGoal: (goal) => app.attempt(app.setGoal(goal)),
-      addStop: (place) => app.attempt(app.addStop(place)),
+      addWaypoint: (place) => app.attempt(app.addWaypoint(place)),
       setStart: (start) => app.attempt(app.setStart(start)),
       pressed: (onGround) => controls.showHint(onGround),
       moveView: (right, ahead) => inspector.moveView(right, ahead),
@@ -205,8 +205,8 @@ const actions = {
     inspector.letGo();
   },
   help: () => help.showModal(),
-  addStops: (adding: boolean) => tools?.addStops(adding),
-  clearStops: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
+  addWaypoints: (adding: boolean) => tools?.addWaypoints(adding),
+  clearWaypoints: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
   jump: (times: number) => app.attempt(app.jump(times)),
   lab: () => app.attempt(openLab()),
 };

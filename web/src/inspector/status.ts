@@ -10,7 +10,7 @@ export const OUTCOME_WORDS: Record<Outcome, string> = {
   reached: 'Goal reached',
   tilt_limit: 'Tipped too far',
   stuck: 'Stuck',
-  no_subgoal: 'No safe way seen',
+  no_subgoal: 'No safe path found',
   left_terrain: 'Left the terrain',
   timeout: 'Out of time',
 };
@@ -18,8 +18,8 @@ export const OUTCOME_WORDS: Record<Outcome, string> = {
 const ACTIVITY_WORDS: Record<Activity, string> = {
   driving: 'Driving',
   arrived: 'Driving',
-  retreating: 'Going back',
-  looking: 'Looking around',
+  retreating: 'Backtracking',
+  looking: 'Searching',
   stopped: 'Standing',
 };
 

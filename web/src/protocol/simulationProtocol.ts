@@ -98,11 +98,11 @@ export interface Segment {
 export const REFUSALS = ['none', 'tilt', 'unseen'] as const;
 export type Refusal = (typeof REFUSALS)[number];
 
-/** Why a forecast ends where it does: at the end of the way, before tilting ground, or before ground never seen. */
+/** Why a forecast ends where it does: at the end of the path, before ground that tilts too far, or before ground never seen. */
 export const REACH_ENDS = ['whole', 'tilt', 'unseen'] as const;
 export type ReachEnd = (typeof REACH_ENDS)[number];
 
-/** What the straight way to a subgoal promises, from the ground that the last scans saw. */
+/** What the planned path to a subgoal promises, from the ground that earlier scans saw. */
 export interface Forecast {
   readonly reach_m: number;
   /** Mean of (tilt / limit)² over the reach. */
@@ -112,7 +112,7 @@ export interface Forecast {
   readonly end: ReachEnd;
 }
 
-/** A place where the robot could go next: on the skyline, where it already heads, where what it saw ends, or the goal itself once it is in sight. */
+/** A place where the robot could go next: on the skyline, the committed target, a frontier, or the goal itself once it is in sight. */
 export interface Subgoal {
   readonly azimuth_rad: number;
   readonly elevation_rad: number;
@@ -122,7 +122,7 @@ export interface Subgoal {
   readonly z: number;
   readonly chosen: boolean;
   readonly refusal: Refusal;
-  /** Index of its segment in the frame; nothing for the goal itself, for where the robot already heads, and for where what it saw ends. */
+  /** Index of its segment in the frame; nothing for the goal itself, the committed target and frontiers. */
   readonly segment: number | undefined;
   /** Nothing where the cost judges steepness by the paper's height alone. */
   readonly forecast: Forecast | undefined;
@@ -133,7 +133,7 @@ export interface Subgoal {
 }
 
 /** Names of the cost terms. The paper has the first three. */
-export const TERMS = ['direction', 'distance', 'steepness', 'commitment', 'dead end'] as const;
+export const TERMS = ['direction', 'distance', 'steepness', 'commitment', 'correction'] as const;
 
 /** What the planner does at present. */
 export type Activity = 'driving' | 'arrived' | 'retreating' | 'looking' | 'stopped';
@@ -200,7 +200,7 @@ export interface Frame {
   readonly threshold: number;
   readonly segments: readonly Segment[];
   readonly subgoals: readonly Subgoal[];
-  /** The way to the chosen one, from where the robot stands: x, y and whether in reverse (0 or 1) for each place; may be empty. */
+  /** The planned path to the chosen one, from where the robot stands: x, y and whether in reverse (0 or 1) for each place; may be empty. */
   readonly way: Float64Array;
   readonly metrics: Metrics;
   /** Duration of the planner's last step. */

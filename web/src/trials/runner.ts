@@ -45,7 +45,7 @@ export class Runner {
 }
 
 /** Makes runners on a course. */
-export class Garage {
+export class RunnerFactory {
   readonly #module: TrialsModule;
   readonly #ground: WasmGround;
   readonly #toml: string;

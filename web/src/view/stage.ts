@@ -14,7 +14,7 @@ import { Glide } from './glide.ts';
 import { nearestMark, projector } from './nearestMark.ts';
 import { type CameraMode, Viewpoint } from './viewpoint.ts';
 
-/** The first look passes the robot's right side by this much, to show both it and the way ahead. */
+/** The first look passes the robot's right side by this much, to show both it and the ground ahead. */
 const FIRST_LOOK_RAD = 0.35;
 /** At slow motion the robot still glides no longer than this from tick to tick. */
 const LONGEST_GLIDE_MS = 250;
@@ -33,7 +33,7 @@ export class Stage {
   /** Whether the camera or the robot has moved since the painter heard of them. */
   #moved = true;
   /** Who waits until nothing moves. */
-  #patient: (() => void)[] = [];
+  #waiting: (() => void)[] = [];
 
   /** Throws where the browser lets no worker draw. */
   constructor(canvas: HTMLCanvasElement, theme: Theme, graphics: Graphics) {
@@ -65,7 +65,7 @@ export class Stage {
 
   /** Resolves once everything is drawn as it is and nothing moves any more. */
   still(): Promise<void> {
-    return new Promise((resolve) => this.#patient.push(resolve));
+    return new Promise((resolve) => this.#waiting.push(resolve));
   }
 
   /** Gives every picture, from the present one on (that one in full resolution if it is to be `fine`), to `film`, which closes it, and `undefined` when there will be no more; or to nobody. */
@@ -208,7 +208,7 @@ export class Stage {
     requestAnimationFrame(() => this.#loop());
     this.#viewpoint.update();
     this.#moveRobot();
-    if (this.#patient.length > 0) this.#viewpoint.settle();
+    if (this.#waiting.length > 0) this.#viewpoint.settle();
     if (this.#moved) this.#look();
     else this.#rest();
   }
@@ -230,10 +230,10 @@ export class Stage {
   }
 
   #rest(): void {
-    const patient = this.#patient.splice(0);
-    if (patient.length === 0) return;
+    const waiting = this.#waiting.splice(0);
+    if (waiting.length === 0) return;
     this.#painter.rest().then(() => {
-      for (const rested of patient) rested();
+      for (const rested of waiting) rested();
     });
   }
 

@@ -59,7 +59,7 @@ test('each layer changes the view, and back', async ({ mapless: page }) => {
   const panel = page.locator('#layers');
   await expect(panel).toBeVisible();
   const plain = await picture(page);
-  for (const name of ['Observed', 'Reconstructed', 'Variance', 'Segments', 'Subgoals', 'Way']) {
+  for (const name of ['Observed', 'Reconstructed', 'Variance', 'Segments', 'Subgoals', 'Path']) {
     const box = panel.getByRole('checkbox', { name: new RegExp(name) });
     const shown = await box.isChecked();
     await box.setChecked(!shown);
@@ -84,7 +84,9 @@ test('a subgoal pointed at anywhere shows its cost terms and is marked everywher
   const row = page.locator('.candidate').nth(1);
   const where = await row.locator('.candidate-where').textContent();
   await row.hover();
-  await expect(card.locator('.detail-title')).toHaveText(new RegExp(`^(Subgoal|Place already seen,) ${where}$`));
+  await expect(card.locator('.detail-title')).toHaveText(
+    new RegExp(`^(Subgoal|Frontier or committed target,) ${where}$`),
+  );
   await page.mouse.move(5, 5);
   await expect(card).toBeHidden();
   // The chosen one first, and then its neighbour.
