@@ -67,18 +67,19 @@ export class ExportButtons {
       camera.stop();
       return;
     }
-    this.#showFilming(true);
+    this.#showFilm(true, 'Film begins…');
     try {
-      download(fileName(run, 'film.webm'), await camera.film());
+      const film = await camera.film(() => this.#showFilm(true, 'Stop the film'));
+      download(fileName(run, 'film.webm'), film);
     } catch (error) {
       this.#source.notice(`The film could not be made: ${error instanceof Error ? error.message : error}`);
     } finally {
-      this.#showFilming(false);
+      this.#showFilm(false, 'Film (WebM)');
     }
   }
 
-  #showFilming(filming: boolean): void {
-    setText(this.#film, filming ? 'Stop the film' : 'Film (WebM)');
+  #showFilm(filming: boolean, words: string): void {
+    setText(this.#film, words);
     this.#film.setAttribute('aria-pressed', String(filming));
   }
 }
