@@ -50,7 +50,7 @@ test('a segment is named from its left end to its right end', () => {
   assert.equal(segmentTitle({ ...segment, begin_rad: -3, end_rad: -3 + 2 * Math.PI }), 'All around');
 });
 
-test('a subgoal says what its way promises, or how high it lies where only that counts', () => {
+test('a subgoal says what its path promises, or how high it lies where only that counts', () => {
   assert.equal(subgoalTitle(subgoal), 'Subgoal 20° left');
   assert.equal(subgoalTitle({ ...subgoal, segment: undefined }), 'The goal itself');
   assert.match(subgoalReason(subgoal, frame), /^0\.50 m higher than the robot/);

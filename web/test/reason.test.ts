@@ -40,7 +40,7 @@ test('passes on why the planner stopped', () => {
 
 test('says what it does without a candidate', () => {
   const does = (activity: Frame['activity']) => reason(frame({ activity }), info);
-  assert.match(does('backtracking'), /goes back the way it came/);
+  assert.match(does('backtracking'), /backtracks along its own path/);
   assert.match(does('searching'), /turns on the spot/);
   assert.equal(does('stopped'), 'Stands still.');
 });

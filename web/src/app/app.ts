@@ -1,27 +1,26 @@
 /** The page's state and its actions: what buttons, keys, tools and `window.mapless` call. */
 
-import { SPEEDS } from '../controls/controls.ts';
-import { Workbench } from '../editor/editor.ts';
+import { Editor } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { type Experiment, FIRST_SETUP, type Stroke } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Setup } from '../experiment/setting.ts';
 import { HeightField } from '../ground/heightField.ts';
 import type {
   Beginning,
   Frame,
   Ground,
   GroundPatch,
-  Heading,
   Loaded,
   NamedFile,
-  Place,
   SessionInfo,
-  Setup,
   Source,
 } from '../protocol/simulationProtocol.ts';
 import { RunRecord } from '../run/record.ts';
-import type { CoreClient } from '../simulation/simulationClient.ts';
-import { Lingering } from './lingering.ts';
+import { SPEEDS } from '../run/speeds.ts';
+import type { SimulationClient } from '../simulation/simulationClient.ts';
+import { AutoAdvance } from './autoAdvance.ts';
 import { Recovery } from './recovery.ts';
 import { Seeker } from './seeker.ts';
 import type { MaplessState } from './windowApi.ts';
@@ -43,7 +42,7 @@ export interface Views {
   /** Seconds until the next scenario starts by itself, or nothing. */
   countdown(seconds: number | undefined): void;
   /** The experiment, or what can be undone, has changed. */
-  experiment(bench: Workbench): void;
+  experiment(editor: Editor): void;
   notice(message: string): void;
   clearNotice(): void;
   /** Something takes long to open, which can be stopped. */
@@ -56,7 +55,7 @@ export class App {
   /** The run so far. */
   readonly record = new RunRecord();
   readonly #views: Views;
-  readonly #core: CoreClient;
+  readonly #core: SimulationClient;
   #info: SessionInfo | undefined;
   #frame: Frame | undefined;
   #field: HeightField | undefined;
@@ -64,25 +63,25 @@ export class App {
   #speed = 1;
   /** Whether somebody has used the page: then it does nothing by itself any more. */
   #touched = false;
-  readonly #lingering: Lingering;
+  readonly #autoAdvance: AutoAdvance;
   readonly #seeker = new Seeker((tick) => this.#core.request({ type: 'seek', tick }));
   /** Whether anything shows the surfaces. */
   #watching = false;
   readonly #recovery: Recovery;
-  readonly bench: Workbench;
+  readonly editor: Editor;
 
-  constructor(core: CoreClient, views: Views) {
+  constructor(core: SimulationClient, views: Views) {
     this.#core = core;
     this.#views = views;
-    this.#lingering = new Lingering((seconds) => views.countdown(seconds));
-    this.bench = new Workbench({
+    this.#autoAdvance = new AutoAdvance((seconds) => views.countdown(seconds));
+    this.editor = new Editor({
       request: (command) => this.#core.request(command),
       ground: () => this.#field,
       info: () => this.#info,
-      changed: (bench) => this.#views.experiment(bench),
+      changed: (editor) => this.#views.experiment(editor),
     });
     this.#recovery = new Recovery({
-      title: () => this.bench.experiment && entry(this.scenario).title,
+      title: () => this.editor.experiment && entry(this.scenario).title,
       reopen: () => this.#reopen(),
       notice: views.notice,
     });
@@ -91,7 +90,7 @@ export class App {
   /** Marks the page as used. */
   touch(): void {
     this.#touched = true;
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
   }
 
   get touched(): boolean {
@@ -162,32 +161,32 @@ export class App {
   }
 
   async open(source: Source, play = false): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     // Before anybody has touched the page there is nothing to go back to.
-    await this.bench.open(source, this.#touched || this.bench.canUndo, play);
+    await this.editor.open(source, this.#touched || this.editor.canUndo, play);
     this.#views.clearNotice();
   }
 
   /** Other settings for the experiment as it is. */
   async change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
-    this.#lingering.stop();
-    await this.#drive(this.bench.change(part));
+    this.#autoAdvance.stop();
+    await this.#drive(this.editor.change(part));
     this.#views.clearNotice();
   }
 
   async undo(): Promise<void> {
-    this.#lingering.stop();
-    await this.bench.undo();
+    this.#autoAdvance.stop();
+    await this.editor.undo();
   }
 
   async redo(): Promise<void> {
-    this.#lingering.stop();
-    await this.bench.redo();
+    this.#autoAdvance.stop();
+    await this.editor.redo();
   }
 
   /** The files with which `mapless run` drives the same run. */
   files(): Promise<NamedFile[]> {
-    const { experiment } = this.bench;
+    const { experiment } = this.editor;
     if (!experiment) return Promise.reject(new Error('No scenario is loaded yet.'));
     return this.#core.request({ type: 'export', experiment });
   }
@@ -225,7 +224,7 @@ export class App {
       if (known.from !== 'catalogue') this.touch();
       return known;
     });
-    await this.#drive(this.bench.begin(beginning));
+    await this.#drive(this.editor.begin(beginning));
     this.#views.clearNotice();
     return beginning;
   }
@@ -268,8 +267,8 @@ export class App {
   }
 
   async restart(): Promise<void> {
-    this.#lingering.stop();
-    await this.bench.restart();
+    this.#autoAdvance.stop();
+    await this.editor.restart();
   }
 
   async next(): Promise<void> {
@@ -299,14 +298,14 @@ export class App {
 
   /** The goal, with waypoints to drive to before it. */
   async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
-    this.#lingering.stop();
-    await this.bench.setRoute(() => ({ waypoints, goal }));
+    this.#autoAdvance.stop();
+    await this.editor.setRoute(() => ({ waypoints, goal }));
   }
 
-  /** A stop on the way to the goal, after those there are; a robot at its goal goes on to it. */
-  async addStop(place: Place): Promise<void> {
-    this.#lingering.stop();
-    await this.bench.setRoute(() => {
+  /** A waypoint before the goal, after those there are; a robot at its goal goes on to it. */
+  async addWaypoint(place: Place): Promise<void> {
+    this.#autoAdvance.stop();
+    await this.editor.setRoute(() => {
       const { waypoints = [], goal } = this.#info ?? {};
       const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
       if (!goal || reached) return { waypoints: [], goal: place };
@@ -317,14 +316,14 @@ export class App {
 
   /** Begins anew with these parameters in place of all others, and another seed if given. */
   async setOverrides(overrides: Overrides, seed?: number): Promise<void> {
-    this.#lingering.stop();
-    await this.bench.setOverrides(overrides, seed);
+    this.#autoAdvance.stop();
+    await this.editor.setOverrides(overrides, seed);
     this.#views.clearNotice();
   }
 
   /** Shows a tick of the run again and pauses there. */
   async seek(tick: number): Promise<void> {
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     this.#show(false);
     await this.#seeker.to(tick);
   }
@@ -341,13 +340,13 @@ export class App {
   }
 
   async setStart(start: Heading): Promise<void> {
-    this.#lingering.stop();
-    await this.bench.setStart(start);
+    this.#autoAdvance.stop();
+    await this.editor.setStart(start);
   }
 
   /** A whole stroke at once. */
   sculpt({ points_cm, ...brush }: Stroke): Promise<void> {
-    const stroke = this.bench.stroke(brush);
+    const stroke = this.editor.stroke(brush);
     for (let at = 0; at + 1 < points_cm.length; at += 2) {
       stroke.touch({ x: (points_cm[at] ?? 0) / 100, y: (points_cm[at + 1] ?? 0) / 100 });
     }
@@ -400,7 +399,7 @@ export class App {
 
   #onSession(info: SessionInfo, loaded: Loaded | undefined): void {
     this.#info = info;
-    if (loaded) this.bench.loaded(loaded);
+    if (loaded) this.editor.loaded(loaded);
     const field = loaded && new HeightField(loaded.ground);
     this.#field = field ?? this.#field;
     this.#views.session(info, field);
@@ -408,7 +407,7 @@ export class App {
 
   #onPatch(patch: GroundPatch): void {
     this.#field?.patch(patch);
-    this.bench.patched(patch);
+    this.editor.patched(patch);
     this.#views.sculpted(patch);
   }
 
@@ -423,7 +422,7 @@ export class App {
     if (last) this.#core.recycle(last.buffers);
     const ended = last?.outcome === 'running' && frame.outcome !== 'running';
     // If nobody has touched anything, the next scenario comes by itself.
-    if (ended && !this.#touched) this.#lingering.begin(() => this.attempt(this.next()));
+    if (ended && !this.#touched) this.#autoAdvance.begin(() => this.attempt(this.next()));
   }
 
   /** Shows what went wrong instead of leaving a promise unhandled. */
@@ -433,7 +432,7 @@ export class App {
 
   #onFailure(message: string, panicked: boolean): void {
     this.#show(false);
-    this.#lingering.stop();
+    this.#autoAdvance.stop();
     if (panicked) this.#recovery.afterPanic(message);
     else this.#views.notice(message);
   }
@@ -446,7 +445,7 @@ export class App {
   }
 
   async #reopen(): Promise<void> {
-    await this.bench.reopen();
+    await this.editor.reopen();
     await this.setSpeed(this.#speed);
     await this.#core.request({ type: 'watch', surfaces: this.#watching });
   }

@@ -8,8 +8,10 @@ import { number } from '../base/checks.ts';
 import type { Experiment, Stroke } from '../experiment/experiment.ts';
 import { linkTo } from '../experiment/link.ts';
 import type { Overrides } from '../experiment/overrides.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import { readExperiment, readStroke } from '../experiment/readExperiment.ts';
-import type { Frame, Heading, Place, SessionInfo, Setting } from '../protocol/simulationProtocol.ts';
+import type { Setting } from '../experiment/setting.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { App } from './app.ts';
 
 /** Arrays and what only drawing needs stay out. */
@@ -41,7 +43,7 @@ export interface MaplessApi {
   pause(): Promise<void>;
   /** Pauses; resolves once the view is drawn and nothing in it moves any more: a picture taken then is the picture. */
   still(): Promise<void>;
-  /** One planning tick, 0.1 s; pauses first. */
+  /** One planning tick; pauses first. */
   step(): Promise<void>;
   restart(): Promise<void>;
   /** Simulated seconds per second; `Infinity` is as fast as it goes. */
@@ -95,10 +97,10 @@ export function publish(app: App): void {
     setOverrides: used((overrides: Overrides) => app.setOverrides(overrides)),
     setStart: used((start: Heading) => app.setStart(start)),
     sculpt: used((stroke: Stroke) => app.sculpt(readStroke(stroke))),
-    experiment: () => app.bench.experiment,
+    experiment: () => app.editor.experiment,
     openExperiment: used(async (value: unknown) => app.open({ experiment: readExperiment(value) })),
     link: async () => {
-      const { experiment } = app.bench;
+      const { experiment } = app.editor;
       if (!experiment) throw new Error('No scenario is loaded yet.');
       return linkTo(location.href, experiment);
     },

@@ -12,12 +12,12 @@ import { ShareSheet } from '../controls/shareSheet.ts';
 import { TerrainsSheet } from '../controls/terrainsSheet.ts';
 import { TimelineBar } from '../controls/timelineBar.ts';
 import { UndoButtons } from '../controls/undoButtons.ts';
-import type { Workbench } from '../editor/editor.ts';
+import type { Editor } from '../editor/editor.ts';
 import { Autosave } from '../experiment/autosave.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { countOverrides } from '../experiment/overrides.ts';
 import { AttitudeInstrument, PITCH, ROLL } from '../inspector/attitude.ts';
-import { Thinking } from '../inspector/inspector.ts';
+import { Inspector } from '../inspector/inspector.ts';
 import { OUTCOME_WORDS, StatusPanel } from '../inspector/status.ts';
 import type { Lab } from '../lab/lab.ts';
 import { Measure } from '../measurements/measurements.ts';
@@ -70,7 +70,7 @@ function labCount(count: number): void {
 }
 
 /** What is said and published of a scenario is shown only where its ground, start and route are its own. */
-function showCourse({ experiment, asItComes }: Workbench): void {
+function showCourse({ experiment, asItComes }: Editor): void {
   const name = asItComes && experiment ? experiment.name : '';
   measure.paper(published(name));
   setText(element('scene-lesson'), asItComes === false ? CHANGED : entry(name).lesson);
@@ -88,7 +88,7 @@ const app = new App(core, {
     timeline.session(info.period_s);
     labCount(countOverrides(info.overrides));
     lab?.session(info);
-    thinking.session(info, field);
+    inspector.session(info, field);
     roll.limit(info.limits.roll_rad);
     pitch.limit(info.limits.pitch_rad);
     status.session(info);
@@ -108,7 +108,7 @@ const app = new App(core, {
     stage?.frame(frame);
     timeline.show(frame);
     lab?.frame(frame);
-    thinking.frame(frame);
+    inspector.frame(frame);
     measure.frame(frame);
     roll.show(frame.pose.roll, frame.metrics.max_abs_roll_rad);
     pitch.show(frame.pose.pitch, frame.metrics.max_abs_pitch_rad);
@@ -135,14 +135,14 @@ const app = new App(core, {
   countdown(seconds) {
     setText(element('countdown'), seconds === undefined ? '' : `in ${seconds} s`);
   },
-  experiment(bench) {
-    undoButtons.show(bench);
-    showCourse(bench);
+  experiment(editor) {
+    undoButtons.show(editor);
+    showCourse(editor);
     // A link in the address is no longer what is shown.
-    if (bench.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
-    if (!bench.experiment) return;
-    if (app.touched) autosave.save(bench.experiment);
-    app.attempt(leadOut(bench.experiment));
+    if (editor.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
+    if (!editor.experiment) return;
+    if (app.touched) autosave.save(editor.experiment);
+    app.attempt(leadOut(editor.experiment));
   },
   notice: (message) => notice.show(message),
   clearNotice: () => notice.hide(),
@@ -167,16 +167,16 @@ const measure = new Measure({
   go: (time_s) => app.attempt(app.seekTime(time_s)),
   notice: (message) => notice.show(message),
 });
-const thinking = new Thinking(app, stage, view);
+const inspector = new Inspector(app, stage, view);
 const tools = stage
   ? new GroundTools(view, stage, {
       setGoal: (goal) => app.attempt(app.setGoal(goal)),
-      addStop: (place) => app.attempt(app.addStop(place)),
+      addWaypoint: (place) => app.attempt(app.addWaypoint(place)),
       setStart: (start) => app.attempt(app.setStart(start)),
       pressed: (onGround) => controls.showHint(onGround),
-      moveView: (right, ahead) => thinking.moveView(right, ahead),
+      moveView: (right, ahead) => inspector.moveView(right, ahead),
       stroke(brush) {
-        const stroke = app.bench.stroke(brush);
+        const stroke = app.editor.stroke(brush);
         return { touch: stroke.touch, end: () => app.attempt(stroke.end()) };
       },
     })
@@ -202,11 +202,11 @@ const actions = {
   share: () => app.attempt(shareSheet.open()),
   letGo() {
     actions.selectTool('look');
-    thinking.letGo();
+    inspector.letGo();
   },
   help: () => help.showModal(),
-  addStops: (adding: boolean) => tools?.addStops(adding),
-  clearStops: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
+  addWaypoints: (adding: boolean) => tools?.addWaypoints(adding),
+  clearWaypoints: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
   jump: (times: number) => app.attempt(app.jump(times)),
   lab: () => app.attempt(openLab()),
 };
@@ -219,13 +219,13 @@ const autosave = new Autosave((why) => notice.show(why));
 const controls = new Controls(actions);
 const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
 byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
-bindKeys(actions, thinking);
+bindKeys(actions, inspector);
 controls.showTool('look');
 controls.showSpeed(1);
 
 watchTheme((theme) => {
   stage?.theme(theme);
-  thinking.theme(theme);
+  inspector.theme(theme);
 });
 for (const event of ['pointerdown', 'keydown', 'wheel']) {
   document.addEventListener(event, () => app.touch(), { passive: true, capture: true });

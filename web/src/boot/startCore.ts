@@ -1,14 +1,14 @@
 /** Begun before the rest of the page is there: the core, and what it loads. */
 
 import type { Address, Beginning, Command } from '../protocol/simulationProtocol.ts';
-import { CoreClient } from '../simulation/simulationClient.ts';
+import { SimulationClient } from '../simulation/simulationClient.ts';
 
 /** Has the core load what an address asks for, or else where somebody left off, or the first scenario. */
 function begin({ hash, search }: Address): Command {
   return { type: 'begin', address: { hash, search } };
 }
 
-export const core = new CoreClient(begin(location));
+export const core = new SimulationClient(begin(location));
 
 /** Has the core begin anew without an address. */
 export function beginPlainly(): Promise<Beginning> {

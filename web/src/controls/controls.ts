@@ -3,12 +3,12 @@
 import { byId, html, setText } from '../base/dom.ts';
 import { CATALOGUE } from '../experiment/catalogue.ts';
 import { LEARNING, MAX_SEED } from '../experiment/experiment.ts';
-import type { SessionInfo, Setting } from '../protocol/simulationProtocol.ts';
+import type { Setting } from '../experiment/setting.ts';
+import type { SessionInfo } from '../protocol/simulationProtocol.ts';
+import { SPEEDS } from '../run/speeds.ts';
 import { TOOLS, type Tool } from '../view/groundTools.ts';
 
-const STOPS_HINT = 'Press the ground for each stop on the way to the goal, in their order';
-
-export const SPEEDS: readonly number[] = [0.5, 1, 2, 4, Number.POSITIVE_INFINITY];
+const WAYPOINTS_HINT = 'Press the ground for each waypoint before the goal, in order';
 
 export interface Actions {
   togglePlay(): void;
@@ -22,9 +22,9 @@ export interface Actions {
   terrains(): void;
   share(): void;
   help(): void;
-  /** Whether the goal's tool sets stops on the way. */
-  addStops(adding: boolean): void;
-  clearStops(): void;
+  /** Whether the goal's tool adds waypoints before the goal. */
+  addWaypoints(adding: boolean): void;
+  clearWaypoints(): void;
 }
 
 export class Controls {
@@ -59,9 +59,9 @@ export class Controls {
     this.#onClick('share', () => actions.share());
     this.#onClick('help', () => actions.help());
     this.#onClick('next', () => actions.next());
-    this.#onClick('route-clear', () => actions.clearStops());
+    this.#onClick('route-clear', () => actions.clearWaypoints());
     this.#routeAdd.addEventListener('change', () => {
-      actions.addStops(this.#routeAdd.checked);
+      actions.addWaypoints(this.#routeAdd.checked);
       this.showTool('goal');
     });
     for (const input of this.#radios('tool')) {
@@ -107,7 +107,7 @@ export class Controls {
     // A finger cannot hover: the tool's title is said in the view, too, without its key.
     const tool = this.#radios('tool').find(({ checked }) => checked);
     const adds = tool?.value === 'goal' && this.#routeAdd.checked;
-    const hint = adds ? STOPS_HINT : (tool?.labels?.[0]?.title ?? '').replace(/ \(.\)$/, '');
+    const hint = adds ? WAYPOINTS_HINT : (tool?.labels?.[0]?.title ?? '').replace(/ \(.\)$/, '');
     setText(this.#hint, onGround ? hint : 'There is no ground: press the terrain');
     this.#hint.classList.toggle('is-missed', !onGround);
   }

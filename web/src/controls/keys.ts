@@ -21,7 +21,7 @@ export interface KeyActions {
   lab(): void;
 }
 
-export interface ThinkingKeys {
+export interface InspectorKeys {
   toggleFollow(): void;
   toggleEye(): void;
   toggleTop(): void;
@@ -31,7 +31,7 @@ export interface ThinkingKeys {
   tour(): void;
 }
 
-export function bindKeys(actions: KeyActions, thinking: ThinkingKeys): void {
+export function bindKeys(actions: KeyActions, inspector: InspectorKeys): void {
   const keys: Record<string, () => void> = {
     ' ': () => actions.togglePlay(),
     s: () => actions.step(),
@@ -40,13 +40,13 @@ export function bindKeys(actions: KeyActions, thinking: ThinkingKeys): void {
     k: () => actions.jump(1),
     p: () => actions.lab(),
     n: () => actions.next(),
-    f: () => thinking.toggleFollow(),
-    e: () => thinking.toggleEye(),
-    t: () => thinking.toggleTop(),
-    o: () => thinking.overview(),
-    x: () => thinking.toggleLayers(),
-    v: () => thinking.toggleImage(),
-    h: () => thinking.tour(),
+    f: () => inspector.toggleFollow(),
+    e: () => inspector.toggleEye(),
+    t: () => inspector.toggleTop(),
+    o: () => inspector.overview(),
+    x: () => inspector.toggleLayers(),
+    v: () => inspector.toggleImage(),
+    h: () => inspector.tour(),
     ',': () => actions.faster(-1),
     '.': () => actions.faster(1),
     '[': () => actions.growBrush(-1),

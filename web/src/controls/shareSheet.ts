@@ -1,34 +1,46 @@
 /** The sheet for links and files. */
 
-import type { App } from '../app/app.ts';
 import { byId, setText } from '../base/dom.ts';
+import type { Experiment } from '../experiment/experiment.ts';
 import { linkTo, MAX_LINK_CHARACTERS } from '../experiment/link.ts';
+import { zip } from '../files/archive.ts';
 import { download } from '../files/download.ts';
 import { heightsAscii, heightsPng } from '../files/heights.ts';
-import { zip } from '../files/zip.ts';
+import type { HeightField } from '../ground/heightField.ts';
+import type { NamedFile } from '../protocol/simulationProtocol.ts';
+
+/** What there is to share: the page's experiment, and its ground as it is now. */
+export interface Shared {
+  readonly editor: { readonly experiment: Experiment | undefined };
+  readonly field: HeightField | undefined;
+  /** Whether ground or route changed during the run. */
+  state(): { readonly disturbed: boolean } | undefined;
+  /** The files with which `mapless run` drives the same run. */
+  files(): Promise<NamedFile[]>;
+}
 
 export class ShareSheet {
-  readonly #app: App;
+  readonly #shared: Shared;
   readonly #sheet = byId('share-sheet', HTMLDialogElement);
   readonly #note = byId('share-note', HTMLElement);
   readonly #state = byId('share-state', HTMLElement);
   readonly #link = byId('link', HTMLInputElement);
   readonly #copy = byId('copy-link', HTMLButtonElement);
 
-  constructor(app: App) {
-    this.#app = app;
-    this.#copy.addEventListener('click', () => app.attempt(this.#copyLink()));
+  constructor(shared: Shared) {
+    this.#shared = shared;
+    this.#copy.addEventListener('click', () => this.#copyLink());
     this.#saves('save-experiment', async (name) => {
-      const json = `${JSON.stringify(app.bench.experiment, undefined, 1)}\n`;
+      const json = `${JSON.stringify(shared.editor.experiment, undefined, 1)}\n`;
       download(`${name}.json`, new Blob([json], { type: 'application/json' }));
     });
-    this.#saves('save-scenario', async (name) => download(`${name}.zip`, zip(await app.files())));
-    this.#saves('save-png', async (name) => download(`${name}.png`, await heightsPng(ground(app))));
-    this.#saves('save-asc', async (name) => download(`${name}.asc`, heightsAscii(ground(app))));
+    this.#saves('save-scenario', async (name) => download(`${name}.zip`, zip(await shared.files())));
+    this.#saves('save-png', async (name) => download(`${name}.png`, await heightsPng(ground(shared))));
+    this.#saves('save-asc', async (name) => download(`${name}.asc`, heightsAscii(ground(shared))));
   }
 
   async open(): Promise<void> {
-    const { experiment } = this.#app.bench;
+    const { experiment } = this.#shared.editor;
     if (!experiment) return;
     setText(this.#state, '');
     const link = await linkTo(location.href.split('?')[0] ?? '', experiment);
@@ -36,7 +48,7 @@ export class ShareSheet {
     this.#link.value = short ? link : '';
     this.#copy.disabled = !short;
     this.#link.hidden = !short;
-    const changed = this.#app.state()?.disturbed
+    const changed = this.#shared.state()?.disturbed
       ? ' Ground or route changed during this run: restart it to see that run.'
       : '';
     setText(
@@ -61,7 +73,7 @@ export class ShareSheet {
 
   #saves(id: string, save: (name: string) => Promise<void>): void {
     byId(id, HTMLButtonElement).addEventListener('click', () => {
-      const name = (this.#app.bench.experiment?.name ?? 'experiment').replace(/[^\w-]+/g, '-');
+      const name = (this.#shared.editor.experiment?.name ?? 'experiment').replace(/[^\w-]+/g, '-');
       // What goes wrong is said in the sheet, which covers the notice.
       save(name).then(
         () => setText(this.#state, ''),
@@ -71,7 +83,7 @@ export class ShareSheet {
   }
 }
 
-function ground(app: App) {
-  if (!app.field) throw new Error('There is no ground yet.');
-  return app.field;
+function ground({ field }: Shared): HeightField {
+  if (!field) throw new Error('There is no ground yet.');
+  return field;
 }

@@ -1,18 +1,27 @@
 /** The sheet of terrains: those of the scenarios, generated ones, and files of one's own. */
 
-import type { App } from '../app/app.ts';
 import { byId, html, setText } from '../base/dom.ts';
 import { readTheme } from '../colours/theme.ts';
 import { CATALOGUE } from '../experiment/catalogue.ts';
 import { DIFFICULTIES, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
-import type { NamedFile } from '../protocol/simulationProtocol.ts';
+import type { Ground, NamedFile } from '../protocol/simulationProtocol.ts';
 import { drawRelief } from './reliefPicture.ts';
 
 /** Generated terrains shown at once. */
 const GENERATED = 4;
 
+export interface TerrainActions {
+  /** The ground of a terrain, coarsely, for a picture. */
+  preview(terrain: Terrain): Promise<Ground>;
+  runScenario(scenario: string): Promise<void>;
+  runTerrain(terrain: Terrain, name: string): Promise<void>;
+  runFiles(files: readonly NamedFile[]): Promise<void>;
+  /** Says what goes wrong. */
+  attempt(action: Promise<void>): void;
+}
+
 export class TerrainsSheet {
-  readonly #app: App;
+  readonly #actions: TerrainActions;
   readonly #sheet = byId('terrains-sheet', HTMLDialogElement);
   readonly #cards = byId('terrain-cards', HTMLElement);
   readonly #generated = byId('generated-cards', HTMLElement);
@@ -20,8 +29,8 @@ export class TerrainsSheet {
   readonly #seed = byId('terrain-seed', HTMLInputElement);
   readonly #files = byId('files', HTMLInputElement);
 
-  constructor(app: App) {
-    this.#app = app;
+  constructor(actions: TerrainActions) {
+    this.#actions = actions;
     byId('generate', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
     for (const input of [this.#difficulty, this.#seed]) input.addEventListener('change', () => this.#generate());
     byId('more-terrains', HTMLButtonElement).addEventListener('click', () => {
@@ -31,7 +40,7 @@ export class TerrainsSheet {
     });
     byId('open-files', HTMLButtonElement).addEventListener('click', () => this.#files.click());
     this.#files.addEventListener('change', () => {
-      app.attempt(this.#open(this.#files.files ?? []));
+      actions.attempt(this.#open(this.#files.files ?? []));
       this.#files.value = '';
     });
     document.addEventListener('dragover', (event) => {
@@ -40,7 +49,7 @@ export class TerrainsSheet {
     document.addEventListener('drop', (event) => {
       if (!event.dataTransfer?.files.length) return;
       event.preventDefault();
-      app.attempt(this.#open(event.dataTransfer.files));
+      actions.attempt(this.#open(event.dataTransfer.files));
     });
   }
 
@@ -52,7 +61,7 @@ export class TerrainsSheet {
   }
 
   #catalogued(name: string, title: string, scenario: string): HTMLElement {
-    return this.#card({ catalogue: name }, title, () => this.#app.runScenario(scenario));
+    return this.#card({ catalogue: name }, title, () => this.#actions.runScenario(scenario));
   }
 
   #generate(): void {
@@ -63,7 +72,7 @@ export class TerrainsSheet {
       const seed = first + step;
       const terrain = { generated: { difficulty, seed } };
       const name = `${difficulty} ${seed}`;
-      return this.#card(terrain, `Seed ${seed}`, () => this.#app.runTerrain(terrain, name));
+      return this.#card(terrain, `Seed ${seed}`, () => this.#actions.runTerrain(terrain, name));
     });
     this.#generated.replaceChildren(...cards);
   }
@@ -75,9 +84,9 @@ export class TerrainsSheet {
     button.type = 'button';
     button.addEventListener('click', () => {
       this.#sheet.close();
-      this.#app.attempt(choose());
+      this.#actions.attempt(choose());
     });
-    this.#app.preview(terrain).then(
+    this.#actions.preview(terrain).then(
       (ground) => drawRelief(picture, ground, readTheme()),
       (error: unknown) => setText(words, `${title}: ${error instanceof Error ? error.message : error}`),
     );
@@ -90,7 +99,7 @@ export class TerrainsSheet {
     for (const file of Array.from(list)) {
       files.push({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
     }
-    if (files.length > 0) await this.#app.runFiles(files);
+    if (files.length > 0) await this.#actions.runFiles(files);
   }
 }
 

@@ -1,15 +1,20 @@
 /** Undo and redo: buttons, and the keys that everybody knows. */
 
-import type { App } from '../app/app.ts';
 import { byId } from '../base/dom.ts';
-import type { Workbench } from '../editor/editor.ts';
+
+export interface Undoing {
+  undo(): Promise<void>;
+  redo(): Promise<void>;
+  /** Says what goes wrong. */
+  attempt(action: Promise<void>): void;
+}
 
 export class UndoButtons {
   readonly #undo = byId('undo', HTMLButtonElement);
   readonly #redo = byId('redo', HTMLButtonElement);
 
-  constructor(app: App) {
-    const [undo, redo] = [() => app.attempt(app.undo()), () => app.attempt(app.redo())];
+  constructor(actions: Undoing) {
+    const [undo, redo] = [() => actions.attempt(actions.undo()), () => actions.attempt(actions.redo())];
     this.#undo.addEventListener('click', undo);
     this.#redo.addEventListener('click', redo);
     document.addEventListener('keydown', (event) => {
@@ -22,9 +27,9 @@ export class UndoButtons {
     });
   }
 
-  show(bench: Workbench): void {
-    this.#undo.disabled = !bench.canUndo;
-    this.#redo.disabled = !bench.canRedo;
+  show({ canUndo, canRedo }: { readonly canUndo: boolean; readonly canRedo: boolean }): void {
+    this.#undo.disabled = !canUndo;
+    this.#redo.disabled = !canRedo;
   }
 }
 

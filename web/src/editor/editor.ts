@@ -9,14 +9,13 @@ import {
   tidyPlace,
 } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import type {
   Beginning,
   Command,
   Ground,
   GroundPatch,
-  Heading,
   Loaded,
-  Place,
   SessionInfo,
   Source,
 } from '../protocol/simulationProtocol.ts';
@@ -39,10 +38,10 @@ interface Core {
   /** What runs now; going back in time may have brought an earlier route back. */
   info(): SessionInfo | undefined;
   /** The experiment or what can be undone has changed. */
-  changed(bench: Workbench): void;
+  changed(editor: Editor): void;
 }
 
-export class Workbench {
+export class Editor {
   readonly #core: Core;
   #history = new History();
   readonly #patches = new Map<Stroke, MadeStroke>();

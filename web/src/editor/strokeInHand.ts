@@ -2,7 +2,8 @@
 
 import { gate } from '../base/gate.ts';
 import { centimetres, type Stroke } from '../experiment/experiment.ts';
-import type { Ground, GroundPatch, Place } from '../protocol/simulationProtocol.ts';
+import type { Place } from '../experiment/place.ts';
+import type { Ground, GroundPatch } from '../protocol/simulationProtocol.ts';
 
 export type Brush = Omit<Stroke, 'points_cm'>;
 

@@ -1,8 +1,8 @@
 /** What the page's address asks for: `?scenario=cht-ad`, with `&seed=7` and `&preset=paper`. */
 
 import { fail, oneOf, whole } from '../base/checks.ts';
-import type { Preset } from '../protocol/simulationProtocol.ts';
 import { MAX_SEED, PRESETS } from './experiment.ts';
+import type { Preset } from './setting.ts';
 
 export interface Asked {
   readonly scenario: string;

@@ -41,7 +41,7 @@ export const CATALOGUE: readonly CatalogueEntry[] = [
     id: 'cht-ab',
     group: HILLS,
     title: 'A to B',
-    lesson: 'A longer way with less roll beats the short one along the flank.',
+    lesson: 'A longer path with less roll beats the short one along the flank.',
   },
   { id: 'cht-ac', group: HILLS, title: 'A to C', lesson: 'Which of the three valleys? The skyline decides.' },
   { id: 'cht-ae', group: HILLS, title: 'A to E', lesson: 'The far corner: many choices, one safe chain of subgoals.' },
@@ -49,7 +49,7 @@ export const CATALOGUE: readonly CatalogueEntry[] = [
     id: 'cht-ba',
     group: HILLS,
     title: 'B to A',
-    lesson: 'The way back is a different problem: other slopes face the robot.',
+    lesson: 'The return is a different problem: other slopes face the robot.',
   },
   {
     id: 'cht-bd',
@@ -91,7 +91,7 @@ export function entry(id: string): CatalogueEntry {
     id,
     group: 'Generated task',
     title: id,
-    lesson: 'Drawn by seed: nobody shaped it for a planner, and there is a safe way.',
+    lesson: 'Drawn by seed: nobody shaped it for a planner, and a safe path exists.',
   };
   const own = { id, group: 'Scenario', title: id, lesson: '' };
   return CATALOGUE.find((one) => one.id === id) ?? (TASK.test(id) ? task : own);

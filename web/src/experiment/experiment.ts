@@ -3,9 +3,10 @@
  * browser and on the command line. Undo, links, files and autosave all keep documents of this kind.
  */
 
-import type { Heading, Learning, Place, Preset, Setup } from '../protocol/simulationProtocol.ts';
 import type { Stroke, StrokeKind } from '../wasm/mapless_wasm.js';
 import type { Overrides } from './overrides.ts';
+import type { Heading, Place } from './place.ts';
+import type { Learning, Preset, Setup } from './setting.ts';
 
 export const VERSION = 1;
 

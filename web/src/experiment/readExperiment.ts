@@ -1,7 +1,6 @@
 /** Checks a document from outside. Every fault names its place, the value and what was expected. */
 
 import { fail, number, oneOf, whole } from '../base/checks.ts';
-import type { Heading, Place } from '../protocol/simulationProtocol.ts';
 import {
   DIFFICULTIES,
   type Experiment,
@@ -20,6 +19,7 @@ import {
   VERSION,
 } from './experiment.ts';
 import type { Overrides, OverrideValue } from './overrides.ts';
+import type { Heading, Place } from './place.ts';
 
 const MAX_STROKES = 5000;
 /** No coordinate lies farther out, in metres. */

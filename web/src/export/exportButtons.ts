@@ -15,7 +15,7 @@ export interface Source {
   notice(message: string): void;
 }
 
-export class TakeAway {
+export class ExportButtons {
   readonly #source: Source;
   readonly #film = byId('save-film', HTMLButtonElement);
   readonly #camera: Camera | undefined;
@@ -67,18 +67,19 @@ export class TakeAway {
       camera.stop();
       return;
     }
-    this.#showFilming(true);
+    this.#showFilm(true, 'Film begins…');
     try {
-      download(fileName(run, 'film.webm'), await camera.film());
+      const film = await camera.film(() => this.#showFilm(true, 'Stop the film'));
+      download(fileName(run, 'film.webm'), film);
     } catch (error) {
       this.#source.notice(`The film could not be made: ${error instanceof Error ? error.message : error}`);
     } finally {
-      this.#showFilming(false);
+      this.#showFilm(false, 'Film (WebM)');
     }
   }
 
-  #showFilming(filming: boolean): void {
-    setText(this.#film, filming ? 'Stop the film' : 'Film (WebM)');
+  #showFilm(filming: boolean, words: string): void {
+    setText(this.#film, words);
     this.#film.setAttribute('aria-pressed', String(filming));
   }
 }

@@ -6,6 +6,8 @@ export interface Filmed {
 }
 
 const FRAME_RATE_HZ = 30;
+/** How often the recorder hands over what it has. */
+const PART_MS = 250;
 const BITS_PER_SECOND = 8_000_000;
 /** VP9 is smaller where the browser has it. */
 const KINDS = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'];
@@ -46,8 +48,8 @@ export class Camera {
     });
   }
 
-  /** Films until `stop`, or until there is no view any more; resolves with the WebM. */
-  async film(): Promise<Blob> {
+  /** Films until `stop`, or until there is no view any more; resolves with the WebM. Calls `begun` once there is something in it. */
+  async film(begun: () => void): Promise<Blob> {
     const mimeType = kind();
     if (!mimeType) throw new Error('This browser records no WebM video.');
     this.#filming = true;
@@ -64,14 +66,18 @@ export class Camera {
     this.#watch();
     return new Promise((resolve, reject) => {
       const parts: Blob[] = [];
-      recorder.ondataavailable = ({ data }) => parts.push(data);
+      recorder.ondataavailable = ({ data }) => {
+        if (data.size === 0) return;
+        parts.push(data);
+        if (parts.length === 1 && this.#filming) begun();
+      };
       recorder.onerror = () => reject(new Error('The browser stopped recording.'));
       recorder.onstop = () => {
         const film = new Blob(parts, { type: 'video/webm' });
         if (film.size > 0) resolve(film);
         else reject(new Error(TOO_SHORT));
       };
-      recorder.start(1000);
+      recorder.start(PART_MS);
     });
   }
 

@@ -1,6 +1,6 @@
 /** Pointing at a drawing by mouse, finger and keys; what is found is marked everywhere. */
 
-import type { Attention, Finder } from '../scene/selection.ts';
+import type { Finder, SelectionModel } from '../scene/selection.ts';
 
 /** A press that moved farther than this was a drag. */
 const TAP_PX = 6;
@@ -9,14 +9,14 @@ const REACH_PX = { mouse: 14, touch: 26 };
 type Find = (clientX: number, clientY: number, within_px: number) => Finder | undefined;
 
 /** Hovering shows what is there while the pointer stays; a click or a tap keeps it in sight, and one beside it lets go. */
-export function bindPointing(element: HTMLElement, attention: Attention, find: Find, enabled = () => true): void {
+export function bindPointing(element: HTMLElement, selection: SelectionModel, find: Find, enabled = () => true): void {
   let pressed: { x: number; y: number } | undefined;
   const under = ({ clientX, clientY, pointerType }: PointerEvent) =>
     enabled() ? find(clientX, clientY, pointerType === 'touch' ? REACH_PX.touch : REACH_PX.mouse) : undefined;
   element.addEventListener('pointermove', (event) => {
-    if (event.pointerType !== 'touch' && event.buttons === 0) attention.hover(under(event));
+    if (event.pointerType !== 'touch' && event.buttons === 0) selection.hover(under(event));
   });
-  element.addEventListener('pointerleave', () => attention.hover(undefined));
+  element.addEventListener('pointerleave', () => selection.hover(undefined));
   element.addEventListener('pointerdown', ({ clientX, clientY, isPrimary, button }) => {
     pressed = isPrimary && button === 0 ? { x: clientX, y: clientY } : undefined;
   });
@@ -25,7 +25,7 @@ export function bindPointing(element: HTMLElement, attention: Attention, find: F
   });
   element.addEventListener('pointerup', (event) => {
     if (!pressed || !event.isPrimary || !enabled()) return;
-    if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < TAP_PX) attention.pin(under(event));
+    if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < TAP_PX) selection.pin(under(event));
     pressed = undefined;
   });
 }

@@ -5,7 +5,7 @@ import { fixed } from '../base/format.ts';
 import { costColours } from '../colours/costColours.ts';
 import { css } from '../colours/scale.ts';
 import { type Frame, type SessionInfo, type Subgoal, TERMS } from '../protocol/simulationProtocol.ts';
-import { type Attention, type Finder, subgoalTarget, type Target } from '../scene/selection.ts';
+import { type Finder, type SelectionModel, subgoalTarget, type Target } from '../scene/selection.ts';
 
 const SHOWN = 5;
 /** The paper knows direction, distance and steepness. */
@@ -23,13 +23,13 @@ export class DecisionPanel {
   readonly #list: HTMLElement;
   readonly #legend: HTMLElement;
   readonly #summary: HTMLElement;
-  readonly #attention: Attention;
+  readonly #selection: SelectionModel;
   #lines: Line[] = [];
   /** Index of the subgoal in each line. */
   #shown: number[] = [];
 
-  constructor(list: HTMLElement, legend: HTMLElement, summary: HTMLElement, attention: Attention) {
-    this.#attention = attention;
+  constructor(list: HTMLElement, legend: HTMLElement, summary: HTMLElement, selection: SelectionModel) {
+    this.#selection = selection;
     this.#list = list;
     this.#legend = legend;
     this.#summary = summary;
@@ -44,9 +44,9 @@ export class DecisionPanel {
     this.#list.replaceChildren(...this.#lines.map(({ row }) => html('li', '', [row])));
     this.#lines.forEach(({ row }, place) => {
       const find: Finder = (frame) => subgoalTarget(frame, this.#shown[place] ?? -1);
-      for (const begin of ['pointerenter', 'focus']) row.addEventListener(begin, () => this.#attention.hover(find));
-      for (const end of ['pointerleave', 'blur']) row.addEventListener(end, () => this.#attention.hover(undefined));
-      row.addEventListener('click', () => this.#attention.pin(find));
+      for (const begin of ['pointerenter', 'focus']) row.addEventListener(begin, () => this.#selection.hover(find));
+      for (const end of ['pointerleave', 'blur']) row.addEventListener(end, () => this.#selection.hover(undefined));
+      row.addEventListener('click', () => this.#selection.pin(find));
     });
   }
 

@@ -16,7 +16,7 @@ export const VERDICT_WORDS: Record<Verdict, string> = {
 export function subgoalTitle(one: Subgoal): string {
   if (isGoal(one)) return 'The goal itself';
   const where = direction(one.azimuth_rad);
-  return one.segment === undefined ? `Place already seen, ${where}` : `Subgoal ${where}`;
+  return one.segment === undefined ? `Frontier or committed target, ${where}` : `Subgoal ${where}`;
 }
 
 export function subgoalState(one: Subgoal): string {
@@ -24,7 +24,7 @@ export function subgoalState(one: Subgoal): string {
   return one.refusal ? 'refused' : 'candidate';
 }
 
-/** What its way promises, or how high it lies where that is all that counts. */
+/** What its path promises, or how high it lies where that is all that counts. */
 export function subgoalReason(one: Subgoal, { pose }: Frame): string {
   const { forecast } = one;
   if (!forecast) {
@@ -35,8 +35,8 @@ export function subgoalReason(one: Subgoal, { pose }: Frame): string {
   }
   const tilt = `roll up to ${degrees(forecast.max_roll_rad)}, pitch up to ${degrees(forecast.max_pitch_rad)}`;
   const reach = `${fixed(forecast.reach_m, 1)} m`;
-  if (one.refusal === 'tilt') return `Refused: after ${reach} of way the ground would tilt the robot too far.`;
-  if (one.refusal === 'unseen') return `Refused: after ${reach} of way no scan has seen the ground.`;
+  if (one.refusal === 'tilt') return `Refused: after ${reach} of path the ground would tilt the robot too far.`;
+  if (one.refusal === 'unseen') return `Refused: after ${reach} of path no scan has seen the ground.`;
   const beyond = {
     whole: 'all of it seen.',
     tilt: 'then it gets too steep, so the subgoal lies before that.',

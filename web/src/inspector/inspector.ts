@@ -1,4 +1,4 @@
-/** What shows the planner's thinking: image, decision, layers, cameras, what is pointed at, and the tour. */
+/** What shows how the planner decides: image, decision, layers, cameras, what is pointed at, and the tour. */
 
 import type { App } from '../app/app.ts';
 import { byId, setText } from '../base/dom.ts';
@@ -6,7 +6,7 @@ import { readTheme, type Theme } from '../colours/theme.ts';
 import type { HeightField } from '../ground/heightField.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { type Layers, needsSurfaces } from '../scene/layers.ts';
-import { Attention, type Finder } from '../scene/selection.ts';
+import { type Finder, SelectionModel } from '../scene/selection.ts';
 import type { TourHost } from '../tour/tour.ts';
 import type { Stage } from '../view/stage.ts';
 import type { CameraMode } from '../view/viewpoint.ts';
@@ -19,15 +19,15 @@ import { neighbour, VarianceImage } from './varianceImage.ts';
 const element = (id: string) => byId(id, HTMLElement);
 const button = (id: string) => byId(id, HTMLButtonElement);
 
-export class Thinking implements TourHost {
+export class Inspector implements TourHost {
   readonly #app: App;
   readonly #stage: Stage | undefined;
   readonly #page = element('app');
-  readonly #attention = new Attention((frame, target) => {
+  readonly #selection = new SelectionModel((frame, target) => {
     this.#stage?.mark(target);
     this.#image.mark(target);
     this.#decision.mark(target);
-    this.#detail.show(frame, target, this.#attention.pinned);
+    this.#detail.show(frame, target, this.#selection.pinned);
   });
   readonly #canvas = byId('variance', HTMLCanvasElement);
   readonly #image = new VarianceImage(this.#canvas, readTheme());
@@ -36,7 +36,7 @@ export class Thinking implements TourHost {
     element('candidates'),
     element('terms'),
     element('candidate-count'),
-    this.#attention,
+    this.#selection,
   );
   readonly #layers = new LayersPanel((layers) => {
     this.#stage?.layers(layers);
@@ -60,11 +60,11 @@ export class Thinking implements TourHost {
       this.#imageInSight = entries.at(-1)?.isIntersecting ?? false;
       this.#watch();
     }).observe(this.#canvas);
-    bindPointing(this.#canvas, this.#attention, (...at) => this.#image.pointedAt(...at));
+    bindPointing(this.#canvas, this.#selection, (...at) => this.#image.pointedAt(...at));
     const looks = () => view.dataset.tool === 'look';
-    bindPointing(view, this.#attention, (...at) => stage?.pointedAt(...at), looks);
+    bindPointing(view, this.#selection, (...at) => stage?.pointedAt(...at), looks);
     bindStepping(this.#canvas, (by, segments) => {
-      this.#attention.pin((frame) => neighbour(frame, this.#attention.target, by, segments));
+      this.#selection.pin((frame) => neighbour(frame, this.#selection.target, by, segments));
       setText(element('pointed'), this.#detail.text);
     });
   }
@@ -80,7 +80,7 @@ export class Thinking implements TourHost {
   frame(frame: Frame): void {
     this.#image.show(frame);
     this.#decision.show(frame);
-    this.#attention.show(frame);
+    this.#selection.show(frame);
   }
 
   theme(theme: Theme): void {
@@ -115,7 +115,7 @@ export class Thinking implements TourHost {
 
   /** Lets go of what was pointed at. */
   letGo(): void {
-    this.#attention.pin(undefined);
+    this.#selection.pin(undefined);
   }
 
   tour(): void {
@@ -171,7 +171,7 @@ export class Thinking implements TourHost {
   }
 
   pin(finder: Finder | undefined): void {
-    this.#attention.pin(finder);
+    this.#selection.pin(finder);
   }
 
   /** The surfaces are predicted only while the image is in sight or a layer shows them. */

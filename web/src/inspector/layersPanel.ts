@@ -29,7 +29,7 @@ const SWITCHES: readonly (readonly [Switch, string, string, string])[] = [
   ],
   ['segments', 'Segments', '', 'Level pieces of the skyline; those that carry no subgoals in red.'],
   ['subgoals', 'Subgoals', '', 'Places to go next, coloured by cost.'],
-  ['way', 'Way', '', 'The cheapest way to the chosen subgoal that the best planner found; red in reverse.'],
+  ['path', 'Path', '', 'The cheapest path to the chosen subgoal that the best planner found; red in reverse.'],
 ];
 
 export class LayersPanel {

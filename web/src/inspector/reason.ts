@@ -22,22 +22,22 @@ export function reason(frame: Frame, info: SessionInfo): string {
     case 'left_terrain':
       return 'A wheel would have left the terrain.';
     case 'timeout':
-      return 'Its time ran out: many times what the straight way takes at full speed, and a minute.';
+      return 'Its time ran out: many times what the straight line takes at full speed, and a minute.';
   }
 }
 
 function activity({ activity, tick, subgoals, stop_reason }: Frame): string {
-  if (tick === 0) return 'Looks around from the start.';
+  if (tick === 0) return 'At the start: the first scan is there, and no decision yet.';
   if (activity === 'backtracking')
-    return 'The ground is steeper than it looked, or nothing leads on: goes back the way it came.';
-  if (activity === 'searching') return 'No way is safe enough: turns on the spot to look around.';
+    return 'The ground is steeper than predicted, or no path leads on: backtracks along its own path.';
+  if (activity === 'searching') return 'No path is safe enough: turns on the spot and searches for one.';
   if (activity === 'stopped') return stop_reason ? sentence(stop_reason) : 'Stands still.';
   const chosen = subgoals.find((one) => one.chosen);
   if (!chosen) return '';
-  if (!chosen.cost) return 'The goal is in sight and the way is clear: drives straight to it.';
+  if (!chosen.cost) return 'The goal is in sight and the path is clear: drives straight to it.';
   const candidates = subgoals.filter(({ cost }) => cost).length;
-  const way = direction(chosen.azimuth_rad);
-  const heads = way === 'ahead' ? 'Straight ahead' : `Heads ${way}`;
+  const bearing = direction(chosen.azimuth_rad);
+  const heads = bearing === 'ahead' ? 'Straight ahead' : `Heads ${bearing}`;
   return candidates === 1 ? `${heads}: the only candidate.` : `${heads}: the cheapest of ${candidates} candidates.`;
 }
 

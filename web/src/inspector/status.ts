@@ -10,7 +10,7 @@ export const OUTCOME_WORDS: Record<Outcome, string> = {
   reached: 'Goal reached',
   tilt_limit: 'Tipped too far',
   stuck: 'Stuck',
-  no_subgoal: 'No safe way seen',
+  no_subgoal: 'No safe path found',
   left_terrain: 'Left the terrain',
   timeout: 'Out of time',
 };

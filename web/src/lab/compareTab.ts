@@ -110,8 +110,9 @@ export class CompareTab implements Tab {
     this.#runs = new Map();
     this.#fault.hidden = true;
     this.#showGhosts();
-    const [course, info] = [courseOf(this.#app), this.#app.info];
-    if (course && info && this.#chosen.length > 0) {
+    const { info, field } = this.#app;
+    if (info && field && this.#chosen.length > 0) {
+      const course = courseOf(info, field);
       const planners = this.#chosen.map(({ planner }) => planner);
       this.#job = startJob({ type: 'ghosts', course, planners, seed: info.seed }, (message) => this.#hear(message));
       if (this.#frame) this.#job.send({ type: 'until', tick: this.#frame.timeline.end });

@@ -4,7 +4,8 @@ import type { App } from '../app/app.ts';
 import { html, setText } from '../base/dom.ts';
 import { countOverrides, type Overrides, type OverrideValue, override, withOverride } from '../experiment/overrides.ts';
 import { complaintAbout, type ParameterGroup } from '../experiment/parameters.ts';
-import type { Learning, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Learning } from '../experiment/setting.ts';
+import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Tab } from './lab.ts';
 import { ParameterField } from './parameterField.ts';
 

@@ -81,8 +81,9 @@ export class SeedsTab implements Tab {
 
   #begin(): void {
     if (![this.#count, this.#first].every((input) => input.reportValidity())) return;
-    const [course, info] = [courseOf(this.#app), this.#app.info];
-    if (!course || !info) return;
+    const { info, field } = this.#app;
+    if (!info || !field) return;
+    const course = courseOf(info, field);
     this.#app.touch();
     const first = this.#first.valueAsNumber;
     const seeds = Array.from({ length: this.#count.valueAsNumber }, (_, index) => (first + index) % (MAX_SEED + 1));

@@ -1,7 +1,7 @@
 /** The measurements of a run: the six metrics beside the paper's, plots over time, times, digest, and its files. */
 
 import { byId, setText } from '../base/dom.ts';
-import { TakeAway } from '../export/exportButtons.ts';
+import { ExportButtons } from '../export/exportButtons.ts';
 import type { Run } from '../export/exportedRun.ts';
 import type { Filmed } from '../export/film.ts';
 import { TimePlots } from '../plots/timePlots.ts';
@@ -36,7 +36,7 @@ export class Measure {
     byId('plots', HTMLElement).append(this.#plots.element);
     this.#enlarges();
     this.#copiesDigest(notice);
-    new TakeAway({ run: () => this.#run(), plots: (title) => this.#plots.file(title), view, notice });
+    new ExportButtons({ run: () => this.#run(), plots: (title) => this.#plots.file(title), view, notice });
   }
 
   session(info: SessionInfo): void {

@@ -15,7 +15,14 @@ export interface MetricRow {
 }
 
 export const METRIC_ROWS: readonly MetricRow[] = [
-  { key: 'distance_m', name: 'Distance', symbol: 'D', unit: 'm', decimals: 1, meaning: 'Way driven from the start.' },
+  {
+    key: 'distance_m',
+    name: 'Distance',
+    symbol: 'D',
+    unit: 'm',
+    decimals: 1,
+    meaning: 'Length of the path driven from the start.',
+  },
   {
     key: 'mean_elevation_rate_cm_s',
     name: 'Elevation rate',

@@ -13,7 +13,7 @@ export function watchFaults(show: (message: string) => void): void {
 }
 
 /** How long a view that was taken away may need to come back. */
-const PATIENCE_MS = 12_000;
+const RESTORE_TIMEOUT_MS = 12_000;
 
 /** A first picture that takes no longer than this needs no words. */
 const UNNOTICED_MS = 1000;
@@ -48,7 +48,7 @@ export function watchGraphics(show: (message: string) => void, hide: () => void)
         show(
           'The 3D view has not come back: the graphics driver is busy or gone. Everything else goes on; reloading the page may bring it back.',
         );
-      }, PATIENCE_MS);
+      }, RESTORE_TIMEOUT_MS);
     },
     restored() {
       clearTimeout(waiting);

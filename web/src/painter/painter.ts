@@ -25,7 +25,7 @@ import { Waypoints } from './waypoints.ts';
 const GRID_VERTICES = { hardware: 512, software: 160 };
 /** What has stood for so long is drawn once more, as finely as the screen shows it. */
 const STILL_MS = 400;
-/** The way not taken again, or not yet. */
+/** The part of the run that comes after the time shown. */
 const PALE = 0.35;
 
 export class Painter {

@@ -1,7 +1,8 @@
 /** What the page and the worker that draws the 3D view say to each other. */
 
 import type { Theme } from '../colours/theme.ts';
-import type { Frame, Ground, GroundPatch, Place, Pose, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Place } from '../experiment/place.ts';
+import type { Frame, Ground, GroundPatch, Pose, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Colouring, Layers } from '../scene/layers.ts';
 import type { Target } from '../scene/selection.ts';
 

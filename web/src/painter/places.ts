@@ -11,8 +11,8 @@ import {
   RingGeometry,
 } from 'three';
 import type { Theme } from '../colours/theme.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import type { Vector } from '../ground/heightField.ts';
-import type { Heading, Place } from '../protocol/simulationProtocol.ts';
 import { colour } from './relief.ts';
 
 /** From farther away the flag grows with the distance. */

@@ -17,8 +17,8 @@ import {
 } from 'three';
 import type { Rgb } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
+import type { Place } from '../experiment/place.ts';
 import { HeightField } from '../ground/heightField.ts';
-import type { Place } from '../protocol/simulationProtocol.ts';
 import { COLOURINGS, type Colouring, STEEPEST_SHOWN_RAD } from '../scene/layers.ts';
 import { FRAGMENT, VERTEX } from './reliefShader.ts';
 import { SUN, sunlight } from './sunlight.ts';

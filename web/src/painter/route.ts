@@ -33,7 +33,7 @@ export class Route {
     this.#material.color.copy(colour(theme.accent));
   }
 
-  /** A colour of its own, for the way of another robot. */
+  /** A colour of its own, for the path of another robot. */
   paint(hex: string): void {
     this.#material.color.set(hex);
   }

@@ -3,8 +3,8 @@
 import { CanvasTexture, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Sprite, SpriteMaterial } from 'three';
 import { css } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
+import type { Place } from '../experiment/place.ts';
 import type { Vector } from '../ground/heightField.ts';
-import type { Place } from '../protocol/simulationProtocol.ts';
 import { colour } from './relief.ts';
 
 const SIGN_PX = 128;

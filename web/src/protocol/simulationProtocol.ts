@@ -6,18 +6,16 @@
  */
 
 import type { Experiment, Stroke, Terrain } from '../experiment/experiment.ts';
+import type { ParameterGroup } from '../experiment/parameters.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Setting, Setup } from '../experiment/setting.ts';
 import type {
   Frame as CoreFrame,
   Cost,
   FrameBuffers,
   Ground,
   GroundPatch,
-  Heading,
-  Learning,
   Overrides,
-  ParameterGroup,
-  Place,
-  Preset,
   Scene,
   Timeline,
 } from '../wasm/mapless_wasm.js';
@@ -29,26 +27,16 @@ export type {
   FrameBuffers,
   Ground,
   GroundPatch,
-  Heading,
-  Learning,
   Metrics,
   Outcome,
   PathPoint,
-  Place,
   Pose,
-  Preset,
   Segment,
   SensorPose,
   Subgoal,
   Timeline,
   Verdict,
 } from '../wasm/mapless_wasm.js';
-
-/** How the planner is set up. */
-export interface Setting {
-  readonly preset: Preset;
-  readonly learning: Learning;
-}
 
 /** What a scenario is made of, after its files were read. */
 export interface SessionInfo extends Setting, Scene {
@@ -102,11 +90,6 @@ export type Speed = number;
 export interface NamedFile {
   readonly name: string;
   readonly bytes: Uint8Array<ArrayBuffer>;
-}
-
-/** What stays as it is from one scenario to the next. */
-export interface Setup extends Setting {
-  readonly overrides: Overrides;
 }
 
 /** What an experiment is loaded from: a scenario of the catalogue, a document, a terrain without start and goal, or files. */
@@ -166,10 +149,12 @@ export interface Loaded {
 }
 
 /** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */
-export type ToWorker = { type: 'request'; id: number; command: Command } | { type: 'recycle'; buffers: FrameBuffers };
+export type ToSimulation =
+  | { type: 'request'; id: number; command: Command }
+  | { type: 'recycle'; buffers: FrameBuffers };
 
 /** From the worker. */
-export type FromWorker =
+export type FromSimulation =
   /** Its thread runs: whatever keeps the page busy, the core loads beside it. */
   | { type: 'started' }
   /** The core is there, and opens what this request asks for. */

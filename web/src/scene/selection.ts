@@ -17,7 +17,7 @@ export type Finder = (frame: Frame) => Target | undefined;
 /** A subgoal farther than this from where the last one was is another one. */
 const SAME_WITHIN_RAD = 0.2;
 
-export class Attention {
+export class SelectionModel {
   readonly #changed: (frame: Frame, target: Target | undefined) => void;
   #frame: Frame | undefined;
   #hovered: Finder | undefined;

@@ -13,8 +13,9 @@ import {
 } from '../experiment/experiment.ts';
 import { readExperiment } from '../experiment/readExperiment.ts';
 import { recipeFile, scenarioFile } from '../experiment/scenarioFiles.ts';
-import { unzip } from '../files/unzip.ts';
-import type { Ground, NamedFile, Setup, Source } from '../protocol/simulationProtocol.ts';
+import type { Setup } from '../experiment/setting.ts';
+import { unzip } from '../files/archive.ts';
+import type { Ground, NamedFile, Source } from '../protocol/simulationProtocol.ts';
 import type { ScenarioRead, TerrainFiles } from '../wasm/mapless_wasm.js';
 
 const ARCHIVE = /\.zip$/i;
@@ -113,7 +114,7 @@ function fromFiles(core: Core, given: readonly NamedFile[], setup: Setup): Exper
     if (!ARCHIVE.test(file.name)) return [file];
     // A grid of the largest size, and what says how to read it.
     limit(file, 2 * MAX_FILE_BYTES);
-    return unzip(file);
+    return unzip(file, 2 * MAX_FILE_BYTES);
   });
   for (const file of files) limit(file, MAX_FILE_BYTES);
   const texts = files.filter(({ name }) => /\.(toml|json)$/i.test(name)).map((file) => ({ ...file, text: text(file) }));

@@ -3,16 +3,9 @@
 import type { Core } from '../bindings/simulationModule.ts';
 import type { Experiment } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
-import type {
-  Frame,
-  FrameBuffers,
-  Ground,
-  GroundPatch,
-  Heading,
-  Place,
-  SessionInfo,
-  Setting,
-} from '../protocol/simulationProtocol.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Setting } from '../experiment/setting.ts';
+import type { Frame, FrameBuffers, Ground, GroundPatch, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Session as CoreSession, Standing, Stroke, Tick } from '../wasm/mapless_wasm.js';
 import { filesOf, terrainFiles } from './opening.ts';
 

@@ -5,18 +5,18 @@ import {
   type Command,
   type Frame,
   type FrameBuffers,
-  type FromWorker,
+  type FromSimulation,
   type GroundPatch,
   type Loaded,
   type SessionInfo,
-  type ToWorker,
+  type ToSimulation,
   transferables,
 } from '../protocol/simulationProtocol.ts';
 
 /** Opening something usually takes a fraction of a second. */
 const SLOW_MS = 5000;
 
-export interface CoreEvents {
+export interface SimulationEvents {
   session(info: SessionInfo, loaded: Loaded | undefined): void;
   frame(frame: Frame): void;
   ground(patch: GroundPatch): void;
@@ -32,10 +32,10 @@ interface Waiting {
   reject(error: Error): void;
 }
 
-export class CoreClient {
-  #events: CoreEvents | undefined;
+export class SimulationClient {
+  #events: SimulationEvents | undefined;
   /** What happened before anybody listened. */
-  #unheard: ((events: CoreEvents) => void)[] = [];
+  #unheard: ((events: SimulationEvents) => void)[] = [];
   readonly #waiting = new Map<number, Waiting>();
   #worker: Worker;
   #nextId = 0;
@@ -49,7 +49,7 @@ export class CoreClient {
     const id = this.#nextId++;
     this.first = new Promise((resolve, reject) => this.#waiting.set(id, { resolve, reject }));
     // A message to a new worker waits in the page until the page is idle; its name is there at once.
-    this.#worker = this.#start(JSON.stringify({ type: 'request', id, command: first } satisfies ToWorker));
+    this.#worker = this.#start(JSON.stringify({ type: 'request', id, command: first } satisfies ToSimulation));
   }
 
   /** Resolves once the worker runs, or cannot. */
@@ -58,7 +58,7 @@ export class CoreClient {
   }
 
   /** Tells `events` what happens from now on, and first what happened until now. */
-  listen(events: CoreEvents): void {
+  listen(events: SimulationEvents): void {
     this.#events = events;
     for (const tell of this.#unheard.splice(0)) tell(events);
   }
@@ -88,13 +88,13 @@ export class CoreClient {
     this.#waiting.clear();
   }
 
-  #send(message: ToWorker, transfer: Transferable[] = []): void {
+  #send(message: ToSimulation, transfer: Transferable[] = []): void {
     this.#worker.postMessage(message, transfer);
   }
 
   #start(name = ''): Worker {
     const worker = new Worker(new URL('./simulationWorker.ts', import.meta.url), { type: 'module', name });
-    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
+    worker.onmessage = ({ data }: MessageEvent<FromSimulation>) => {
       if (data.type === 'started') this.#started.open();
       else this.#tell((events) => this.#receive(data, events));
     };
@@ -106,12 +106,12 @@ export class CoreClient {
     return worker;
   }
 
-  #tell(what: (events: CoreEvents) => void): void {
+  #tell(what: (events: SimulationEvents) => void): void {
     if (this.#events) what(this.#events);
     else this.#unheard.push(what);
   }
 
-  #receive(message: FromWorker, events: CoreEvents): void {
+  #receive(message: FromSimulation, events: SimulationEvents): void {
     switch (message.type) {
       case 'session':
         events.session(message.info, message.loaded);
@@ -145,14 +145,14 @@ export class CoreClient {
     return waiting;
   }
 
-  #endOpening(id: number | undefined, events: CoreEvents): void {
+  #endOpening(id: number | undefined, events: SimulationEvents): void {
     if (!this.#opening || this.#opening.id !== id) return;
     clearTimeout(this.#opening.timer);
     this.#opening = undefined;
     events.opened();
   }
 
-  #fail(message: string, panicked: boolean, events: CoreEvents): void {
+  #fail(message: string, panicked: boolean, events: SimulationEvents): void {
     // A panic leaves the core's memory in an unknown state: only a new worker is trustworthy.
     if (panicked) this.stop(message);
     events.failure(message, panicked);

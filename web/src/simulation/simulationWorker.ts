@@ -4,10 +4,10 @@ import { loadCore } from '../bindings/simulationModule.ts';
 import {
   type Command,
   type Frame,
-  type FromWorker,
+  type FromSimulation,
   type GroundPatch,
   type Source,
-  type ToWorker,
+  type ToSimulation,
   transferables,
 } from '../protocol/simulationProtocol.ts';
 import { rowOf } from '../run/record.ts';
@@ -59,7 +59,7 @@ let queue: Promise<void> = Promise.resolve();
 const wake = new MessageChannel();
 wake.port1.onmessage = loop;
 
-function post(message: FromWorker, transfer: Transferable[] = []): void {
+function post(message: FromSimulation, transfer: Transferable[] = []): void {
   self.postMessage(message, { transfer });
 }
 
@@ -290,7 +290,7 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
   }
 }
 
-function hear(message: ToWorker): void {
+function hear(message: ToSimulation): void {
   if (message.type === 'recycle') {
     // Frames from before a panic come back to the worker that took over.
     inFlight = Math.max(0, inFlight - 1);
@@ -316,6 +316,6 @@ function hear(message: ToWorker): void {
 }
 
 post({ type: 'started' });
-self.onmessage = ({ data }: MessageEvent<ToWorker>) => hear(data);
+self.onmessage = ({ data }: MessageEvent<ToSimulation>) => hear(data);
 // The first request comes as the worker's name.
 if (self.name) hear(JSON.parse(self.name));

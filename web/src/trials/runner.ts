@@ -40,7 +40,7 @@ export class Runner {
 }
 
 /** Makes runners on a course. */
-export class Garage {
+export class RunnerFactory {
   readonly #module: TrialsModule;
   readonly #ground: Ground;
   readonly #scenario: string;

@@ -1,7 +1,9 @@
 /** What the page and a worker that runs whole trials say to each other. A worker has one job and is then ended. */
 
 import type { Overrides } from '../experiment/overrides.ts';
-import type { Ground, Heading, Learning, Metrics, Outcome, Place } from '../protocol/simulationProtocol.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Learning } from '../experiment/setting.ts';
+import type { Ground, Metrics, Outcome } from '../protocol/simulationProtocol.ts';
 import { METRICS, POSE } from '../run/columns.ts';
 import type { Spread, TrialStatus } from '../wasm/mapless_wasm_baselines.js';
 

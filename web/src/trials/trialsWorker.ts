@@ -1,7 +1,7 @@
 /** The worker of ghosts and batches: runs whole trials beside the page's own, and tells how they stand. */
 
 import { loadTrials, type TrialsModule } from '../bindings/trialsModule.ts';
-import { Garage, type Runner, summary } from './runner.ts';
+import { type Runner, RunnerFactory, summary } from './runner.ts';
 import type { FromTrials, Job, ToTrials } from './trialsProtocol.ts';
 
 /** How long it runs before it listens and tells again, in milliseconds. */
@@ -24,11 +24,11 @@ function rest(): Promise<void> {
 }
 
 async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' }>): Promise<void> {
-  const garage = new Garage(await loadTrials(), course);
+  const factory = new RunnerFactory(await loadTrials(), course);
   let running: { runner: Runner; tick: number }[] = [];
   for (const planner of planners) {
     try {
-      const runner = garage.runner(planner, seed);
+      const runner = factory.runner(planner, seed);
       running.push({ runner, tick: 0 });
       post({ type: 'ghost', rows: new Float64Array(runner.row), result: runner.result });
     } catch (error) {
@@ -61,7 +61,7 @@ async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' 
 
 interface Batch {
   readonly module: TrialsModule;
-  readonly garage: Garage;
+  readonly factory: RunnerFactory;
   readonly planner: string;
 }
 
@@ -70,11 +70,11 @@ let batch: Promise<Batch> | undefined;
 
 async function opened({ course, planner }: Extract<Job, { type: 'seeds' }>): Promise<Batch> {
   const module = await loadTrials();
-  return { module, garage: new Garage(module, course), planner };
+  return { module, factory: new RunnerFactory(module, course), planner };
 }
 
-function drive({ garage, planner }: Batch, seed: number): void {
-  const runner = garage.runner(planner, seed);
+function drive({ factory, planner }: Batch, seed: number): void {
+  const runner = factory.runner(planner, seed);
   while (runner.running) runner.tick();
   post({ type: 'trial', result: runner.result });
   runner.free();

@@ -3,7 +3,7 @@
 import { wrap } from '../base/format.ts';
 import type { Pose } from '../protocol/simulationProtocol.ts';
 
-/** A longer way within one tick is no drive but a new start. */
+/** A longer move within one tick is no drive but a new start. */
 const JUMP_M = 3;
 
 export class Glide {

@@ -1,8 +1,8 @@
 /** What pointer and keyboard do to the ground: drop a goal, drop a start, sculpt. */
 
 import type { Brush } from '../editor/strokeInHand.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import { BRUSHES, type BrushName, strength_m } from '../ground/brushes.ts';
-import type { Heading, Place } from '../protocol/simulationProtocol.ts';
 import type { Stage } from './stage.ts';
 
 export const TOOLS = [
@@ -33,8 +33,8 @@ export interface BrushSetting {
 
 export interface ToolActions {
   setGoal(goal: Place): void;
-  /** A stop before the goal, after the others. */
-  addStop(place: Place): void;
+  /** A waypoint before the goal, after the others. */
+  addWaypoint(place: Place): void;
   setStart(start: Heading): void;
   /** Somebody pressed with a tool in hand, on the ground or beside it. */
   pressed(onGround: boolean): void;
@@ -99,8 +99,8 @@ export class GroundTools {
     this.#ring();
   }
 
-  /** Whether the goal's tool sets stops, also without the Shift key. */
-  addStops(adding: boolean): void {
+  /** Whether the goal's tool adds waypoints, also without the Shift key. */
+  addWaypoints(adding: boolean): void {
     this.#adding = adding;
   }
 
@@ -163,7 +163,7 @@ export class GroundTools {
   }
 
   #drivesTo({ x, y }: Place, shifted: boolean): void {
-    if (this.#adding || shifted) this.#actions.addStop({ x, y });
+    if (this.#adding || shifted) this.#actions.addWaypoint({ x, y });
     else this.#actions.setGoal({ x, y });
   }
 

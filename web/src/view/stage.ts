@@ -2,10 +2,11 @@
 
 import { Raycaster, Vector2 } from 'three';
 import type { Theme } from '../colours/theme.ts';
+import type { Place } from '../experiment/place.ts';
 import type { HeightField, Vector } from '../ground/heightField.ts';
 import { type Graphics, PainterClient } from '../painter/painterClient.ts';
 import { type GhostStep, sceneryOf, seenIn } from '../painter/painterProtocol.ts';
-import type { Frame, GroundPatch, Place, Pose, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Frame, GroundPatch, Pose, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
 import type { Finder, Target } from '../scene/selection.ts';
 import { sensorAt } from '../scene/sensor.ts';
@@ -13,7 +14,7 @@ import { Glide } from './glide.ts';
 import { nearestMark, projector } from './nearestMark.ts';
 import { type CameraMode, Viewpoint } from './viewpoint.ts';
 
-/** The first look passes the robot's right side by this much, to show both it and the way ahead. */
+/** The first look passes the robot's right side by this much, to show both it and the ground ahead. */
 const FIRST_LOOK_RAD = 0.35;
 /** At slow motion the robot still glides no longer than this from tick to tick. */
 const LONGEST_GLIDE_MS = 250;
@@ -32,7 +33,7 @@ export class Stage {
   /** Whether the camera or the robot has moved since the painter heard of them. */
   #moved = true;
   /** Who waits until nothing moves. */
-  #patient: (() => void)[] = [];
+  #waiting: (() => void)[] = [];
 
   /** Throws where the browser lets no worker draw. */
   constructor(canvas: HTMLCanvasElement, theme: Theme, graphics: Graphics) {
@@ -64,7 +65,7 @@ export class Stage {
 
   /** Resolves once everything is drawn as it is and nothing moves any more. */
   still(): Promise<void> {
-    return new Promise((resolve) => this.#patient.push(resolve));
+    return new Promise((resolve) => this.#waiting.push(resolve));
   }
 
   /** Gives every picture, from the present one on (that one in full resolution if it is to be `fine`), to `film`, which closes it, and `undefined` when there will be no more; or to nobody. */
@@ -207,7 +208,7 @@ export class Stage {
     requestAnimationFrame(() => this.#loop());
     this.#viewpoint.update();
     this.#moveRobot();
-    if (this.#patient.length > 0) this.#viewpoint.settle();
+    if (this.#waiting.length > 0) this.#viewpoint.settle();
     if (this.#moved) this.#look();
     else this.#rest();
   }
@@ -229,10 +230,10 @@ export class Stage {
   }
 
   #rest(): void {
-    const patient = this.#patient.splice(0);
-    if (patient.length === 0) return;
+    const waiting = this.#waiting.splice(0);
+    if (waiting.length === 0) return;
     this.#painter.rest().then(() => {
-      for (const rested of patient) rested();
+      for (const rested of waiting) rested();
     });
   }
 

@@ -1,4 +1,4 @@
-/** Segments as arcs at the radius where subgoals lie, and the way to the chosen subgoal on the ground. */
+/** Segments as arcs at the radius where subgoals lie, and the planned path to the chosen subgoal on the ground. */
 
 import { Color, Group } from 'three';
 import type { Theme } from '../colours/theme.ts';
@@ -6,23 +6,23 @@ import type { Layers } from '../scene/layers.ts';
 import { segmentArc } from '../scene/segmentArc.ts';
 import type { Seen } from './painterProtocol.ts';
 import { colour } from './relief.ts';
-import { Strokes } from './strokes.ts';
 import { MARKS_ORDER } from './subgoals.ts';
+import { ThickLines } from './thickLines.ts';
 
 type Height = (x: number, y: number) => number;
 
 const LIFT_M = 0.06;
 
-export class Ways {
+export class SegmentsAndPath {
   readonly group = new Group();
-  readonly #segments = new Strokes(512, 4);
-  readonly #way = new Strokes(512, 4);
+  readonly #segments = new ThickLines(512, 4);
+  readonly #path = new ThickLines(512, 4);
   #valid = new Color();
   #refused = new Color();
 
   constructor(theme: Theme) {
-    this.group.add(this.#segments.line, this.#way.line);
-    for (const { line } of [this.#segments, this.#way]) line.renderOrder = MARKS_ORDER;
+    this.group.add(this.#segments.line, this.#path.line);
+    for (const { line } of [this.#segments, this.#path]) line.renderOrder = MARKS_ORDER;
     this.theme(theme);
   }
 
@@ -31,14 +31,14 @@ export class Ways {
     this.#refused = colour(theme.danger);
   }
 
-  layers({ segments, way }: Layers): void {
+  layers({ segments, path }: Layers): void {
     this.#segments.line.visible = segments;
-    this.#way.line.visible = way;
+    this.#path.line.visible = path;
   }
 
   show(seen: Seen, radius_m: number, height: Height): void {
     if (this.#segments.line.visible) this.#showSegments(seen, radius_m);
-    if (this.#way.line.visible) this.#showWay(seen, height);
+    if (this.#path.line.visible) this.#showPath(seen, height);
   }
 
   #showSegments({ segments, sensor }: Seen, radius_m: number): void {
@@ -50,14 +50,14 @@ export class Ways {
     this.#segments.done();
   }
 
-  #showWay({ path, pose }: Seen, height: Height): void {
-    this.#way.clear();
+  #showPath({ path, pose }: Seen, height: Height): void {
+    this.#path.clear();
     let from = [pose.x, pose.y, height(pose.x, pose.y) + LIFT_M];
     for (const { x, y, reverse } of path) {
       const to = [x, y, height(x, y) + LIFT_M];
-      this.#way.add([...from, ...to], reverse ? this.#refused : this.#valid);
+      this.#path.add([...from, ...to], reverse ? this.#refused : this.#valid);
       from = to;
     }
-    this.#way.done();
+    this.#path.done();
   }
 }

@@ -3,7 +3,7 @@
 /** How long the result of a trial stands. */
 const LINGER_S = 8;
 
-export class Lingering {
+export class AutoAdvance {
   readonly #tell: (seconds: number | undefined) => void;
   #timer: ReturnType<typeof setInterval> | undefined;
 

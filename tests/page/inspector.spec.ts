@@ -59,7 +59,7 @@ test('each layer changes the view, and back', async ({ mapless: page }) => {
   const panel = page.locator('#layers');
   await expect(panel).toBeVisible();
   const plain = await picture(page);
-  for (const name of ['Observed', 'Reconstructed', 'Variance', 'Segments', 'Subgoals', 'Way']) {
+  for (const name of ['Observed', 'Reconstructed', 'Variance', 'Segments', 'Subgoals', 'Path']) {
     const box = panel.getByRole('checkbox', { name: new RegExp(name) });
     const shown = await box.isChecked();
     await box.setChecked(!shown);
@@ -84,7 +84,9 @@ test('a subgoal pointed at anywhere shows its cost terms and is marked everywher
   const row = page.locator('.candidate').nth(1);
   const where = await row.locator('.candidate-where').textContent();
   await row.hover();
-  await expect(card.locator('.detail-title')).toHaveText(new RegExp(`^(Subgoal|Place already seen,) ${where}$`));
+  await expect(card.locator('.detail-title')).toHaveText(
+    new RegExp(`^(Subgoal|Frontier or committed target,) ${where}$`),
+  );
   await page.mouse.move(5, 5);
   await expect(card).toBeHidden();
   // The chosen one first, and then its neighbour.
@@ -110,7 +112,7 @@ test('a subgoal pointed at anywhere shows its cost terms and is marked everywher
   for (let turn = 0; turn < 2 * Math.PI && !(await card.isVisible()); turn += 0.05) {
     await page.mouse.move(middle.x + reach_px * Math.cos(turn), middle.y + reach_px * Math.sin(turn));
   }
-  await expect(card.locator('.detail-title')).toHaveText(/^(Subgoal|Place) /);
+  await expect(card.locator('.detail-title')).toHaveText(/^(Subgoal|Frontier) /);
 });
 
 test('a refused segment says which number failed', async ({ mapless: page }) => {
@@ -156,7 +158,7 @@ test('the tour goes through by keyboard, pauses for each page and puts everythin
   for (let step = 1; step <= 9; step += 1) {
     await expect(card).toContainText(`${step} of 9`);
     titles.add((await card.getByRole('heading').textContent()) ?? '');
-    expect((await state(page)).playing).toBe(step === 9);
+    await until(page, (now) => now.playing === (step === 9));
     if (step < 9) await page.keyboard.press('ArrowRight');
   }
   expect(titles.size).toBe(9);
@@ -188,7 +190,7 @@ plain.describe('on a phone', () => {
       }
       return false;
     };
-    await expect.poll(someOfFive, { timeout: 60_000 }).toBe(false);
+    await expect.poll(someOfFive).toBe(false);
     await page.locator('#layers-open').tap();
     await page.getByRole('checkbox', { name: /Variance/ }).check();
     await until(page, (now) => now.surfaces);

@@ -8,7 +8,7 @@ import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeome
 /** Ends of a piece with the colour of each: x, y, z, x, y, z, and red, green, blue twice. */
 const STRIDE = 12;
 
-export class Strokes {
+export class ThickLines {
   readonly line: LineSegments2;
   readonly #buffer: InstancedInterleavedBuffer;
   readonly #capacity: number;

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { neighbour } from '../src/inspector/varianceImage.ts';
 import type { Frame, Segment, Subgoal } from '../src/protocol/simulationProtocol.ts';
-import { Attention, segmentAt, subgoalTarget, type Target } from '../src/scene/selection.ts';
+import { SelectionModel, segmentAt, subgoalTarget, type Target } from '../src/scene/selection.ts';
 
 const segments = [
   { begin_rad: -3, end_rad: 0 },
@@ -21,21 +21,21 @@ test('every azimuth has its segment, also behind the robot', () => {
 
 test('what is pinned stays marked while the robot turns, and is let go of', () => {
   const marks: (Target | undefined)[] = [];
-  const attention = new Attention((_, target) => marks.push(target));
-  attention.show(frame(0, [0.5, 1.0]));
-  attention.pin((now) => subgoalTarget(now, 1));
+  const selection = new SelectionModel((_, target) => marks.push(target));
+  selection.show(frame(0, [0.5, 1.0]));
+  selection.pin((now) => subgoalTarget(now, 1));
   assert.deepEqual(marks.at(-1), { subgoal: 1, segment: 0 });
   // A quarter turn to the left later, the same direction of the world is first.
-  attention.show(frame(1.5, [-0.52, 0.9, 2]));
+  selection.show(frame(1.5, [-0.52, 0.9, 2]));
   assert.deepEqual(marks.at(-1), { subgoal: 0, segment: 0 });
-  attention.show(frame(1.5, [0.9, 2]));
+  selection.show(frame(1.5, [0.9, 2]));
   assert.equal(marks.at(-1), undefined);
-  attention.hover((now) => subgoalTarget(now, 0));
+  selection.hover((now) => subgoalTarget(now, 0));
   assert.equal(marks.at(-1)?.subgoal, 0);
-  attention.hover(undefined);
-  attention.show(frame(1.5, [-0.5]));
+  selection.hover(undefined);
+  selection.show(frame(1.5, [-0.5]));
   assert.equal(marks.at(-1)?.subgoal, 0);
-  attention.pin(undefined);
+  selection.pin(undefined);
   assert.equal(marks.at(-1), undefined);
 });
 
