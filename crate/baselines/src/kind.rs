@@ -143,7 +143,7 @@ impl NavigatorKind {
             Self::Vgf => along(Vgf::new(field, &VgfConfig::published()).map_err(map)?, &config),
             Self::VgfTuned => along(Vgf::new(field, &VgfConfig::tuned()).map_err(map)?, &config),
             Self::Putn => {
-                along(Putn::new(field, PutnConfig::default(), config.limits, seed).map_err(map)?, &config)
+                along(Putn::new(field, PutnConfig::default(), config.robot, seed).map_err(map)?, &config)
             }
             Self::Oracle => {
                 let (field, robot) = (field.clone(), scenario.robot.clone());

@@ -117,7 +117,7 @@ impl Navigator for TrueSight {
         let config = planner.config();
         let radius_m = config.perception.surface_radius_m;
         let world_from_sensor = pose.world_from_robot();
-        let position = pose.position_m + world_from_sensor * config.mount.offset_m();
+        let position = pose.position_m + world_from_sensor * config.sensor.offset_m();
         let sensor = SensorPose { position, world_from_sensor };
         let profile = |azimuth_rad| match true_skyline(caster, &sensor, radius_m, azimuth_rad) {
             Skyline::Unknown => Column::Unknown,

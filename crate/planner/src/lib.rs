@@ -45,7 +45,9 @@ pub mod math;
 mod navigator;
 mod planner;
 pub mod pose;
+mod robot_model;
 pub mod route;
+mod sensor_model;
 pub mod skyline;
 pub mod terrain;
 #[cfg(test)]
@@ -57,4 +59,6 @@ pub use decision::step::{PerceptionOverride, Status, Step, StopReason};
 pub use error::ConfigError;
 pub use navigator::{Decision, Navigator};
 pub use planner::Planner;
+pub use robot_model::RobotModel;
 pub use route::state_lattice::PathPoint;
+pub use sensor_model::SensorModel;

@@ -77,7 +77,7 @@ impl Navigator for Planner {
     }
 
     fn sight_m(&self) -> f64 {
-        self.config().perception.surface_radius_m.max(self.config().ground.radius_m)
+        self.config().perception.surface_radius_m.max(self.config().elevation_window.radius_m)
     }
 
     fn period_s(&self) -> f64 {

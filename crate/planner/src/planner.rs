@@ -77,7 +77,8 @@ impl Planner {
     /// [`ConfigError`] for a value that makes no sense.
     pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
         config.validate()?;
-        let lattice = StateLattice::new(config.forecast, &config.limits, config.perception.surface_radius_m);
+        let lattice =
+            StateLattice::new(config.state_lattice, &config.robot, config.perception.surface_radius_m);
         Ok(Self {
             observed: OccupancySurface::new(config.perception.surface_radius_m),
             perception: Perception::new(config.perception),
@@ -88,7 +89,7 @@ impl Planner {
             controller: Controller::new(config.controller),
             path: Vec::with_capacity(MAX_PATH_POINTS),
             decision: config.decision,
-            heuristic: HeuristicTable::new(config.forecast.step_m),
+            heuristic: HeuristicTable::new(config.state_lattice.step_m),
             patience: None,
             committed: CommittedTarget::default(),
             backtrack: Backtrack::new(),
@@ -265,7 +266,7 @@ impl Planner {
 
     /// Minds steep ground as configured or, without patience, less: on ways and in the choice.
     fn scale_slope_cost(&mut self, patient: bool) {
-        let StateLatticeConfig { escape_margin_rad, impatient_margin_rad, .. } = self.config.forecast;
+        let StateLatticeConfig { escape_margin_rad, impatient_margin_rad, .. } = self.config.state_lattice;
         let (share, least_margin_rad) =
             if patient { (1.0, escape_margin_rad) } else { (IMPATIENT_SHARE, impatient_margin_rad) };
         self.lattice.scale_slope_cost(share);
@@ -424,8 +425,8 @@ impl Planner {
             &self.profile,
             &self.config.segments,
             self.config.perception.surface_radius_m,
-            self.config.robot_width_m,
-            &self.config.mount,
+            self.config.robot.width_m,
+            &self.config.sensor,
             &mut self.segments,
         );
         Ok(())
@@ -435,9 +436,9 @@ impl Planner {
     fn remember(&mut self, points_m: &[Vec3], pose: &Pose) {
         self.ground.advance();
         let world_from_robot = pose.world_from_robot();
-        let sensor = pose.position_m + world_from_robot * self.config.mount.offset_m();
+        let sensor = pose.position_m + world_from_robot * self.config.sensor.offset_m();
         self.ground.looked_from(sensor, world_from_robot.z_axis);
-        let radius_squared = self.config.ground.radius_m * self.config.ground.radius_m;
+        let radius_squared = self.config.elevation_window.radius_m * self.config.elevation_window.radius_m;
         for point in points_m {
             let point = point.as_dvec3();
             // Also passes over NaN.
@@ -445,7 +446,7 @@ impl Planner {
                 self.ground.add(sensor + world_from_robot * point);
             }
         }
-        let half_width = 0.5 * self.config.robot_width_m;
+        let half_width = 0.5 * self.config.robot.width_m;
         for x in [-half_width, 0.0, half_width] {
             for y in [-half_width, 0.0, half_width] {
                 self.ground.add(pose.position_m + world_from_robot * DVec3::new(x, y, 0.0));

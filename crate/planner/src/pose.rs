@@ -53,29 +53,6 @@ impl Pose {
     }
 }
 
-/// Where the LiDAR sits in the robot frame; its axes are the robot's.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct SensorMount {
-    /// Forward of the point between the wheels.
-    pub forward_m: f64,
-    /// Above the ground the robot stands on, along the body's z axis.
-    pub height_m: f64,
-}
-
-impl Default for SensorMount {
-    fn default() -> Self {
-        Self { forward_m: 0.0, height_m: 0.8 }
-    }
-}
-
-impl SensorMount {
-    /// The sensor's origin in the robot frame.
-    pub fn offset_m(&self) -> DVec3 {
-        DVec3::new(self.forward_m, 0.0, self.height_m)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

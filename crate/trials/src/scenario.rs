@@ -199,13 +199,13 @@ impl Scenario {
     /// The value that does not fit the preset.
     pub fn planner_config(&self, preset: Preset) -> Result<PlannerConfig, ScenarioFault> {
         let mut config = preset.planner_config();
-        config.mount.forward_m = self.sensor.forward_m;
-        config.mount.height_m = self.sensor.height_m;
-        config.robot_width_m = self.robot.width_m;
-        config.wheelbase_m = self.robot.wheelbase_m;
-        config.track_m = self.robot.track_m;
-        config.limits.roll_rad = self.robot.roll_limit_rad;
-        config.limits.pitch_rad = self.robot.pitch_limit_rad;
+        config.sensor.forward_m = self.sensor.forward_m;
+        config.sensor.height_m = self.sensor.height_m;
+        config.robot.width_m = self.robot.width_m;
+        config.robot.wheelbase_m = self.robot.wheelbase_m;
+        config.robot.track_m = self.robot.track_m;
+        config.robot.roll_limit_rad = self.robot.roll_limit_rad;
+        config.robot.pitch_limit_rad = self.robot.pitch_limit_rad;
 
         let config: PlannerConfig = overridden(&config, &self.planner, "planner")?;
         config.validate().map_err(|e| ScenarioFault::Value(e.to_string()))?;
@@ -327,8 +327,8 @@ mod tests {
         let config = changed.planner_config(Preset::Default).unwrap();
         assert_eq!(config.decision.look_ticks, 9);
         assert!((config.decision.distance_weight - 2.0).abs() < 1e-12);
-        assert!((config.mount.height_m - 0.9).abs() < 1e-12);
-        assert!((config.robot_width_m - 0.8).abs() < 1e-12);
+        assert!((config.sensor.height_m - 0.9).abs() < 1e-12);
+        assert!((config.robot.width_m - 0.8).abs() < 1e-12);
         assert!((changed.sensor.range_noise_m - 0.1).abs() < 1e-12);
 
         let fault = |sections| scenario.with_parameters("settings", sections).unwrap_err().to_string();

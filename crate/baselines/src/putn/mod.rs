@@ -9,7 +9,7 @@ pub mod plane;
 pub mod tree;
 
 use glam::DVec2;
-use mapless::config::TiltLimits;
+use mapless::RobotModel;
 use mapless::pose::Pose;
 use mapless_world::HeightField;
 use mapless_world::random::{key, uniform};
@@ -57,7 +57,7 @@ impl Default for PutnConfig {
 pub struct Putn {
     cloud: Cloud,
     config: PutnConfig,
-    limits: TiltLimits,
+    limits: RobotModel,
     seed: u64,
 }
 
@@ -69,7 +69,7 @@ impl Putn {
     pub fn new(
         field: &HeightField,
         config: PutnConfig,
-        limits: TiltLimits,
+        limits: RobotModel,
         seed: u64,
     ) -> Result<Self, MapError> {
         Ok(Self { cloud: Cloud::new(field)?, config, limits, seed })
@@ -78,7 +78,7 @@ impl Putn {
     /// The node at a place; `None` where the plane would roll the robot over, and off the map.
     fn place(&self, plan_m: DVec2) -> Option<Place> {
         let plane = fit_plane(&self.cloud, plan_m, &self.config.plane)?;
-        (plane.slope_rad <= self.limits.roll_rad).then(|| Place::on(&plane, &self.config.plane))
+        (plane.slope_rad <= self.limits.roll_limit_rad).then(|| Place::on(&plane, &self.config.plane))
     }
 
     /// The `iteration`-th sample: anywhere, or the goal; once there is a way, within the ellipse about start and goal that
@@ -106,7 +106,7 @@ impl RoutePlanner for Putn {
     fn route(&self, from: &Pose, to_m: DVec2) -> Option<Vec<DVec2>> {
         let from_m = from.plan_m();
         let config = &self.config;
-        let steepest = libm::tan(self.limits.pitch_rad);
+        let steepest = libm::tan(self.limits.pitch_limit_rad);
         let mut tree = Tree::new(self.place(from_m)?, self.place(to_m)?, config.goal_radius_m);
         let extent_m = self.cloud.extent_m();
         let [fewest, most] = config.samples;
@@ -135,7 +135,7 @@ mod tests {
     const TO_M: DVec2 = DVec2::new(17.0, 11.0);
 
     fn putn(height_m: impl Fn(DVec2) -> f64, seed: u64) -> Putn {
-        Putn::new(&field(20.0, height_m), PutnConfig::default(), TiltLimits::default(), seed).unwrap()
+        Putn::new(&field(20.0, height_m), PutnConfig::default(), RobotModel::default(), seed).unwrap()
     }
 
     #[test]

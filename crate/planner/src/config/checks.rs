@@ -7,6 +7,8 @@ use super::{
 use crate::error::{ConfigError, require};
 use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::learning::LearningMode;
+use crate::robot_model::RobotModel;
+use crate::sensor_model::SensorModel;
 
 impl PlannerConfig {
     /// Checks every value.
@@ -17,38 +19,59 @@ impl PlannerConfig {
         let place = "planner";
         positive(self.period_s, place, "period_s")?;
         positive(self.goal_tolerance_m, place, "goal_tolerance_m")?;
-        positive(self.robot_width_m, place, "robot_width_m")?;
-        positive(self.wheelbase_m, place, "wheelbase_m")?;
-        positive(self.track_m, place, "track_m")?;
-        let mount = "planner.mount";
-        positive(self.mount.height_m, mount, "height_m")?;
-        require(self.mount.forward_m.is_finite(), mount, "forward_m", self.mount.forward_m, "a number")?;
-        angle(self.limits.roll_rad, "planner.limits", "roll_rad")?;
-        angle(self.limits.pitch_rad, "planner.limits", "pitch_rad")?;
+        self.robot.validate()?;
+        self.sensor.validate()?;
         self.perception.validate()?;
         self.segments.validate()?;
-        self.ground.validate()?;
-        self.forecast.validate()?;
-        let step_m = self.forecast.step_m;
+        self.elevation_window.validate()?;
+        self.state_lattice.validate()?;
+        let step_m = self.state_lattice.step_m;
         require(
             step_m >= 0.2 && self.perception.surface_radius_m <= 40.0 * step_m,
-            "planner.forecast",
+            "planner.state_lattice",
             "step_m",
             step_m,
             "at least 0.2 m and a fortieth of planner.perception.surface_radius_m",
         )?;
         let StateLatticeConfig { tilt_margin_rad, escape_margin_rad, impatient_margin_rad, .. } =
-            self.forecast;
+            self.state_lattice;
         for (name, margin) in [
             ("tilt_margin_rad", tilt_margin_rad),
             ("escape_margin_rad", escape_margin_rad),
             ("impatient_margin_rad", impatient_margin_rad),
         ] {
-            let least = self.limits.roll_rad.min(self.limits.pitch_rad);
-            require(margin < least, "planner.forecast", name, margin, "less than both tilt limits")?;
+            let least = self.robot.roll_limit_rad.min(self.robot.pitch_limit_rad);
+            require(margin < least, "planner.state_lattice", name, margin, "less than both tilt limits")?;
         }
         self.decision.validate()?;
         self.controller.validate()
+    }
+}
+
+impl RobotModel {
+    fn validate(&self) -> Result<(), ConfigError> {
+        let place = "planner.robot";
+        for (name, value) in [
+            ("length_m", self.length_m),
+            ("width_m", self.width_m),
+            ("wheelbase_m", self.wheelbase_m),
+            ("track_m", self.track_m),
+            ("wheel_radius_m", self.wheel_radius_m),
+            ("ground_clearance_m", self.ground_clearance_m),
+        ] {
+            positive(value, place, name)?;
+        }
+        not_negative(self.max_step_m, place, "max_step_m")?;
+        angle(self.roll_limit_rad, place, "roll_limit_rad")?;
+        angle(self.pitch_limit_rad, place, "pitch_limit_rad")
+    }
+}
+
+impl SensorModel {
+    fn validate(&self) -> Result<(), ConfigError> {
+        let place = "planner.sensor";
+        positive(self.height_m, place, "height_m")?;
+        require(self.forward_m.is_finite(), place, "forward_m", self.forward_m, "a number")
     }
 }
 
@@ -100,7 +123,7 @@ impl SegmentConfig {
 
 impl ElevationWindowConfig {
     fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner.ground";
+        let place = "planner.elevation_window";
         positive(self.radius_m, place, "radius_m")?;
         positive(self.cell_m, place, "cell_m")?;
         // Two different places inside the window must not share a slot.
@@ -118,7 +141,7 @@ impl ElevationWindowConfig {
 
 impl StateLatticeConfig {
     fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner.forecast";
+        let place = "planner.state_lattice";
         positive(self.step_m, place, "step_m")?;
         not_negative(self.tilt_margin_rad, place, "tilt_margin_rad")?;
         not_negative(self.escape_margin_rad, place, "escape_margin_rad")?;
@@ -198,10 +221,10 @@ mod tests {
     fn a_lattice_too_large_to_search_is_refused() {
         for (step_m, surface_radius_m) in [(0.1, 3.0), (0.5, 100.0)] {
             let mut config = PlannerConfig::default();
-            config.forecast.step_m = step_m;
+            config.state_lattice.step_m = step_m;
             config.perception.surface_radius_m = surface_radius_m;
             let error = config.validate().unwrap_err().to_string();
-            assert!(error.starts_with("planner.forecast.step_m = "), "{error}");
+            assert!(error.starts_with("planner.state_lattice.step_m = "), "{error}");
         }
     }
 

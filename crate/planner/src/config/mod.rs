@@ -5,7 +5,8 @@ mod presets;
 
 use crate::gp::kernel::RationalQuadratic;
 use crate::gp::learning::LearningConfig;
-use crate::pose::SensorMount;
+use crate::robot_model::RobotModel;
+use crate::sensor_model::SensorModel;
 
 /// The planner's configuration. [`PlannerConfig::default`] is the best mapless choice known here, and
 /// [`PlannerConfig::paper`] the paper's text as literally as it allows.
@@ -16,38 +17,22 @@ pub struct PlannerConfig {
     pub period_s: f64,
     /// The goal counts as reached within this distance, metres. Paper: not given.
     pub goal_tolerance_m: f64,
-    /// Robot width w_r, metres. The Husky's is 0.685.
-    pub robot_width_m: f64,
-    /// Distance between front and rear axle, metres. The Husky's is 0.512.
-    pub wheelbase_m: f64,
-    /// Distance between the middles of left and right wheels, metres. The Husky's is 0.571.
-    pub track_m: f64,
-    /// Where the LiDAR sits.
-    pub mount: SensorMount,
-    /// The tilt the robot must never reach.
-    pub limits: TiltLimits,
+    /// The robot.
+    pub robot: RobotModel,
+    /// The LiDAR and where it sits.
+    pub sensor: SensorModel,
     /// From scan to variance surface and profile.
     pub perception: PerceptionConfig,
     /// From profile to segments and subgoals.
     pub segments: SegmentConfig,
     /// What is remembered of the ground for the forecast.
-    pub ground: ElevationWindowConfig,
+    pub elevation_window: ElevationWindowConfig,
     /// StateLattice over that ground, and the tilt they promise.
-    pub forecast: StateLatticeConfig,
+    pub state_lattice: StateLatticeConfig,
     /// The cost of a subgoal.
     pub decision: DecisionConfig,
     /// The PID controller.
     pub controller: ControllerConfig,
-}
-
-/// Roll and pitch limits (paper, section VI-B; Clearpath).
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct TiltLimits {
-    /// Largest safe |roll|. Paper: 0.524.
-    pub roll_rad: f64,
-    /// Largest safe |pitch|. Paper: 0.785.
-    pub pitch_rad: f64,
 }
 
 /// The occupancy surface and the sparse Gaussian process over it.

@@ -2,35 +2,27 @@
 
 use super::{
     ControllerConfig, CostModel, DecisionConfig, ElevationWindowConfig, InducingInputs, PerceptionConfig,
-    PidGains, PlannerConfig, SegmentConfig, StateLatticeConfig, TiltLimits,
+    PidGains, PlannerConfig, SegmentConfig, StateLatticeConfig,
 };
 use crate::gp::kernel::RationalQuadratic;
 use crate::gp::learning::{LearningConfig, LearningMode};
-use crate::pose::SensorMount;
+use crate::robot_model::RobotModel;
+use crate::sensor_model::SensorModel;
 
 impl Default for PlannerConfig {
     fn default() -> Self {
         Self {
             period_s: 0.1,
             goal_tolerance_m: 0.5,
-            robot_width_m: 0.685,
-            wheelbase_m: 0.512,
-            track_m: 0.571,
-            mount: SensorMount::default(),
-            limits: TiltLimits::default(),
+            robot: RobotModel::default(),
+            sensor: SensorModel::default(),
             perception: PerceptionConfig::default(),
             segments: SegmentConfig::default(),
-            ground: ElevationWindowConfig::default(),
-            forecast: StateLatticeConfig::default(),
+            elevation_window: ElevationWindowConfig::default(),
+            state_lattice: StateLatticeConfig::default(),
             decision: DecisionConfig::default(),
             controller: ControllerConfig::default(),
         }
-    }
-}
-
-impl Default for TiltLimits {
-    fn default() -> Self {
-        Self { roll_rad: 0.524, pitch_rad: 0.785 }
     }
 }
 

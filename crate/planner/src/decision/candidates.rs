@@ -28,12 +28,12 @@ impl Candidates<'_> {
         let Self { config, pose, .. } = *self;
         let radius_m = config.perception.surface_radius_m;
         for (index, segment) in segments.iter().enumerate() {
-            if !carries_subgoals(segment, config.robot_width_m, &config.segments) {
+            if !carries_subgoals(segment, config.robot.width_m, &config.segments) {
                 continue;
             }
             let elevation_rad = segment.elevation_rad.unwrap_or(LOWEST_ELEVATION_RAD);
-            for azimuth_rad in spread_azimuths(segment, config.robot_width_m, &config.segments) {
-                let skyline_m = world_position_m(pose, &config.mount, azimuth_rad, elevation_rad, radius_m);
+            for azimuth_rad in spread_azimuths(segment, config.robot.width_m, &config.segments) {
+                let skyline_m = world_position_m(pose, &config.sensor, azimuth_rad, elevation_rad, radius_m);
                 let mut subgoal = Subgoal {
                     segment: Some(index),
                     azimuth_rad,
@@ -59,8 +59,9 @@ impl Candidates<'_> {
         let direction = DVec2::new(cos, sin);
         let (reach_m, end) = lattice.reach_along(direction, config.perception.surface_radius_m);
         let end_m = pose.plan_m() + direction * reach_m;
-        let reached =
-            lattice.to(end_m).filter(|_| end == ReachEnd::Whole || reach_m >= config.forecast.min_reach_m);
+        let reached = lattice
+            .to(end_m)
+            .filter(|_| end == ReachEnd::Whole || reach_m >= config.state_lattice.min_reach_m);
         let found = reached.map_or(Forecast::default(), |reached| lattice.follow(reached, self.path));
         let height_m = reached.map_or(pose.position_m.z, |reached| lattice.height_m(reached));
         subgoal.position_m = end_m.extend(height_m);
@@ -84,7 +85,7 @@ impl Candidates<'_> {
                 (distance_m < radius_m * libm::cos(elevation_rad)).then_some(Subgoal {
                     segment: None,
                     azimuth_rad: bearing_rad,
-                    elevation_rad: -libm::atan2(self.config.mount.height_m, distance_m),
+                    elevation_rad: -libm::atan2(self.config.sensor.height_m, distance_m),
                     position_m: goal_m.extend(self.pose.position_m.z),
                     bearing_rad,
                     forecast: None,
@@ -120,7 +121,7 @@ impl Candidates<'_> {
         let reach_m = (place_m - self.pose.plan_m()).length();
         let height_m = self.lattice.height_m(reached);
         let bearing_rad = bearing_rad(self.pose, place_m);
-        let over_sensor_m = height_m - self.pose.position_m.z - self.config.mount.height_m;
+        let over_sensor_m = height_m - self.pose.position_m.z - self.config.sensor.height_m;
         Subgoal {
             segment: None,
             azimuth_rad: bearing_rad,

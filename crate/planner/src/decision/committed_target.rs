@@ -88,7 +88,7 @@ mod tests {
     /// What was headed for as seen from `here_x_m`, on level ground that ends at `end_x_m`.
     fn again(committed: &mut CommittedTarget, here_x_m: f64, end_x_m: f64) -> Result<Option<Subgoal>, DVec2> {
         let (config, pose) = (PlannerConfig::default(), pose(here_x_m));
-        let mut lattice = StateLattice::new(config.forecast, &config.limits, 7.0);
+        let mut lattice = StateLattice::new(config.state_lattice, &config.robot, 7.0);
         let ground = |place_m: DVec2| {
             let plane = Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 };
             (place_m.x < end_x_m).then_some(plane)

@@ -5,8 +5,9 @@ use glam::{DVec2, DVec3};
 use crate::config::SegmentConfig;
 use crate::decision::cost::Cost;
 use crate::math::angle::wrap_rad;
-use crate::pose::{Pose, SensorMount};
+use crate::pose::Pose;
 use crate::route::forecast::Forecast;
+use crate::sensor_model::SensorModel;
 use crate::skyline::segments::{Segment, Verdict};
 
 /// Why a subgoal is not a candidate.
@@ -66,7 +67,7 @@ pub(crate) fn carries_subgoals(segment: &Segment, robot_width_m: f64, config: &S
 /// The world position of the point at (azimuth, elevation, range) in the sensor frame: ᵂT_R g_R.
 pub(crate) fn world_position_m(
     pose: &Pose,
-    mount: &SensorMount,
+    mount: &SensorModel,
     azimuth_rad: f64,
     elevation_rad: f64,
     range_m: f64,
@@ -119,7 +120,7 @@ mod tests {
             x in -10.0..10.0_f64,
         ) {
             let pose = Pose { position_m: DVec3::new(x, 2.0, 1.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: yaw };
-            let mount = SensorMount::default();
+            let mount = SensorModel::default();
             let point = world_position_m(&pose, &mount, azimuth, elevation, 7.0);
             prop_assert!((bearing_rad(&pose, point.truncate()) - azimuth).abs() < 1e-9);
             let sensor = pose.position_m + DVec3::new(0.0, 0.0, mount.height_m);

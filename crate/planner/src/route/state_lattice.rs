@@ -17,9 +17,10 @@ use core::f64::consts::TAU;
 
 use glam::DVec2;
 
-use crate::config::{StateLatticeConfig, TiltLimits};
+use crate::config::StateLatticeConfig;
 use crate::math::angle::wrap_rad;
 use crate::pose::Pose;
+use crate::robot_model::RobotModel;
 use crate::route::queue::BucketQueue;
 use crate::terrain::attitude::AttitudeEstimate;
 use crate::terrain::elevation_window::TerrainQuery;
@@ -131,7 +132,7 @@ pub(crate) struct ReachedState {
 
 impl StateLattice {
     /// StateLattice within `radius_m`.
-    pub(crate) fn new(config: StateLatticeConfig, limits: &TiltLimits, radius_m: f64) -> Self {
+    pub(crate) fn new(config: StateLatticeConfig, limits: &RobotModel, radius_m: f64) -> Self {
         let traversability = TraversabilityMap::new(config, limits, radius_m);
         let states = traversability.count() * HEADINGS;
         // Each state is entered by two drives, some gaps, two turns and the first directions.

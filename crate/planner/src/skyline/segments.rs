@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use crate::config::SegmentConfig;
 use crate::math::angle::wrap_rad;
-use crate::pose::SensorMount;
+use crate::sensor_model::SensorModel;
 use crate::skyline::occupancy::{COLUMNS, column_azimuth_rad};
 use crate::skyline::profile::Column;
 
@@ -53,7 +53,7 @@ pub(crate) fn cut_segments(
     config: &SegmentConfig,
     radius_m: f64,
     robot_width_m: f64,
-    mount: &SensorMount,
+    mount: &SensorModel,
     segments: &mut Vec<Segment>,
 ) {
     segments.clear();
@@ -126,7 +126,7 @@ impl Run {
         config: &SegmentConfig,
         radius_m: f64,
         robot_width_m: f64,
-        mount: &SensorMount,
+        mount: &SensorModel,
     ) -> Segment {
         let step = TAU / COLUMNS as f64;
         let extent_rad = step * self.columns as f64;
@@ -163,7 +163,7 @@ mod tests {
     fn cut(profile: &[Column]) -> Vec<Segment> {
         let config = PlannerConfig::default();
         let mut segments = Vec::new();
-        cut_segments(profile, &config.segments, 7.0, 0.685, &config.mount, &mut segments);
+        cut_segments(profile, &config.segments, 7.0, 0.685, &config.sensor, &mut segments);
         segments
     }
 
@@ -202,7 +202,7 @@ mod tests {
         let mut config = PlannerConfig::default();
         config.segments.max_slope_rad = 0.3;
         let mut segments = Vec::new();
-        cut_segments(&profile, &config.segments, 7.0, 0.685, &config.mount, &mut segments);
+        cut_segments(&profile, &config.segments, 7.0, 0.685, &config.sensor, &mut segments);
         let verdicts: Vec<Verdict> = segments.iter().map(|s| s.verdict).collect();
         for verdict in
             [Verdict::TooNarrow, Verdict::TooSteep, Verdict::Wall, Verdict::Unknown, Verdict::Valid]

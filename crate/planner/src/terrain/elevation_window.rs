@@ -76,9 +76,16 @@ pub(crate) struct ElevationWindow {
 
 impl ElevationWindow {
     pub(crate) fn new(config: &PlannerConfig) -> Self {
-        let PlannerConfig { ground, wheelbase_m, track_m, .. } = *config;
+        let PlannerConfig { elevation_window, robot, .. } = *config;
         let views = VecDeque::with_capacity(MOST_VIEWS);
-        Self { config: ground, wheelbase_m, track_m, tick: 0, cells: vec![None; SIDE * SIDE], views }
+        Self {
+            config: elevation_window,
+            wheelbase_m: robot.wheelbase_m,
+            track_m: robot.track_m,
+            tick: 0,
+            cells: vec![None; SIDE * SIDE],
+            views,
+        }
     }
 
     pub(crate) fn clear(&mut self) {
@@ -203,7 +210,7 @@ mod tests {
         let mut ground = strewn(DVec2::ZERO, DVec2::ZERO);
         assert!(ground.plane_at(DVec2::new(6.0, 0.0)).is_none());
         assert!(ground.plane_at(DVec2::ZERO).is_some());
-        for _ in 0..=PlannerConfig::default().ground.memory_ticks {
+        for _ in 0..=PlannerConfig::default().elevation_window.memory_ticks {
             ground.advance();
         }
         assert!(ground.plane_at(DVec2::ZERO).is_none());

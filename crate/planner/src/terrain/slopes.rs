@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::config::TiltLimits;
+use crate::robot_model::RobotModel;
 
 /// Slopes along and across the robot that stand for a pitch and a roll.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,10 +13,10 @@ pub(crate) struct Slopes {
 
 impl Slopes {
     /// The slopes at which a robot is `margin_rad` inside its tilt limits.
-    pub(crate) fn of_limits(limits: &TiltLimits, margin_rad: f64) -> Self {
+    pub(crate) fn of_limits(limits: &RobotModel, margin_rad: f64) -> Self {
         Self {
-            across: libm::tan(limits.roll_rad - margin_rad),
-            along: libm::tan(limits.pitch_rad - margin_rad),
+            across: libm::tan(limits.roll_limit_rad - margin_rad),
+            along: libm::tan(limits.pitch_limit_rad - margin_rad),
         }
     }
 

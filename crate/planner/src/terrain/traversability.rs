@@ -2,8 +2,9 @@
 
 use glam::{DVec2, IVec2};
 
-use crate::config::{StateLatticeConfig, TiltLimits};
+use crate::config::StateLatticeConfig;
 use crate::math::elementary::floor;
+use crate::robot_model::RobotModel;
 use crate::terrain::elevation_window::TerrainQuery;
 use crate::terrain::headings::{DIRECTIONS, HEADINGS, STEPS, passed};
 use crate::terrain::plane::Plane;
@@ -33,7 +34,7 @@ const UNKNOWN: Place = Place { plane: None, risk: [f32::INFINITY; HEADINGS / 2],
 #[derive(Clone, Debug)]
 pub(crate) struct TraversabilityMap {
     config: StateLatticeConfig,
-    tilt_limits: TiltLimits,
+    tilt_limits: RobotModel,
     /// The tilt limits, what of them may be used, and the most that may be where there is nothing better.
     limits: Slopes,
     allowed: Slopes,
@@ -104,7 +105,7 @@ const LOOKS: i32 = 4;
 
 impl TraversabilityMap {
     /// A lattice that reaches `radius_m`.
-    pub(crate) fn new(config: StateLatticeConfig, limits: &TiltLimits, radius_m: f64) -> Self {
+    pub(crate) fn new(config: StateLatticeConfig, limits: &RobotModel, radius_m: f64) -> Self {
         let half = (radius_m / config.step_m).ceil() as i32 + 1;
         let side = (2 * half + 1) as usize;
         Self {

@@ -71,12 +71,15 @@ impl Session {
             waypoints: trial.waypoints_m().iter().copied().map(Place::from).collect(),
             goal: trial.goal_m().into(),
             period_s: config.period_s,
-            limits: TiltLimits { roll_rad: config.limits.roll_rad, pitch_rad: config.limits.pitch_rad },
+            limits: TiltLimits {
+                roll_rad: config.robot.roll_limit_rad,
+                pitch_rad: config.robot.pitch_limit_rad,
+            },
             occupancy_radius_m: config.perception.surface_radius_m,
-            sensor_height_m: config.mount.height_m,
+            sensor_height_m: config.sensor.height_m,
             image: ImageSize { columns: COLUMNS, rows: ROWS, rings: RINGS },
             demands: SegmentDemands {
-                robot_width_m: config.robot_width_m,
+                robot_width_m: config.robot.width_m,
                 safety_margin_m: config.segments.safety_margin_m,
                 max_slope_rad: config.segments.max_slope_rad,
                 subgoals_on_unknown: config.segments.subgoals_on_unknown,

@@ -10,7 +10,7 @@ use crate::terrain::plane::Plane;
 
 fn lattice() -> StateLattice {
     let config = PlannerConfig::default();
-    StateLattice::new(config.forecast, &config.limits, 7.0)
+    StateLattice::new(config.state_lattice, &config.robot, 7.0)
 }
 
 fn pose(roll_rad: f64, pitch_rad: f64) -> Pose {
@@ -81,7 +81,7 @@ fn a_way_leads_around_a_knoll_that_it_could_cross() {
         let gradient = if inside { from_top_m * (-0.8 * (1.0 - reach)) } else { DVec2::ZERO };
         Some(Plane { height_m, gradient, gradient_deviation: 0.0 })
     };
-    let limits = PlannerConfig::default().limits;
+    let limits = PlannerConfig::default().robot;
     let [over, around, impatient] = [(0.0, 1.0), (4.0, 1.0), (4.0, 0.1)].map(|(climb_price, share)| {
         let config = StateLatticeConfig { tilt_price: 0.0, climb_price, ..StateLatticeConfig::default() };
         let mut lattice = StateLattice::new(config, &limits, 7.0);
@@ -151,18 +151,18 @@ fn on_a_slope_too_steep_to_turn_on_the_way_back_is_in_reverse() {
 
 #[test]
 fn a_turn_keeps_the_least_margin_in_roll_and_in_pitch() {
-    let limits = PlannerConfig::default().limits;
-    let least_rad = PlannerConfig::default().forecast.escape_margin_rad;
+    let limits = PlannerConfig::default().robot;
+    let least_rad = PlannerConfig::default().state_lattice.escape_margin_rad;
     let mut lattice = lattice();
     // Half-way between up and down a slope the robot rolls.
     for (excess_rad, may_turn) in [(-0.01, true), (0.01, false)] {
-        lattice.search(&level, &pose(0.0, limits.roll_rad - least_rad + excess_rad));
+        lattice.search(&level, &pose(0.0, limits.roll_limit_rad - least_rad + excess_rad));
         assert_eq!(lattice.may_turn_around(), may_turn);
     }
     // Inside both limits, on a slope that is steeper than either: only towards its foot does the pitch grow.
     lattice.search(&level, &pose(0.28, -0.70));
     let down_m = -lattice.attitude.gradient;
-    assert!(down_m.length() > libm::tan(limits.pitch_rad - least_rad));
+    assert!(down_m.length() > libm::tan(limits.pitch_limit_rad - least_rad));
     assert!(!lattice.may_turn_to(down_m));
     assert!(lattice.may_turn_to(DVec2::from_angle(-0.1 * down_m.y.signum())));
 }
@@ -170,7 +170,7 @@ fn a_turn_keeps_the_least_margin_in_roll_and_in_pitch() {
 #[test]
 fn ground_with_the_least_margin_is_crossed_where_nothing_else_leads_on() {
     let config = PlannerConfig::default();
-    let steep = libm::tan(config.limits.pitch_rad - config.forecast.escape_margin_rad - 0.005);
+    let steep = libm::tan(config.robot.pitch_limit_rad - config.state_lattice.escape_margin_rad - 0.005);
     let slope = |place_m: DVec2, half_width_m: f64| {
         let on_bank = (1.9..3.1).contains(&place_m.x) && place_m.y.abs() < half_width_m;
         plane(place_m, if on_bank { DVec2::new(steep, 0.0) } else { DVec2::ZERO })
@@ -463,10 +463,10 @@ proptest! {
         let Some(reached) = lattice.to(DVec2::new(cos, sin) * 6.0) else { return Ok(()) };
         let mut path = Vec::new();
         let forecast = lattice.follow(reached, &mut path);
-        let margin_rad = PlannerConfig::default().forecast.escape_margin_rad;
-        let limits = PlannerConfig::default().limits;
-        prop_assert!(forecast.max_roll_rad <= limits.roll_rad - margin_rad + 1e-6, "{forecast:?}");
-        prop_assert!(forecast.max_pitch_rad <= limits.pitch_rad - margin_rad + 1e-6, "{forecast:?}");
+        let margin_rad = PlannerConfig::default().state_lattice.escape_margin_rad;
+        let limits = PlannerConfig::default().robot;
+        prop_assert!(forecast.max_roll_rad <= limits.roll_limit_rad - margin_rad + 1e-6, "{forecast:?}");
+        prop_assert!(forecast.max_pitch_rad <= limits.pitch_limit_rad - margin_rad + 1e-6, "{forecast:?}");
         prop_assert!(forecast.max_roll_rad < FRAC_PI_2 && forecast.path_m >= 5.0);
         prop_assert!(path.windows(2).all(|pair| pair[1].cost_m > pair[0].cost_m));
     }

@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn views_are_forgotten_with_the_ground_seen_from_them() {
         let mut ground = come_from(DVec2::new(-3.0, 0.0), 0.0);
-        for _ in 0..=PlannerConfig::default().ground.memory_ticks {
+        for _ in 0..=PlannerConfig::default().elevation_window.memory_ticks {
             ground.advance();
             ground.looked_from(DVec3::new(0.0, 0.0, 0.8), DVec3::Z);
         }
