@@ -14,8 +14,9 @@ export default defineConfig({
   // The page renders in software and simulates in a worker: two pages at once would starve each other.
   workers: 1,
   fullyParallel: false,
-  timeout: 120_000,
-  expect: { timeout: 30_000 },
+  // Tests wait for what is to come, and a busy machine may take long: these end only what hangs.
+  timeout: 1_200_000,
+  expect: { timeout: 300_000 },
   reporter: [['list']],
   use: {
     baseURL: `http://127.0.0.1:${port}`,

@@ -42,7 +42,8 @@ const startEarly: Plugin = {
     handler(html, { bundle = {} }) {
       const page = Object.values(bundle).find((file) => file.type === 'chunk' && file.name === 'page');
       const entry = '<script async type="module"';
-      if (!page || !html.includes(entry)) throw new Error('The build has no entry, or no chunk of web/src/page.ts.');
+      if (!page || !html.includes(entry))
+        throw new Error('The build has no entry, or no chunk of web/src/boot/page.ts.');
       const tags = [
         { tag: 'link', injectTo: 'head' as const, attrs: { rel: 'modulepreload', href: `./${page.fileName}` } },
       ];

@@ -35,11 +35,10 @@ test.describe('in Firefox', () => {
   test.skip(!FIREFOX, 'No Firefox was found: install it, or name it in the environment variable FIREFOX.');
 
   test('a run has the digest and the trajectory of the command line', async ({ firefox }) => {
-    test.setTimeout(600_000);
     await firefox.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
     await firefox.evaluate(() => window.mapless?.loadScenario('ht', { seed: 3 }));
     await firefox.evaluate(() => window.mapless?.play());
-    await until(firefox, (now) => now.outcome !== 'running', 500_000);
+    await until(firefox, (now) => now.outcome !== 'running');
     const { outcome, digest } = await state(firefox);
     const out = mkdtempSync(join(tmpdir(), 'mapless-'));
     const run = driven('terrains/scenarios/ht.toml', '--seed', '3', '--out', out);
@@ -108,7 +107,6 @@ test.describe('in Firefox', () => {
   });
 
   test('a batch of seeds runs beside the page', async ({ firefox }) => {
-    test.setTimeout(300_000);
     await shortCourse(firefox, 3);
     await firefox.click('#lab');
     await firefox.click('[role=tab]:nth-of-type(3)');
@@ -119,7 +117,7 @@ test.describe('in Firefox', () => {
     await firefox.click('.lab-action');
     const text = (selector: string) =>
       firefox.evaluate((asked) => document.querySelector(asked)?.textContent, selector);
-    await expect.poll(() => text('.seeds-summary'), { timeout: 200_000 }).toContain('3 of 3 (95 %: 44 % to 100 %)');
+    await expect.poll(() => text('.seeds-summary')).toContain('3 of 3 (95 %: 44 % to 100 %)');
     expect(await text('.seeds-table tbody')).toMatch(/^1Goal reached.*2Goal reached.*3Goal reached/);
   });
 });

@@ -1,4 +1,19 @@
+import type { Page } from '@playwright/test';
 import { driveTo, expect, moved, state, still, test, until } from './page.ts';
+
+/** Of the ground above height zero, in cubic metres. */
+function volume(page: Page): Promise<number> {
+  return page.evaluate(() => {
+    const { columns = 0, rows = 0, cell_m = 1 } = window.mapless?.state()?.ground ?? {};
+    let sum_m = 0;
+    for (let row = 0; row < rows; row += 1) {
+      for (let column = 0; column < columns; column += 1) {
+        sum_m += window.mapless?.heightAt({ x: column * cell_m, y: row * cell_m }) ?? 0;
+      }
+    }
+    return sum_m * cell_m * cell_m;
+  });
+}
 
 test('a stroke of the brush raises the ground, and the next scan shows it', async ({ mapless: page }) => {
   await still(page);
@@ -10,12 +25,13 @@ test('a stroke of the brush raises the ground, and the next scan shows it', asyn
   if (!box) throw new Error('The view has no place.');
   // The view follows the robot: above its centre lies the ground ahead.
   const [x, y] = [box.x + box.width / 2, box.y + 0.36 * box.height];
+  const level_m3 = await volume(page);
   await page.mouse.move(x, y);
   await page.mouse.down();
-  for (let step = 0; step < 12; step += 1) {
-    await page.mouse.move(x + 4 * step, y);
-    await page.waitForTimeout(50);
-  }
+  await expect(async () => {
+    for (let step = 0; step < 12; step += 1) await page.mouse.move(x + 4 * step, y);
+    expect((await volume(page)) - level_m3).toBeGreaterThan(3);
+  }).toPass();
   await page.mouse.up();
   await expect.poll(() => page.evaluate(() => window.mapless?.experiment()?.strokes.length)).toBe(1);
   await still(page);

@@ -1,4 +1,4 @@
-import { expect, moved, state, still, test, until } from './page.ts';
+import { expect, moved, state, still, test, textsOf, until } from './page.ts';
 
 test('everything runs by keyboard', async ({ mapless: page }) => {
   // Far enough from the start that a restart shows.
@@ -14,8 +14,10 @@ test('everything runs by keyboard', async ({ mapless: page }) => {
   await until(page, (now) => now.speed === 2);
   await page.keyboard.press(',');
   await until(page, (now) => now.speed === 1);
+  const times = await textsOf(page, '#time');
   await page.keyboard.press('r');
-  await until(page, (now) => now.playing && now.tick < tick);
+  await expect.poll(times).toContain('0:00.0');
+  await until(page, (now) => now.playing);
   await page.keyboard.press('5');
   await expect(page.getByRole('radio', { name: 'Lower' })).toBeChecked();
   const size = page.getByRole('slider', { name: 'Size' });

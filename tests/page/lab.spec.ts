@@ -33,7 +33,6 @@ test('a parameter is found, changed, refused with the reason at its field, and r
 test('every kind of parameter is set, and the command line drives the same way with them', async ({
   mapless: page,
 }) => {
-  test.setTimeout(400_000);
   await shortCourse(page, 4);
   const overrides = {
     sensor: { dropout_probability: 0.2, columns: 900 },
@@ -46,7 +45,7 @@ test('every kind of parameter is set, and the command line drives the same way w
   };
   await page.evaluate((values) => window.mapless?.setOverrides(values), overrides);
   await page.evaluate(() => window.mapless?.play());
-  await until(page, (now) => now.outcome !== 'running', 200_000);
+  await until(page, (now) => now.outcome !== 'running');
   const { start, goal, seed, digest, tick } = await state(page);
 
   const scenario = `terrain = "${resolve('terrains/cht.toml')}"
@@ -84,16 +83,15 @@ test('the table of parameters and the drawer work by keyboard', async ({ mapless
 test('ghosts drive the same course: the same planner gives the same digest, another one another way', async ({
   mapless: page,
 }) => {
-  test.setTimeout(300_000);
   await shortCourse(page, 4, 3);
   await openLab(page, 'Compare');
   await page.getByRole('checkbox', { name: /^Best/ }).check();
   await page.getByRole('checkbox', { name: /^Direct/ }).check();
   await page.evaluate(() => window.mapless?.play());
-  await until(page, (now) => now.outcome === 'reached', 200_000);
+  await until(page, (now) => now.outcome === 'reached');
   const table = page.locator('.comparison').first();
   const row = (name: string) => table.getByRole('row', { name });
-  await expect(row('Outcome').getByText('Goal reached')).toHaveCount(3, { timeout: 120_000 });
+  await expect(row('Outcome').getByText('Goal reached')).toHaveCount(3);
   // Distance, roll, …: no difference of the same planner with the same seed.
   for (const name of ['Distance', 'Largest roll', 'Vibration']) {
     await expect(row(name).getByRole('cell').nth(1)).toHaveText(/\(0\.0+\)$/);
@@ -102,7 +100,6 @@ test('ghosts drive the same course: the same planner gives the same digest, anot
 });
 
 test('a ghost that catches up is compared with the robot in view at the same tick', async ({ mapless: page }) => {
-  test.setTimeout(300_000);
   await driveTo(page, 200);
   await openLab(page, 'Compare');
   // Each difference that the same planner with the same seed is ever shown with.
@@ -119,7 +116,7 @@ test('a ghost that catches up is compared with the robot in view at the same tic
   });
   await page.getByRole('checkbox', { name: /^Best/ }).check();
   const time = page.locator('.comparison').getByRole('row', { name: 'Time' }).getByRole('cell').nth(1);
-  await expect(time).toHaveText(/^\d+:\d\d\.\d$/, { timeout: 200_000 });
+  await expect(time).toHaveText(/^\d+:\d\d\.\d$/);
   const seen = await page.evaluate(() => [...(window as unknown as { seen: Set<string> }).seen]);
   expect(seen.length).toBeGreaterThan(0);
   for (const difference of seen) expect(difference).toMatch(/^(–|\(0\.0+\))$/);
@@ -150,17 +147,16 @@ function processors(page: Page, count: number): Promise<unknown> {
 }
 
 test('many seeds run beside the page, are summed up, replayed and cancelled', async ({ mapless: page }) => {
-  test.setTimeout(400_000);
   await shortCourse(page, 3);
   await openLab(page, 'Seeds');
   await page.getByLabel('How many').fill('3');
   await page.getByLabel('From seed').fill('41');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await expect(page.locator('.seeds-table tbody tr')).toHaveCount(3, { timeout: 200_000 });
+  await expect(page.locator('.seeds-table tbody tr')).toHaveCount(3);
   await expect(page.locator('.seeds-summary')).toContainText('3 of 3 (95 %: 44 % to 100 %)');
   const time = await page.locator('.seeds-table tbody tr').nth(1).getByRole('cell').nth(1).textContent();
   await page.getByRole('button', { name: 'Show seed 42' }).click();
-  await until(page, (now) => now.seed === 42 && now.outcome === 'reached', 200_000);
+  await until(page, (now) => now.seed === 42 && now.outcome === 'reached');
   await expect(page.locator('#time')).toHaveText(time ?? '');
 
   await page.getByLabel('How many').fill('200');
@@ -170,7 +166,6 @@ test('many seeds run beside the page, are summed up, replayed and cancelled', as
 });
 
 test('one worker and several give the same table and the same summary', async ({ mapless: page }) => {
-  test.setTimeout(400_000);
   await processors(page, 2);
   await page.reload();
   await loaded(page);
@@ -190,7 +185,6 @@ test.describe(() => {
   test.use({ serviceWorkers: 'block' });
 
   test('a panic is told with its seed, and all other seeds are driven', async ({ mapless: page }) => {
-    test.setTimeout(400_000);
     const trap = 'tick(){throw new WebAssembly.RuntimeError("unreachable");';
     const scripts = '**/mapless_wasm_baselines*.js';
     await changeFirstCore(page, (script) => script.replace(/\btick\(\)\s*\{/, trap), scripts);

@@ -4,7 +4,6 @@ import { expect, loaded, state, test, until } from './page.ts';
 test.use({ viewport: { width: 720, height: 560 } });
 
 test('after the first visit the page opens and drives without a network', async ({ mapless: page, context }) => {
-  test.setTimeout(300_000);
   await page.evaluate(() => navigator.serviceWorker.ready);
   await context.setOffline(true);
   await page.goto('/?again');
@@ -19,7 +18,6 @@ test('after the first visit the page opens and drives without a network', async 
 });
 
 test('a new version is offered, and starts when asked for', async ({ mapless: page }) => {
-  test.setTimeout(300_000);
   await page.evaluate(() => navigator.serviceWorker.ready);
   await page.addInitScript(() => {
     const { register } = ServiceWorkerContainer.prototype;

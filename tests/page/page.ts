@@ -2,8 +2,8 @@
 
 import { readFileSync } from 'node:fs';
 import { test as base, expect, type Locator, type Page } from '@playwright/test';
-import type { MaplessApi, MaplessState } from '../../web/src/api.ts';
-import type { Experiment } from '../../web/src/core/experiment.ts';
+import type { MaplessApi, MaplessState } from '../../web/src/app/windowApi.ts';
+import type { Experiment } from '../../web/src/experiment/experiment.ts';
 
 declare global {
   interface Window {
@@ -54,9 +54,26 @@ export async function state(page: Asked): Promise<MaplessState> {
   return now;
 }
 
-/** Waits until what `read` gives passes `check`. */
-export async function until(page: Asked, check: (now: MaplessState) => boolean, timeout = 60_000): Promise<void> {
-  await expect.poll(async () => check(await state(page)), { timeout, intervals: [100] }).toBe(true);
+/** A run may take so long on a busy machine. */
+const RUN_MS = 900_000;
+
+/** Waits until the page's state passes `check`. */
+export async function until(page: Asked, check: (now: MaplessState) => boolean): Promise<void> {
+  await expect.poll(async () => check(await state(page)), { timeout: RUN_MS, intervals: [100] }).toBe(true);
+}
+
+/** Notes each text that an element shows from now on: on a busy machine, what stands only for a moment may be over before a test looks. */
+export async function textsOf(page: Page, selector: string): Promise<() => Promise<string[]>> {
+  const noted = await page.locator(selector).evaluateHandle((element) => {
+    const texts: string[] = [];
+    new MutationObserver(() => texts.push(element.textContent ?? '')).observe(element, {
+      characterData: true,
+      childList: true,
+      subtree: true,
+    });
+    return texts;
+  });
+  return () => noted.jsonValue();
 }
 
 /** Whether a place is another one; one coordinate alone may be the same by chance. */

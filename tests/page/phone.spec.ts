@@ -102,7 +102,7 @@ test('what is pointed at can be closed, however long its title', async ({ maples
     await page.keyboard.press('ArrowRight');
     const card = page.locator('#detail');
     const [title, chip] = [card.locator('.detail-title'), card.locator('.detail-chip')];
-    await title.evaluate((one) => one.replaceChildren('Place already seen, 179° right'));
+    await title.evaluate((one) => one.replaceChildren('Frontier or committed target, 179° right'));
     await chip.evaluate((one) => one.replaceChildren('candidate'));
     const [outer, close] = [await card.boundingBox(), await card.getByRole('button', { name: 'Close' }).boundingBox()];
     if (!outer || !close) throw new Error('The card is not shown.');
@@ -181,7 +181,7 @@ for (const [width, height] of [
     await still(page);
     const found = () => misplaced(page, height > 320);
     expect(await found()).toEqual([]);
-    // A brush with every setting, and the goal with stops to clear.
+    // A brush with every setting, and the goal with waypoints to clear.
     await page.keyboard.press('8');
     expect(await found(), 'Height').toEqual([]);
     await page.keyboard.press('2');

@@ -5,7 +5,7 @@ import { still, until } from './page.ts';
 async function underWay(page: Page, address: string, tick: number): Promise<void> {
   await page.goto(address);
   await page.waitForFunction(() => window.mapless?.state() !== undefined);
-  await until(page, (now) => now.tick > tick, 90_000);
+  await until(page, (now) => now.tick > tick);
   await still(page);
 }
 

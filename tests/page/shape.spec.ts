@@ -1,5 +1,5 @@
 import type { Page } from '@playwright/test';
-import { BRUSHES } from '../../web/src/scene/brushes.ts';
+import { BRUSHES } from '../../web/src/ground/brushes.ts';
 import { expect, state, still, test, until, within } from './page.ts';
 
 /** Every fourth sample of the ground, row by row. */

@@ -1,5 +1,5 @@
 import type { Page } from '@playwright/test';
-import { tidyPlace } from '../../web/src/core/experiment.ts';
+import { tidyPlace } from '../../web/src/experiment/experiment.ts';
 import { expect, state, still, test, until } from './page.ts';
 
 /** Restarts with a goal some metres ahead and drives there as fast as it goes; gives the last tick and the digest. */
@@ -11,12 +11,11 @@ async function driveAhead(page: Page, ahead_m: number): Promise<{ tick: number; 
   await page.evaluate((place) => window.mapless?.setGoal(place), goal);
   await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
   await page.evaluate(() => window.mapless?.play());
-  await until(page, (now) => now.outcome === 'reached', 110_000);
+  await until(page, (now) => now.outcome === 'reached');
   return state(page);
 }
 
 test('going back and on gives the digest of an uninterrupted run', async ({ mapless: page }) => {
-  test.setTimeout(240_000);
   const { tick, digest } = await driveAhead(page, 5);
   expect(tick).toBeGreaterThan(40);
   for (const target of [Math.round(tick / 2), 7, tick - 3]) {
@@ -31,7 +30,7 @@ test('going back and on gives the digest of an uninterrupted run', async ({ mapl
   }
   await page.evaluate(() => window.mapless?.seek(11));
   await page.evaluate(() => window.mapless?.play());
-  await until(page, (now) => now.outcome === 'reached', 110_000);
+  await until(page, (now) => now.outcome === 'reached');
   expect(await state(page)).toMatchObject({ tick, digest });
 });
 
@@ -56,7 +55,6 @@ test('the slider goes along the run by keyboard, and buttons and keys too', asyn
 test('another goal in the past begins another future, and before it the old goal is back', async ({
   mapless: page,
 }) => {
-  test.setTimeout(180_000);
   await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
   await until(page, (now) => now.tick >= 45);
   const { goal, pose } = await state(page);
@@ -79,8 +77,7 @@ test('another goal in the past begins another future, and before it the old goal
   expect(await state(page)).toMatchObject({ tick: 0, goal: other, disturbed: false });
 });
 
-test('stops are driven to in order, and cleared again', async ({ mapless: page }) => {
-  test.setTimeout(240_000);
+test('waypoints are driven to in order, and cleared again', async ({ mapless: page }) => {
   await page.evaluate(() => window.mapless?.pause());
   await page.evaluate(() => window.mapless?.restart());
   const { pose } = await state(page);
@@ -90,33 +87,33 @@ test('stops are driven to in order, and cleared again', async ({ mapless: page }
       y: pose.y + ahead_m * Math.sin(pose.yaw) + left_m * Math.cos(pose.yaw),
     });
   const route = [at(3, 0), at(4.5, 1.5)];
-  const [stop, goal] = route;
-  await page.evaluate(([first, last]) => first && last && window.mapless?.setGoal(last, [first]), [stop, goal]);
-  expect(await state(page)).toMatchObject({ waypoints: [stop], goal, waypointsPassed: 0 });
+  const [waypoint, goal] = route;
+  await page.evaluate(([first, last]) => first && last && window.mapless?.setGoal(last, [first]), [waypoint, goal]);
+  expect(await state(page)).toMatchObject({ waypoints: [waypoint], goal, waypointsPassed: 0 });
   await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
   await page.evaluate(() => window.mapless?.play());
-  await until(page, (now) => now.waypointsPassed === 1, 110_000);
-  await until(page, (now) => now.outcome === 'reached', 110_000);
+  await until(page, (now) => now.waypointsPassed === 1);
+  await until(page, (now) => now.outcome === 'reached');
 
   await page.evaluate(() => window.mapless?.pause());
   await page.evaluate(() => window.mapless?.restart());
   await page.getByRole('radio', { name: 'Goal' }).check();
-  await page.getByLabel('Add stops').check();
+  await page.getByLabel('Add waypoints').check();
   await still(page);
   const box = await page.locator('#view').boundingBox();
   if (!box) throw new Error('The view has no size.');
-  await expect(page.locator('#tool-hint')).toContainText('stop on the way to the goal');
+  await expect(page.locator('#tool-hint')).toContainText('each waypoint before the goal');
   const before = await state(page);
-  // Two presses, the second before the first is carried out: stops on the way, in their order, before the same goal.
+  // Two presses, the second before the first is carried out: waypoints, in their order, before the same goal.
   await page.mouse.click(box.x + 0.55 * box.width, box.y + 0.55 * box.height);
   await page.mouse.click(box.x + 0.45 * box.width, box.y + 0.6 * box.height);
   await until(page, (now) => now.waypoints.length === 3);
   const after = await state(page);
   expect(after.goal).toEqual(before.goal);
-  expect(after.waypoints[0]).toEqual(stop);
+  expect(after.waypoints[0]).toEqual(waypoint);
   // In the view's chase camera what is farther to the left of the picture is farther to the robot's left.
   const left = ({ x = 0, y = 0 } = {}) => -Math.sin(pose.yaw) * (x - pose.x) + Math.cos(pose.yaw) * (y - pose.y);
   expect(left(after.waypoints[2])).toBeGreaterThan(left(after.waypoints[1]));
-  await page.getByRole('button', { name: 'Clear stops' }).click();
+  await page.getByRole('button', { name: 'Clear waypoints' }).click();
   await until(page, (now) => now.waypoints.length === 0);
 });

@@ -6,10 +6,10 @@ import './style/controls.css';
 import './style/messages.css';
 import './style/measure.css';
 import './style/panels.css';
-import './style/thinking.css';
+import './style/inspector.css';
 import './style/ground.css';
 import './style/small.css';
-import { core } from './early.ts';
+import { core } from './boot/startCore.ts';
 
 if (document.readyState === 'loading') {
   await new Promise((resolve) => document.addEventListener('DOMContentLoaded', resolve, { once: true }));
@@ -18,4 +18,4 @@ if (document.readyState === 'loading') {
 document.getElementById('app')?.removeAttribute('hidden');
 // Making the page takes longer than starting the core's thread, which then loads beside it.
 await core.started;
-await import('./page.ts');
+await import('./boot/page.ts');

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { askedFor } from '../src/core/address.ts';
+import { askedFor } from '../src/experiment/address.ts';
 
 const asked = (search: string) => askedFor(new URLSearchParams(search));
 

@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { publish } from '../src/api.ts';
-import type { App } from '../src/app.ts';
+import type { App } from '../src/app/app.ts';
+import { publish } from '../src/app/windowApi.ts';
 
 test('docs/API.md names every method of the API and no other', () => {
   const page: { mapless?: object } = {};

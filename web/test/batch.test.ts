@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Batch, type FromBatch, workersFor } from '../src/trials/batch.ts';
-import type { startJob } from '../src/trials/client.ts';
-import type { FromTrials, Summary, ToTrials, TrialResult } from '../src/trials/protocol.ts';
+import type { startJob } from '../src/trials/trialsClient.ts';
+import type { FromTrials, Summary, ToTrials, TrialResult } from '../src/trials/trialsProtocol.ts';
 
 /** A worker that answers when the test says so. */
 class Worker {

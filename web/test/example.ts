@@ -1,6 +1,6 @@
 /** An experiment with something of everything. */
 
-import type { Experiment, Stroke } from '../src/core/experiment.ts';
+import type { Experiment, Stroke } from '../src/experiment/experiment.ts';
 
 export const STROKE: Stroke = { kind: 'raise', radius_m: 2, strength_m: 0.07, points_cm: [1234, 560, 1240, 575] };
 

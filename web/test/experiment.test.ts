@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { readExperiment } from '../src/core/readExperiment.ts';
-import { recipeFile, scenarioFile, strokeKeys } from '../src/core/toml.ts';
+import { readExperiment } from '../src/experiment/readExperiment.ts';
+import { recipeFile, scenarioFile, strokeKeys } from '../src/experiment/scenarioFiles.ts';
 import { EXPERIMENT, STROKE } from './example.ts';
 
 /** The document with one part replaced, by the path of its keys. */

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { clock, degrees, fixed, grouped, wrap } from '../src/ui/format.ts';
+import { clock, degrees, fixed, grouped, wrap } from '../src/base/format.ts';
 
 test('numbers have a real minus, no negative zero, and a dash for what is unknown', () => {
   assert.equal(fixed(-1.26, 1), '\u22121.3');

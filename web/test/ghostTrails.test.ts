@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { GhostTrails } from '../src/lab/ghostTrails.ts';
 import { GhostRun } from '../src/trials/ghostRun.ts';
-import { ROW, type TrialResult } from '../src/trials/protocol.ts';
+import { ROW, type TrialResult } from '../src/trials/trialsProtocol.ts';
 
 /** A run that is at x = tick after each of so many ticks. */
 function driven(ticks: number): GhostRun {

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Pose } from '../src/core/protocol.ts';
-import { Glide } from '../src/scene/glide.ts';
+import type { Pose } from '../src/protocol/simulationProtocol.ts';
+import { Glide } from '../src/view/glide.ts';
 
 const pose = (x: number, yaw = 0): Pose => ({ x, y: 0, z: 0, roll: 0, pitch: 0, yaw });
 

@@ -1,18 +1,18 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Command, Ground, GroundPatch, SessionInfo, Source } from '../src/core/protocol.ts';
-import { Workbench } from '../src/workbench.ts';
+import { Editor } from '../src/editor/editor.ts';
+import type { Command, Ground, GroundPatch, SessionInfo, Source } from '../src/protocol/simulationProtocol.ts';
 import { EXPERIMENT } from './example.ts';
 
 /** A core whose strokes raise whole rows by one metre, and which notes what it is asked. */
 class Core {
   readonly asked: string[] = [];
-  readonly bench: Workbench;
+  readonly editor: Editor;
   info: SessionInfo | undefined;
   readonly field: Ground = { columns: 4, rows: 4, cell_m: 1, heights_m: new Float32Array(16) };
 
   constructor() {
-    this.bench = new Workbench({
+    this.editor = new Editor({
       request: (command) => this.#carryOut(command),
       ground: () => this.field,
       info: () => this.info,
@@ -24,7 +24,7 @@ class Core {
     await Promise.resolve();
     this.asked.push(command.type);
     if (command.type === 'load' && 'experiment' in command.source) {
-      this.bench.loaded({ experiment: command.source.experiment, scenario: SOURCE.experiment });
+      this.editor.loaded({ experiment: command.source.experiment, scenario: SOURCE.experiment });
     }
     if (command.type === 'goal' && command.goal.x < 0) throw new Error('goal off the terrain');
     if (command.type === 'sculpt') {
@@ -39,11 +39,11 @@ class Core {
 
   #put(patch: GroundPatch): void {
     this.field.heights_m.set(patch.heights_m, 4 * patch.row);
-    this.bench.patched(patch);
+    this.editor.patched(patch);
   }
 
   stroke(...rows: number[]): Promise<void> {
-    const stroke = this.bench.stroke({ kind: 'raise', radius_m: 1, strength_m: 1 });
+    const stroke = this.editor.stroke({ kind: 'raise', radius_m: 1, strength_m: 1 });
     for (const y of rows) stroke.touch({ x: 0, y });
     return stroke.end();
   }
@@ -57,7 +57,7 @@ const SOURCE = { experiment: { ...EXPERIMENT, strokes: [] } } satisfies Source;
 
 async function opened(): Promise<Core> {
   const core = new Core();
-  await core.bench.open(SOURCE, false, false);
+  await core.editor.open(SOURCE, false, false);
   core.asked.length = 0;
   return core;
 }
@@ -67,17 +67,17 @@ test('strokes are undone and redone by putting heights back, in any number and i
   await core.stroke(1, 2);
   await core.stroke(2, 3, 2);
   assert.deepEqual(core.heights(), [0, 1, 3, 1]);
-  assert.equal(core.bench.experiment?.strokes[1]?.points_cm.length, 6);
-  await core.bench.undo();
+  assert.equal(core.editor.experiment?.strokes[1]?.points_cm.length, 6);
+  await core.editor.undo();
   assert.deepEqual(core.heights(), [0, 1, 1, 0]);
-  await core.bench.undo();
+  await core.editor.undo();
   assert.deepEqual(core.heights(), [0, 0, 0, 0]);
-  assert.equal(core.bench.canUndo, false);
-  await core.bench.undo();
-  await core.bench.redo();
-  await core.bench.redo();
+  assert.equal(core.editor.canUndo, false);
+  await core.editor.undo();
+  await core.editor.redo();
+  await core.editor.redo();
   assert.deepEqual(core.heights(), [0, 1, 3, 1]);
-  assert.equal(core.bench.canRedo, false);
+  assert.equal(core.editor.canRedo, false);
   assert.ok(
     core.asked.slice(2).every((type) => type === 'sculpt' || type === 'replace'),
     core.asked.join(),
@@ -86,71 +86,71 @@ test('strokes are undone and redone by putting heights back, in any number and i
 
 test('goal, start and strokes share one history', async () => {
   const core = await opened();
-  await core.bench.setRoute(() => ({ waypoints: [], goal: { x: 8.123456, y: 2 } }));
-  assert.deepEqual(core.bench.experiment?.goal, { x: 8.12, y: 2 });
+  await core.editor.setRoute(() => ({ waypoints: [], goal: { x: 8.123456, y: 2 } }));
+  assert.deepEqual(core.editor.experiment?.goal, { x: 8.12, y: 2 });
   await core.stroke(1);
-  await core.bench.setStart({ x: 1, y: 1, heading_rad: 0.12345 });
+  await core.editor.setStart({ x: 1, y: 1, heading_rad: 0.12345 });
   core.asked.length = 0;
-  await core.bench.undo();
-  await core.bench.undo();
-  await core.bench.undo();
+  await core.editor.undo();
+  await core.editor.undo();
+  await core.editor.undo();
   assert.deepEqual(core.asked, ['start', 'replace', 'goal']);
-  assert.deepEqual(core.bench.experiment, SOURCE.experiment);
+  assert.deepEqual(core.editor.experiment, SOURCE.experiment);
 });
 
 test('another start, route or ground is not the scenario’s any more, until it is taken back', async () => {
   const core = await opened();
-  assert.equal(core.bench.asItComes, true);
+  assert.equal(core.editor.asItComes, true);
   for (const change of [
     () => core.stroke(1),
-    () => core.bench.setStart({ x: 12.01, y: 12, heading_rad: 1.5 }),
-    () => core.bench.setRoute(() => ({ waypoints: [], goal: EXPERIMENT.goal })),
-    () => core.bench.setRoute(() => ({ waypoints: EXPERIMENT.waypoints, goal: { x: 14, y: 57.01 } })),
+    () => core.editor.setStart({ x: 12.01, y: 12, heading_rad: 1.5 }),
+    () => core.editor.setRoute(() => ({ waypoints: [], goal: EXPERIMENT.goal })),
+    () => core.editor.setRoute(() => ({ waypoints: EXPERIMENT.waypoints, goal: { x: 14, y: 57.01 } })),
   ]) {
     await change();
-    assert.equal(core.bench.asItComes, false);
-    await core.bench.undo();
-    assert.equal(core.bench.asItComes, true);
+    assert.equal(core.editor.asItComes, false);
+    await core.editor.undo();
+    assert.equal(core.editor.asItComes, true);
   }
-  await core.bench.change({ preset: 'paper' });
-  assert.equal(core.bench.asItComes, true);
+  await core.editor.change({ preset: 'paper' });
+  assert.equal(core.editor.asItComes, true);
 });
 
 test('settings and other terrains are undone by loading', async () => {
   const core = await opened();
   await core.stroke(1);
-  await core.bench.change({ preset: 'paper' });
-  await core.bench.open({ experiment: { ...EXPERIMENT, name: 'other' } }, true, false);
+  await core.editor.change({ preset: 'paper' });
+  await core.editor.open({ experiment: { ...EXPERIMENT, name: 'other' } }, true, false);
   core.asked.length = 0;
-  await core.bench.undo();
-  assert.equal(core.bench.experiment?.preset, 'paper');
-  await core.bench.undo();
-  assert.equal(core.bench.experiment?.preset, 'default');
-  assert.equal(core.bench.experiment?.strokes.length, 1);
+  await core.editor.undo();
+  assert.equal(core.editor.experiment?.preset, 'paper');
+  await core.editor.undo();
+  assert.equal(core.editor.experiment?.preset, 'default');
+  assert.equal(core.editor.experiment?.strokes.length, 1);
   assert.deepEqual(core.asked, ['load', 'load']);
 });
 
 test('what the core refuses leaves no trace, and what follows goes on', async () => {
   const core = await opened();
-  const before = core.bench.experiment;
+  const before = core.editor.experiment;
   await assert.rejects(
-    core.bench.setRoute(() => ({ waypoints: [], goal: { x: -1, y: 0 } })),
+    core.editor.setRoute(() => ({ waypoints: [], goal: { x: -1, y: 0 } })),
     /off the terrain/,
   );
-  assert.equal(core.bench.experiment, before);
+  assert.equal(core.editor.experiment, before);
   await core.stroke(1);
-  assert.equal(core.bench.experiment?.strokes.length, 1);
+  assert.equal(core.editor.experiment?.strokes.length, 1);
 });
 
 test('a new change gives up what was undone; everything waits for the stroke in hand', async () => {
   const core = await opened();
   await core.stroke(1);
-  await core.bench.undo();
+  await core.editor.undo();
   await core.stroke(3);
-  assert.equal(core.bench.canRedo, false);
-  const stroke = core.bench.stroke({ kind: 'raise', radius_m: 1, strength_m: 1 });
+  assert.equal(core.editor.canRedo, false);
+  const stroke = core.editor.stroke({ kind: 'raise', radius_m: 1, strength_m: 1 });
   stroke.touch({ x: 0, y: 0 });
-  const undone = core.bench.undo();
+  const undone = core.editor.undo();
   stroke.touch({ x: 0, y: 0 });
   await stroke.end();
   await undone;
@@ -160,20 +160,20 @@ test('a new change gives up what was undone; everything waits for the stroke in 
 test('undoing leads from an experiment of somebody else back to one’s own', async () => {
   const core = new Core();
   const own = { ...EXPERIMENT, name: 'own' };
-  core.bench.loaded({ experiment: EXPERIMENT, scenario: undefined });
-  await core.bench.begin(Promise.resolve({ from: 'link', own, unread: undefined }));
-  assert.equal(core.bench.experiment?.name, EXPERIMENT.name);
-  await core.bench.undo();
-  assert.equal(core.bench.experiment, own);
+  core.editor.loaded({ experiment: EXPERIMENT, scenario: undefined });
+  await core.editor.begin(Promise.resolve({ from: 'link', own, unread: undefined }));
+  assert.equal(core.editor.experiment?.name, EXPERIMENT.name);
+  await core.editor.undo();
+  assert.equal(core.editor.experiment, own);
 });
 
 test('what begins anew does so with the route of the experiment, also from an earlier one', async () => {
   const core = await opened();
   const { waypoints, goal } = EXPERIMENT;
   core.info = { waypoints, goal } as SessionInfo;
-  await core.bench.restart();
+  await core.editor.restart();
   core.info = { waypoints: [], goal } as unknown as SessionInfo;
-  await core.bench.setOverrides({ sensor: { columns: 900 } });
+  await core.editor.setOverrides({ sensor: { columns: 900 } });
   assert.deepEqual(core.asked, ['restart', 'goal', 'parameters']);
-  assert.deepEqual(core.bench.experiment?.overrides, { sensor: { columns: 900 } });
+  assert.deepEqual(core.editor.experiment?.overrides, { sensor: { columns: 900 } });
 });

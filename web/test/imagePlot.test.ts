@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { layout } from '../src/panel/imagePlot.ts';
+import { layout } from '../src/inspector/imagePlot.ts';
 
 test('a mark beyond the image stays at its edge and says on which side it lies', () => {
   const plot = layout(600, 200);

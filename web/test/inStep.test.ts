@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Metrics } from '../src/core/protocol.ts';
-import { ROW, RunRecord } from '../src/core/record.ts';
 import { counterpart } from '../src/lab/inStep.ts';
+import type { Metrics } from '../src/protocol/simulationProtocol.ts';
+import { ROW, RunRecord } from '../src/run/record.ts';
 
 /** A run that has driven a metre at each tick. */
 function driven(ticks: number): RunRecord {

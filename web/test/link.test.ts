@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { deflateRawSync } from 'node:zlib';
-import type { Experiment } from '../src/core/experiment.ts';
-import { carriesExperiment, experimentIn, linkTo, MAX_LINK_CHARACTERS } from '../src/core/link.ts';
+import type { Experiment } from '../src/experiment/experiment.ts';
+import { carriesExperiment, experimentIn, linkTo, MAX_LINK_CHARACTERS } from '../src/experiment/link.ts';
 import { EXPERIMENT } from './example.ts';
 
 const ADDRESS = 'https://example.org/mapless/#old';

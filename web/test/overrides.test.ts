@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { countOverrides, override, sectionsOf, withOverride } from '../src/core/overrides.ts';
-import { complaintAbout, label, type ParameterGroup } from '../src/core/parameters.ts';
+import { countOverrides, override, sectionsOf, withOverride } from '../src/experiment/overrides.ts';
+import { complaintAbout, label, type ParameterGroup } from '../src/experiment/parameters.ts';
 
 test('a value is set, counted, found and taken away, and the record before stays as it was', () => {
   const none = {};
@@ -40,7 +40,15 @@ test('sections are written as a scenario file has them', () => {
 });
 
 test('a complaint of the core is brought to its field', () => {
-  const number = { unit: '', text: '', value: 1, kind: 'number', range: [0, 1] } as const;
+  const number = {
+    unit: '',
+    text: '',
+    value: 1,
+    kind: 'number',
+    range: [0, 1] as [number, number],
+    choices: undefined,
+    paper: undefined,
+  } as const;
   const groups: ParameterGroup[] = [
     { table: 'planner.controller', title: '', parameters: [{ ...number, name: 'max_speed_m_s' }] },
     { table: 'robot', title: '', parameters: [{ ...number, name: 'max_speed_m_s' }] },

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Pending } from '../src/ui/pending.ts';
+import { Pending } from '../src/base/pending.ts';
 
 test('settled once, when all is done, whichever ends last', async () => {
   const pending = new Pending();

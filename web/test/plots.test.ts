@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { ROW, RunRecord } from '../src/core/record.ts';
-import { SERIES, sample } from '../src/panel/plots/series.ts';
-import { levels, pan, ticks, zoom } from '../src/panel/plots/span.ts';
+import { SERIES, sample } from '../src/plots/series.ts';
+import { levels, pan, ticks, zoom } from '../src/plots/span.ts';
+import { ROW, RunRecord } from '../src/run/record.ts';
 
 /** A record whose rows have these values; time runs by tenths of a second. */
 function record(count: number, values: (tick: number) => Partial<Record<(typeof ROW)[number], number>>): RunRecord {

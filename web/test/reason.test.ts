@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Frame, SessionInfo, Subgoal } from '../src/core/protocol.ts';
-import { reason } from '../src/panel/reason.ts';
-import { standing } from '../src/panel/status.ts';
+import { reason } from '../src/inspector/reason.ts';
+import { standing } from '../src/inspector/status.ts';
+import type { Frame, SessionInfo, Subgoal } from '../src/protocol/simulationProtocol.ts';
 
 const info = { limits: { roll_rad: 0.524, pitch_rad: 0.785 } } as SessionInfo;
 const candidate = (azimuth_rad: number, chosen: boolean): Subgoal => ({
@@ -12,11 +12,10 @@ const candidate = (azimuth_rad: number, chosen: boolean): Subgoal => ({
   y: 0,
   z: 0,
   chosen,
-  refusal: 'none',
+  refusal: undefined,
   segment: 0,
   forecast: undefined,
-  terms: [0.1, 0.1, 0.1, 0, 0],
-  total: 0.3,
+  cost: { direction: 0.1, distance: 0.1, steepness: 0.1, commitment: 0, correction: 0, total: 0.3 },
 });
 const frame = (part: Partial<Frame>): Frame =>
   ({ tick: 5, outcome: 'running', activity: 'driving', subgoals: [], metrics: {}, ...part }) as Frame;
@@ -35,21 +34,21 @@ test('names the angle that broke its limit', () => {
 });
 
 test('passes on why the planner stopped', () => {
-  const stopped = frame({ outcome: 'no_subgoal', stopReason: 'no subgoal found after looking around' });
+  const stopped = frame({ outcome: 'no_subgoal', stop_reason: 'no subgoal found after looking around' });
   assert.equal(reason(stopped, info), 'No subgoal found after looking around.');
 });
 
 test('says what it does without a candidate', () => {
   const does = (activity: Frame['activity']) => reason(frame({ activity }), info);
-  assert.match(does('retreating'), /goes back the way it came/);
-  assert.match(does('looking'), /turns on the spot/);
+  assert.match(does('backtracking'), /backtracks along its own path/);
+  assert.match(does('searching'), /turns on the spot/);
   assert.equal(does('stopped'), 'Stands still.');
 });
 
 test('the chip says what the robot does while it runs, and how the trial ended', () => {
   assert.equal(standing(frame({ activity: 'driving' }), true), 'Driving');
-  assert.equal(standing(frame({ activity: 'retreating' }), true), 'Going back');
-  assert.equal(standing(frame({ activity: 'looking' }), true), 'Looking around');
-  assert.equal(standing(frame({ activity: 'looking' }), false), 'Paused');
+  assert.equal(standing(frame({ activity: 'backtracking' }), true), 'Backtracking');
+  assert.equal(standing(frame({ activity: 'searching' }), true), 'Searching');
+  assert.equal(standing(frame({ activity: 'searching' }), false), 'Paused');
   assert.equal(standing(frame({ outcome: 'stuck', activity: 'stopped' }), true), 'Stuck');
 });

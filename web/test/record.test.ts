@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { MAX_ROWS, ROW, RunRecord } from '../src/core/record.ts';
+import { MAX_ROWS, ROW, RunRecord } from '../src/run/record.ts';
 
 function rows(from: number, to: number, x = 0): Float64Array {
   const values = new Float64Array((to - from) * ROW.length);

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { costColour, luminance, parseHex, ramp } from '../src/ui/scale.ts';
+import { costColour, luminance, parseHex, ramp } from '../src/colours/scale.ts';
 
 test('cheaper subgoals are lighter, all along the scale', () => {
   const lights = Array.from({ length: 41 }, (_, step) => luminance(costColour(step / 40, 0, 1)));

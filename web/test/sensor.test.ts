@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Vector } from '../src/scene/heightfield.ts';
+import type { Vector } from '../src/ground/heightField.ts';
 import { sensorAt } from '../src/scene/sensor.ts';
 
 const LEVEL = { x: 3, y: 4, z: 1, roll: 0, pitch: 0, yaw: 0 };

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { HeightField } from '../src/ground/heightField.ts';
 import { sunlight } from '../src/painter/sunlight.ts';
-import { HeightField } from '../src/scene/heightfield.ts';
 
 test('a wall shades the ground to its south-east and no other', () => {
   const [columns, rows, cell_m] = [60, 60, 0.5];

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Trail } from '../src/core/trail.ts';
+import { Trail } from '../src/simulation/trail.ts';
 
 test('a trail grows, is walked again and is cut', () => {
   const trail = new Trail();

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { PerspectiveCamera, Vector3 } from 'three';
-import { FIELD_OF_VIEW_DEG, OVERVIEW_ELEVATION_RAD, overviewDistance_m } from '../src/scene/viewpoint.ts';
+import { FIELD_OF_VIEW_DEG, OVERVIEW_ELEVATION_RAD, overviewDistance_m } from '../src/view/viewpoint.ts';
 
 test('the overview shows every corner of the ground, on a phone too', () => {
   for (const aspect of [0.5, 0.86, 1, 1.5, 2.4]) {

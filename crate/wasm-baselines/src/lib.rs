@@ -1,17 +1,21 @@
 //! Whole trials of every navigator, for the page's ghosts and batches, and generated tasks. A module of its own: the page opens without it.
 
-#[path = "../../wasm/src/panic.rs"]
-mod panic;
+#[path = "../../wasm/src/shared/mod.rs"]
+mod shared;
 
 use mapless_baselines::{NavigatorKind, Task};
 use mapless_trials::{Navigator, Scenario, Trial, statistics};
 use mapless_world::HeightField;
+use serde::{Deserialize, Serialize};
+pub use shared::{Metrics, Outcome, OverrideValue, Overrides, Pose};
+use shared::{changed, give, read};
+use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// Runs once when the page loads the module.
 #[wasm_bindgen(start)]
 pub fn start() {
-    panic::install_hook();
+    shared::panic::install_hook();
 }
 
 /// The names of all navigators.
@@ -20,28 +24,57 @@ pub fn planners() -> Vec<String> {
     NavigatorKind::ALL.iter().map(|kind| kind.name().to_owned()).collect()
 }
 
-/// The generated task of a name such as `hard-1-0007`: its scenario file, whose terrain is at `terrain.toml`, and the recipe of that.
+/// A generated task.
+#[derive(Debug, Serialize, Tsify)]
+pub struct GeneratedTask {
+    /// Its scenario file, whose terrain is at `terrain.toml`.
+    scenario: String,
+    /// The recipe of that.
+    recipe: String,
+}
+
+/// The generated task of a name such as `hard-1-0007`.
 ///
 /// # Errors
 /// What names no task; a task that the oracle cannot solve however often it is drawn.
 #[wasm_bindgen]
-pub fn generated_task(name: &str) -> Result<Vec<String>, JsError> {
+pub fn generated_task(name: &str) -> Result<Ts<GeneratedTask>, JsError> {
     let task = Task::generate(name.parse()?)?;
-    Ok(vec![task.scenario("terrain.toml"), task.recipe])
+    give(&GeneratedTask { scenario: task.scenario("terrain.toml"), recipe: task.recipe })
+}
+
+/// Where a rate lies.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Interval {
+    low: f64,
+    high: f64,
 }
 
 /// Wilson's 95 % interval of the rate behind `successes` of `trials`.
+///
+/// # Errors
+/// None, unless JavaScript runs out of memory.
 #[wasm_bindgen]
-pub fn wilson(successes: usize, trials: usize) -> Vec<f64> {
+pub fn wilson(successes: usize, trials: usize) -> Result<Ts<Interval>, JsError> {
     let (low, high) = statistics::wilson(successes, trials);
-    vec![low, high]
+    give(&Interval { low, high })
 }
 
 /// Mean and sample standard deviation; NaN where there is none.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Spread {
+    mean: f64,
+    deviation: f64,
+}
+
+/// Mean and sample standard deviation; NaN where there is none.
+///
+/// # Errors
+/// None, unless JavaScript runs out of memory.
 #[wasm_bindgen]
-pub fn mean_and_deviation(values: &[f64]) -> Vec<f64> {
+pub fn mean_and_deviation(values: &[f64]) -> Result<Ts<Spread>, JsError> {
     let (mean, deviation) = statistics::mean_and_deviation(values).unwrap_or((f64::NAN, None));
-    vec![mean, deviation.unwrap_or(f64::NAN)]
+    give(&Spread { mean, deviation: deviation.unwrap_or(f64::NAN) })
 }
 
 /// The ground that trials run on, as the page has it now.
@@ -63,6 +96,28 @@ impl Ground {
     }
 }
 
+/// All that a trial is begun with, on a ground.
+#[derive(Debug, Deserialize, Tsify)]
+pub struct RunnerOptions {
+    /// The text of a scenario file, whose terrain is left unread.
+    scenario: String,
+    /// Set from the beginning.
+    overrides: Overrides,
+    /// The name of a navigator.
+    planner: String,
+    seed: u64,
+}
+
+/// How a trial stands.
+#[derive(Debug, Serialize, Tsify)]
+pub struct TrialStatus {
+    tick: u64,
+    time_s: f64,
+    pose: Pose,
+    metrics: Metrics,
+    outcome: Outcome,
+}
+
 /// One trial of one navigator.
 #[wasm_bindgen]
 #[allow(missing_debug_implementations)]
@@ -72,22 +127,14 @@ pub struct Runner {
 
 #[wasm_bindgen]
 impl Runner {
-    /// Puts the scenario's robot on the ground with the navigator of the name `planner`; `parameters` is TOML with nothing
-    /// but `[planner]`, `[sensor]` and `[robot]`.
+    /// Puts the scenario's robot on the ground with a navigator.
     ///
     /// # Errors
     /// A fault in the scenario or a value that makes no sense, with its place and what was expected.
     #[wasm_bindgen(constructor)]
-    pub fn new(
-        ground: &Ground,
-        scenario_file: &str,
-        scenario_toml: &str,
-        parameters: &str,
-        planner: &str,
-        seed: u64,
-    ) -> Result<Runner, JsError> {
-        let scenario =
-            Scenario::parse(scenario_file, scenario_toml)?.with_parameters("settings", parameters)?;
+    pub fn new(ground: &Ground, options: Ts<RunnerOptions>) -> Result<Runner, JsError> {
+        let RunnerOptions { scenario, overrides, planner, seed } = read(options)?;
+        let scenario = changed(&Scenario::parse("scenario.toml", &scenario)?, &overrides)?;
         let kind: NavigatorKind = planner.parse()?;
         let navigator = kind.build(&ground.field, &scenario, seed)?;
         Ok(Runner { trial: Trial::with_navigator(ground.field.clone(), &scenario, navigator, seed)? })
@@ -98,17 +145,18 @@ impl Runner {
         self.trial.tick().is_none()
     }
 
-    /// How the trial ended, or `running`.
-    pub fn outcome(&self) -> String {
-        self.trial.outcome().map_or("running", |outcome| outcome.name()).to_owned()
-    }
-
-    /// Tick, time; x, y, z, roll, pitch, yaw; then the six metrics in the order of [`mapless_trials::Metrics`].
-    pub fn status(&self) -> Vec<f64> {
-        let mut values = vec![self.trial.ticks() as f64, self.trial.time_s()];
-        values.extend(&self.trial.motion()[..6]);
-        values.extend(self.trial.metrics().values());
-        values
+    /// How the trial stands.
+    ///
+    /// # Errors
+    /// None, unless JavaScript runs out of memory.
+    pub fn status(&self) -> Result<Ts<TrialStatus>, JsError> {
+        give(&TrialStatus {
+            tick: self.trial.ticks(),
+            time_s: self.trial.time_s(),
+            pose: Pose::of(&self.trial),
+            metrics: Metrics::of(&self.trial),
+            outcome: Outcome::of(&self.trial),
+        })
     }
 
     /// Digest of the trajectory so far.

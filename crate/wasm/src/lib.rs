@@ -1,20 +1,35 @@
-//! The closed loop for the page: [`Trial`](mapless_trials::Trial) behind typed arrays.
+//! The closed loop for the page: [`Trial`](mapless_trials::Trial) behind plain objects and typed arrays.
 //!
-//! Nothing is decided here. Numbers leave as flat arrays whose order is written at each function; the page's
-//! `web/src/core/decode.ts` names them again. All are in SI units and radians, in the frames of `mapless-world`.
+//! Nothing is decided here. All numbers are in SI units and radians, in the frames of `mapless-world`. What crosses has a
+//! struct of its own, whose TypeScript is made from it: `web/src/wasm/mapless_wasm.d.ts`.
 
-mod encode;
-mod ground;
-mod panic;
+mod decision;
+mod opening;
+mod parameters;
+mod places;
 mod session;
+mod shared;
+mod stroke;
+mod terrain;
 
-pub use ground::{generated_recipe, level_places, read_scenario, terrain_preview};
-pub use session::Session;
+pub use decision::{Cost, Forecast, PathPoint, ReachEnd, Refusal, Segment, Subgoal, Verdict};
+pub use opening::{Learning, Preset, ScenarioRead, SessionOptions, TextFile, read_scenario};
+pub use parameters::{Parameter, ParameterGroup, ParameterKind};
+pub use places::{Heading, Place, Route};
+pub use session::{
+    Activity, Frame, FrameBuffers, ImageSize, Point, Scene, SegmentDemands, SensorPose, Session, Standing,
+    Tick, TiltLimits, Timeline, Velocity,
+};
+pub use shared::{Metrics, Outcome, OverrideValue, Overrides, Pose};
+pub use stroke::{Stroke, StrokeKind};
+pub use terrain::{
+    Ground, GroundPatch, LevelPlaces, TerrainFiles, generated_recipe, level_places, terrain_preview,
+};
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Runs once when the page loads the module.
 #[wasm_bindgen(start)]
 pub fn start() {
-    panic::install_hook();
+    shared::panic::install_hook();
 }

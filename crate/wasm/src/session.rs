@@ -1,55 +1,65 @@
 //! One loaded scenario.
 
-mod shown;
+mod frame;
+mod scene;
+mod tick;
+
+pub use frame::{Frame, FrameBuffers, Point, SensorPose, Timeline};
+pub use scene::{ImageSize, Scene, SegmentDemands, TiltLimits};
+pub use tick::{Activity, Standing, Tick, Velocity};
 
 use glam::DVec2;
 use mapless::gp::learning::LearningMode;
-use mapless::skyline::occupancy::{COLUMNS, RINGS};
-use mapless::skyline::surface::ROWS;
-use mapless_trials::{History, Preset, Scenario, StartPose, Trial, parameters};
-use mapless_world::{HeightField, SensorPose};
+use mapless_trials::{History, Preset, Scenario, StartPose, Trial};
+use mapless_world::{HeightField, SampleRect, Stroke as Brushes, StrokeTable};
+use tsify::Ts;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+use web_sys::Performance;
 
-use crate::ground;
+use crate::opening::SessionOptions;
+use crate::parameters::{self, ParameterGroup};
+use crate::places::{Heading, Route};
+use crate::shared::{Overrides, changed, give, read};
+use crate::stroke::Stroke;
+use crate::terrain::{Ground, GroundPatch};
 
-/// A copy of the trial is kept this often, and farther apart once there are more than this many.
-const COPY_EVERY_TICKS: u64 = 10;
-const MOST_COPIES: usize = 96;
-
-/// A running trial and the places where its numbers are gathered.
+/// A running trial.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Session {
-    pub(crate) now: Moment,
+    now: Moment,
     /// Where the trial has been since its start or since the ground changed; there is none before the first decision.
-    pub(crate) history: Option<History<Moment>>,
+    history: Option<History<Moment>>,
+    /// Whether the ground has changed since the last scan.
+    ground_changed: bool,
     seed: u64,
     preset: Preset,
     learning: Option<LearningMode>,
     /// The scenario as its file has it.
     file: Scenario,
-    /// Every parameter with the value of the file, as JSON.
-    parameters: String,
+    /// The scenario with its overrides.
+    running: Scenario,
     scratch: Vec<f32>,
+    clock: Option<Performance>,
 }
 
 /// All that belongs to one point in time.
 #[derive(Clone, Debug)]
-pub(crate) struct Moment {
-    pub(crate) trial: Trial,
+struct Moment {
+    trial: Trial,
     /// Where the last scan was taken: the robot has moved on since.
-    scanned_from: SensorPose,
+    scanned_from: mapless_world::SensorPose,
 }
 
 impl Moment {
     fn new(trial: Trial) -> Self {
         let scanned_from = sensor_pose(&trial);
         let mut moment = Self { trial, scanned_from };
-        moment.look();
+        moment.sense();
         moment
     }
 
-    fn look(&mut self) {
+    fn sense(&mut self) {
         self.scanned_from = sensor_pose(&self.trial);
         self.trial.look_far();
     }
@@ -57,140 +67,65 @@ impl Moment {
 
 #[wasm_bindgen]
 impl Session {
-    /// Loads a scenario. `imported` is the file that the terrain's recipe imports, empty when it imports none. `learning` is
-    /// `fixed`, `once` or `every_scan`; without it, or a `seed`, it is the scenario's own.
+    /// Loads a scenario.
     ///
     /// # Errors
-    /// A fault in one of the files, or an unknown preset or mode of learning, with place, value and expectation.
+    /// A fault in one of the files or of an option, with place, value and expectation.
     #[wasm_bindgen(constructor)]
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "JavaScript hands over plain values: two files, what one imports, and settings"
-    )]
-    pub fn new(
-        scenario_file: &str,
-        scenario_toml: &str,
-        terrain_file: &str,
-        terrain: &[u8],
-        imported: &[u8],
-        preset: &str,
-        learning: Option<String>,
-        seed: Option<u64>,
-    ) -> Result<Session, JsError> {
-        let file = Scenario::parse(scenario_file, scenario_toml)?;
-        let preset: Preset = preset.parse().map_err(|reason: String| JsError::new(&reason))?;
-        let terrain = ground::load(terrain_file, terrain, imported)?;
-        let learning: Option<LearningMode> =
-            learning.map(|mode| mode.parse()).transpose().map_err(|reason: String| JsError::new(&reason))?;
-        let seed = seed.unwrap_or(file.seed);
-        let trial = trial(terrain.field, &file, preset, learning, seed)?;
-        let parameters = parameters::json(&parameters::values(&file, &file, preset)?);
+    pub fn new(options: Ts<SessionOptions>) -> Result<Session, JsError> {
+        let options = read(options)?;
+        let file = Scenario::parse(&options.scenario.name, &options.scenario.text)?;
+        let running = changed(&file, &options.overrides.unwrap_or_default())?;
+        let (preset, learning) = (options.preset.into(), options.learning.map(LearningMode::from));
+        let seed = options.seed.unwrap_or(file.seed);
+        let trial = trial(options.terrain.load()?, &running, preset, learning, seed)?;
         Ok(Session {
             now: Moment::new(trial),
             history: None,
+            ground_changed: false,
             seed,
             preset,
             learning,
             file,
-            parameters,
+            running,
             scratch: Vec::new(),
+            clock: tick::clock(),
         })
     }
 
-    /// Begins anew with other parameters: `sections` is TOML with nothing but `[planner]`, `[sensor]` and `[robot]`. Ground,
-    /// start and route stay as they are, and so does the seed unless another is given.
+    /// Begins anew with these overrides in place of all others. Ground, start and route stay as they are, and so does the
+    /// seed unless another is given.
     ///
     /// # Errors
     /// A value that makes no sense, with its place and what was expected; nothing then changes.
-    pub fn set_parameters(&mut self, sections: &str, seed: Option<u64>) -> Result<(), JsError> {
-        let running = self.file.with_parameters("settings", sections)?;
-        let parameters = parameters::json(&parameters::values(&self.file, &running, self.preset)?);
-        let (now, seed) = (&self.now.trial, seed.unwrap_or(self.seed));
+    pub fn set_parameters(&mut self, overrides: Ts<Overrides>, seed: Option<u32>) -> Result<(), JsError> {
+        let running = changed(&self.file, &read(overrides)?)?;
+        let (now, seed) = (&self.now.trial, seed.map_or(self.seed, u64::from));
         let mut trial = trial(now.field().clone(), &running, self.preset, self.learning, seed)?;
         trial.set_start(now.start())?;
         trial.set_route(now.waypoints_m().to_vec(), now.goal_m(), now.goal_heading_rad())?;
-        (self.now, self.history) = (Moment::new(trial), None);
-        (self.parameters, self.seed) = (parameters, seed);
+        (self.now, self.history, self.ground_changed) = (Moment::new(trial), None, false);
+        (self.running, self.seed) = (running, seed);
         Ok(())
     }
 
-    /// Every parameter as JSON, with the value of the scenario file: see [`mapless_trials::parameters::json`].
-    pub fn parameters(&self) -> String {
-        self.parameters.clone()
-    }
-
-    /// The seed of the sensor's noise.
-    pub fn seed(&self) -> u64 {
-        self.seed
-    }
-
-    /// What changes only between trials: start x, y, heading; goal x, y; limits of roll and pitch; radius of the occupancy
-    /// surface; height of the sensor; columns and rows of the variance image; rings of the sensor; robot width and safety
-    /// margin on it; steepest slope of a segment; whether unknown segments may carry subgoals (0 or 1); time between two
-    /// ticks; then x, y of each waypoint.
-    pub fn scene(&self) -> Vec<f64> {
-        let config = self.now.trial.planner_config();
-        let StartPose { position_m, heading_rad } = self.now.trial.start();
-        let goal_m = self.now.trial.goal_m();
-        let mut values = vec![
-            position_m.x,
-            position_m.y,
-            heading_rad,
-            goal_m.x,
-            goal_m.y,
-            config.robot.roll_limit_rad,
-            config.robot.pitch_limit_rad,
-            config.perception.surface_radius_m,
-            config.sensor.height_m,
-            COLUMNS as f64,
-            ROWS as f64,
-            RINGS as f64,
-            config.robot.width_m,
-            config.segments.safety_margin_m,
-            config.segments.max_slope_rad,
-            f64::from(u8::from(config.segments.subgoals_on_unknown)),
-            self.now.trial.period_s(),
-        ];
-        values.extend(self.now.trial.waypoints_m().iter().flat_map(|place| place.to_array()));
-        values
-    }
-
-    /// Columns of the height field, west to east.
-    pub fn columns(&self) -> usize {
-        self.now.trial.field().columns()
-    }
-
-    /// Rows of the height field, south to north.
-    pub fn rows(&self) -> usize {
-        self.now.trial.field().rows()
-    }
-
-    /// Spacing of the height field.
-    pub fn cell_m(&self) -> f64 {
-        self.now.trial.field().cell_m()
-    }
-
-    /// The height field's samples within a rectangle, row by row from the south-west.
+    /// Every parameter, with the value that holds unless it is overridden.
     ///
     /// # Errors
-    /// A rectangle that is not within the field.
-    pub fn heights(
-        &self,
-        column: usize,
-        row: usize,
-        columns: usize,
-        rows: usize,
-    ) -> Result<Vec<f32>, JsError> {
-        let field = self.now.trial.field();
-        let inside = |begin: usize, length: usize, end: usize| begin <= end && length <= end - begin;
-        if !(inside(column, columns, field.columns()) && inside(row, rows, field.rows())) {
-            return Err(JsError::new("the rectangle of heights: expected one within the field"));
-        }
-        let lines = field.heights_m().chunks_exact(field.columns()).skip(row).take(rows);
-        Ok(lines.flat_map(|line| &line[column..column + columns]).copied().collect())
+    /// A value that does not fit the preset.
+    pub fn parameters(&self) -> Result<Vec<Ts<ParameterGroup>>, JsError> {
+        parameters::groups(&self.file, &self.running, self.preset)?.iter().map(give).collect()
     }
 
-    /// Back to the start, with ground, start and goal as they are now.
+    /// The whole ground.
+    ///
+    /// # Errors
+    /// None, unless JavaScript runs out of memory.
+    pub fn ground(&self) -> Result<Ts<Ground>, JsError> {
+        give(&Ground::of(self.now.trial.field()))
+    }
+
+    /// Back to the start, with ground, start and route as they are now.
     ///
     /// # Errors
     /// A start whose ground has gone.
@@ -202,69 +137,83 @@ impl Session {
     ///
     /// # Errors
     /// A start off the terrain; nothing then changes.
-    pub fn set_start(&mut self, x: f64, y: f64, heading_rad: f64) -> Result<(), JsError> {
-        self.begin_from(StartPose { position_m: DVec2::new(x, y), heading_rad })
+    pub fn set_start(&mut self, start: Ts<Heading>) -> Result<(), JsError> {
+        self.begin_from(read(start)?.into())
     }
 
     fn begin_from(&mut self, start: StartPose) -> Result<(), JsError> {
         self.now.trial.set_start(start)?;
-        self.history = None;
-        self.look();
+        (self.history, self.ground_changed) = (None, false);
+        self.now.sense();
         Ok(())
     }
 
-    /// Sets another goal, with waypoints (x, y of each) before it, and drives on.
+    /// Sets another route and drives on.
     ///
     /// # Errors
     /// A place off the terrain; nothing then changes.
-    pub fn set_route(&mut self, waypoints: &[f64], x: f64, y: f64) -> Result<(), JsError> {
-        let waypoints_m = waypoints.chunks_exact(2).map(DVec2::from_slice).collect();
-        self.now.trial.set_route(waypoints_m, DVec2::new(x, y), None)?;
+    pub fn set_route(&mut self, route: Ts<Route>) -> Result<(), JsError> {
+        let Route { waypoints, goal } = read(route)?;
+        self.now.trial.set_route(waypoints.into_iter().map(DVec2::from).collect(), goal.into(), None)?;
         if let Some(history) = &mut self.history {
             history.changed(self.now.trial.ticks(), &self.now);
         }
         Ok(())
     }
 
-    /// Goes back to `tick` or shortly before it; running forward from there repeats what happened. Later ticks than were
-    /// ever reached are not gone to.
-    pub fn go_back(&mut self, tick: u64) {
-        let Some(history) = &self.history else { return };
-        let Some(copy) = history.at_or_before(tick) else { return };
+    /// Goes back to `tick`, or to the nearest one that can be gone to; gives that. The session may stand shortly before it:
+    /// running forward from there repeats what happened.
+    pub fn go_back(&mut self, tick: f64) -> f64 {
         let now = self.now.trial.ticks();
-        if now > tick || copy.trial.ticks() > now {
+        let Some(history) = &self.history else { return now as f64 };
+        let tick = (tick as u64).clamp(history.first_tick(), history.end_tick());
+        if let Some(copy) = history.at_or_before(tick)
+            && (now > tick || copy.trial.ticks() > now)
+        {
             self.now.clone_from(copy);
         }
+        tick as f64
     }
 
-    /// First and last tick that can be gone to, then the ticks at which the route was changed.
-    pub fn timeline(&self) -> Vec<f64> {
-        let now = self.now.trial.ticks();
-        let Some(history) = &self.history else { return vec![now as f64, now as f64] };
-        let ends = [history.first_tick(), history.end_tick()];
-        ends.into_iter().chain(history.changes()).map(|tick| tick as f64).collect()
-    }
-
-    /// First part of a tick: takes a scan from where the robot stands.
-    pub fn look(&mut self) {
-        self.now.look();
-    }
-
-    /// Second part: the planner decides. Apart from the others so that the page can time it.
-    pub fn plan(&mut self) {
-        let tick = self.now.trial.ticks();
-        self.history.get_or_insert_with(|| History::new(COPY_EVERY_TICKS, MOST_COPIES, tick, &self.now));
-        self.now.trial.plan();
-    }
-
-    /// Third part: the robot moves. Returns whether the trial goes on.
-    pub fn act(&mut self) -> bool {
-        self.now.trial.act();
-        let tick = self.now.trial.ticks();
-        if let Some(changed) = self.history.as_mut().and_then(|history| history.reached(tick, &self.now)) {
-            self.now.clone_from(changed);
+    /// Applies a stroke; gives the rectangle that changed, or nothing when the stroke is off the terrain.
+    ///
+    /// # Errors
+    /// A stroke that makes no sense; nothing then changes.
+    pub fn sculpt(&mut self, stroke: Ts<Stroke>) -> Result<Option<Ts<GroundPatch>>, JsError> {
+        let stroke = Brushes::try_from(&StrokeTable::from(read(stroke)?))?;
+        let mut changed: Option<SampleRect> = None;
+        for brush in stroke.brushes() {
+            if let Some(rect) = self.now.trial.sculpt(brush)? {
+                changed = Some(changed.map_or(rect, |all| all.union(rect)));
+            }
         }
-        self.now.trial.outcome().is_none()
+        let Some(rect) = changed else { return Ok(None) };
+        (self.history, self.ground_changed) = (None, true);
+        give(&GroundPatch::of(self.now.trial.field(), rect)).map(Some)
+    }
+
+    /// Puts other heights in place of those in a rectangle.
+    ///
+    /// # Errors
+    /// Heights that do not fit; nothing then changes.
+    pub fn replace_ground(&mut self, patch: Ts<GroundPatch>) -> Result<(), JsError> {
+        let patch = read(patch)?;
+        self.now.trial.replace_ground(patch.rect(), &patch.heights_m())?;
+        (self.history, self.ground_changed) = (None, true);
+        Ok(())
+    }
+
+    /// Looks at new ground while nothing moves. Before the first tick the trial begins anew on it: the run is then that of
+    /// the ground as it is.
+    fn look_again(&mut self) -> Result<(), JsError> {
+        if !std::mem::take(&mut self.ground_changed) {
+            return Ok(());
+        }
+        if self.now.trial.ticks() == 0 {
+            return self.restart();
+        }
+        self.now.sense();
+        Ok(())
     }
 }
 
@@ -282,7 +231,7 @@ fn trial(
     Ok(Trial::with_planner(field, scenario, planner, seed)?)
 }
 
-fn sensor_pose(trial: &Trial) -> SensorPose {
+fn sensor_pose(trial: &Trial) -> mapless_world::SensorPose {
     let state = trial.robot();
     trial.sensor().config().pose_on(state.position, state.yaw_rad, &state.attitude)
 }

@@ -39,7 +39,7 @@ pub use husky_config::HuskyConfig;
 #[cfg(not(target_arch = "wasm32"))]
 pub use load::load_terrain;
 pub use load::load_terrain_bytes;
-pub use sculpt::{Brush, BrushKind, SampleRect, Stroke, StrokeError};
+pub use sculpt::{Brush, BrushKind, SampleRect, Stroke, StrokeError, StrokeKind, StrokeTable};
 pub use sensor_pose::SensorPose;
 pub use skyline::{Skyline, true_skyline};
 pub use slopes::SlopeDistribution;

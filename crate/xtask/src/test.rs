@@ -133,7 +133,17 @@ fn documentation(sh: &Shell) -> anyhow::Result<Count> {
 }
 
 fn build_page(sh: &Shell) -> anyhow::Result<Count> {
+    // They are in the repository, for whoever checks the page before building the modules.
+    let files =
+        ["mapless_wasm", "mapless_wasm_baselines"].map(|module| format!("web/src/wasm/{module}.d.ts"));
+    let types = || files.clone().map(|file| sh.read_file(file).ok());
+    let kept = types();
     page::build(sh)?;
+    anyhow::ensure!(
+        types() == kept,
+        "{} were out of date; the build wrote them anew: commit them",
+        files.join(" and ")
+    );
     Ok(Count::default())
 }
 

@@ -1,12 +1,12 @@
 /** Heights as files that other programs read: 16-bit PNG and ESRI ASCII grid. */
 
-import type { HeightField } from '../scene/heightfield.ts';
-import { crc32 } from './checksum.ts';
+import { crc32 } from '@foxglove/crc';
+import type { HeightField } from '../ground/heightField.ts';
 
 /** Of the ground above its lowest point, at a millimetre a level. */
 const MOST_RELIEF_M = 65.535;
 
-/** 16-bit greyscale, the first row north, a level for each millimetre above the lowest point; pHYs holds the spacing. */
+/** By hand, since browsers write 8 bits alone: 16-bit greyscale, the first row north, a level for each millimetre above the lowest point; pHYs holds the spacing. */
 export async function heightsPng(field: HeightField): Promise<Blob> {
   const { columns, rows, cell_m, min_m, max_m } = field;
   if (max_m - min_m > MOST_RELIEF_M) {

@@ -1,13 +1,13 @@
 /** Other planners on the same course, in step with the robot of the page: ghosts in the view, differences in a table. */
 
-import type { App } from '../app.ts';
-import type { Frame, SessionInfo } from '../core/protocol.ts';
-import type { Stage } from '../scene/stage.ts';
-import { type RunningJob, startJob } from '../trials/client.ts';
+import type { App } from '../app/app.ts';
+import { html, setText } from '../base/dom.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { courseOf } from '../trials/course.ts';
 import { GhostRun } from '../trials/ghostRun.ts';
-import type { FromTrials } from '../trials/protocol.ts';
-import { html, setText } from '../ui/dom.ts';
+import { type RunningJob, startJob } from '../trials/trialsClient.ts';
+import type { FromTrials } from '../trials/trialsProtocol.ts';
+import type { Stage } from '../view/stage.ts';
 import { ComparisonTable } from './comparisonTable.ts';
 import { GhostTrails } from './ghostTrails.ts';
 import type { Tab } from './lab.ts';
@@ -110,8 +110,9 @@ export class CompareTab implements Tab {
     this.#runs = new Map();
     this.#fault.hidden = true;
     this.#showGhosts();
-    const [course, info] = [courseOf(this.#app), this.#app.info];
-    if (course && info && this.#chosen.length > 0) {
+    const { info, field } = this.#app;
+    if (info && field && this.#chosen.length > 0) {
+      const course = courseOf(info, field);
       const planners = this.#chosen.map(({ planner }) => planner);
       this.#job = startJob({ type: 'ghosts', course, planners, seed: info.seed }, (message) => this.#hear(message));
       if (this.#frame) this.#job.send({ type: 'until', tick: this.#frame.timeline.end });

@@ -1,12 +1,12 @@
 /** The robot of the page beside its ghosts: outcome, time and the six metrics, with what is different. */
 
-import type { Frame, Metrics, Outcome, SessionInfo } from '../core/protocol.ts';
-import type { RunRecord } from '../core/record.ts';
-import { METRIC_ROWS } from '../panel/metrics.ts';
-import { OUTCOME_WORDS } from '../panel/status.ts';
-import type { TrialResult } from '../trials/protocol.ts';
-import { html, setText } from '../ui/dom.ts';
-import { clock, fixed } from '../ui/format.ts';
+import { html, setText } from '../base/dom.ts';
+import { clock, fixed } from '../base/format.ts';
+import { OUTCOME_WORDS } from '../inspector/status.ts';
+import { METRIC_ROWS } from '../measurements/metrics.ts';
+import type { Frame, Metrics, Outcome, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { RunRecord } from '../run/record.ts';
+import type { TrialResult } from '../trials/trialsProtocol.ts';
 import { counterpart, isBehind } from './inStep.ts';
 import { RIVALS, type Rival } from './planners.ts';
 

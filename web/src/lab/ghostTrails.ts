@@ -1,6 +1,6 @@
 /** What each ghost has driven since it was last shown. */
 
-import type { GhostStep } from '../painter/protocol.ts';
+import type { GhostStep } from '../painter/painterProtocol.ts';
 import type { GhostRun } from '../trials/ghostRun.ts';
 
 export class GhostTrails {

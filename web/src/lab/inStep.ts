@@ -1,8 +1,8 @@
 /** What a ghost is compared with: the robot in view at the same tick. */
 
-import type { Frame, Metrics } from '../core/protocol.ts';
-import type { RunRecord } from '../core/record.ts';
-import type { TrialResult } from '../trials/protocol.ts';
+import type { Frame, Metrics } from '../protocol/simulationProtocol.ts';
+import type { RunRecord } from '../run/record.ts';
+import type { TrialResult } from '../trials/trialsProtocol.ts';
 
 /** Whether a ghost has yet to drive to where the robot in view is. */
 export function isBehind(ghost: Pick<TrialResult, 'outcome' | 'tick'>, frame: Pick<Frame, 'tick'>): boolean {

@@ -1,10 +1,10 @@
 /** The drawer beside the view: parameters, other planners on the same course, and many seeds. */
 
 import '../style/lab.css';
-import type { App } from '../app.ts';
-import type { Frame, SessionInfo } from '../core/protocol.ts';
-import type { Stage } from '../scene/stage.ts';
-import { html } from '../ui/dom.ts';
+import type { App } from '../app/app.ts';
+import { html } from '../base/dom.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Stage } from '../view/stage.ts';
 import { CompareTab } from './compareTab.ts';
 import { ParametersTab } from './parametersTab.ts';
 import { SeedsTab } from './seedsTab.ts';

@@ -1,12 +1,13 @@
 /** Every parameter of sensor, robot and planner, made from the core's own table. A change begins the run anew, same seed. */
 
-import type { App } from '../app.ts';
-import { countOverrides, type Overrides, type OverrideValue, override, withOverride } from '../core/overrides.ts';
-import { complaintAbout, type ParameterGroup } from '../core/parameters.ts';
-import type { Learning, SessionInfo } from '../core/protocol.ts';
-import { html, setText } from '../ui/dom.ts';
-import { ParameterField } from './field.ts';
+import type { App } from '../app/app.ts';
+import { html, setText } from '../base/dom.ts';
+import { countOverrides, type Overrides, type OverrideValue, override, withOverride } from '../experiment/overrides.ts';
+import { complaintAbout, type ParameterGroup } from '../experiment/parameters.ts';
+import type { Learning } from '../experiment/setting.ts';
+import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Tab } from './lab.ts';
+import { ParameterField } from './parameterField.ts';
 
 /** This one is chosen in the bar; the field here and the bar are the same setting. */
 const LEARNING_MODE = 'planner.perception.learning.mode';

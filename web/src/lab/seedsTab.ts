@@ -1,15 +1,15 @@
 /** Many seeds of the present setting, run in the background: how often the goal is reached, and the metrics. */
 
-import type { App } from '../app.ts';
-import type { Overrides } from '../core/overrides.ts';
-import type { SessionInfo } from '../core/protocol.ts';
-import { METRIC_ROWS } from '../panel/metrics.ts';
-import { OUTCOME_WORDS } from '../panel/status.ts';
+import type { App } from '../app/app.ts';
+import { html, setText } from '../base/dom.ts';
+import { clock, fixed } from '../base/format.ts';
+import type { Overrides } from '../experiment/overrides.ts';
+import { OUTCOME_WORDS } from '../inspector/status.ts';
+import { METRIC_ROWS } from '../measurements/metrics.ts';
+import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import { Batch, type FromBatch, workersFor } from '../trials/batch.ts';
 import { courseOf } from '../trials/course.ts';
-import type { Summary, TrialResult } from '../trials/protocol.ts';
-import { html, setText } from '../ui/dom.ts';
-import { clock, fixed } from '../ui/format.ts';
+import type { Summary, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 
 const MOST_SEEDS = 500;
@@ -81,8 +81,9 @@ export class SeedsTab implements Tab {
 
   #begin(): void {
     if (![this.#count, this.#first].every((input) => input.reportValidity())) return;
-    const [course, info] = [courseOf(this.#app), this.#app.info];
-    if (!course || !info) return;
+    const { info, field } = this.#app;
+    if (!info || !field) return;
+    const course = courseOf(info, field);
     this.#app.touch();
     const first = this.#first.valueAsNumber;
     const seeds = Array.from({ length: this.#count.valueAsNumber }, (_, index) => (first + index) % (MAX_SEED + 1));
@@ -158,7 +159,7 @@ export class SeedsTab implements Tab {
     const lines: [string, string][] = [
       ['Goal reached', `${reached} of ${trials} (95 %: ${percent(low)} to ${percent(high)})`],
       ...METRIC_ROWS.map(({ key, name, unit, decimals }): [string, string] => {
-        const [mean, deviation] = metrics[key];
+        const { mean, deviation } = metrics[key];
         return [name, `${fixed(mean, decimals)} ± ${fixed(deviation, decimals)} ${unit}`];
       }),
     ];

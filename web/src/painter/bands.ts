@@ -23,11 +23,11 @@ import {
   ShaderMaterial,
   type Texture,
 } from 'three';
-import type { Pose } from '../core/protocol.ts';
+import { PLASMA } from '../colours/scale.ts';
+import type { Theme } from '../colours/theme.ts';
+import type { Pose } from '../protocol/simulationProtocol.ts';
 import { type Layers, SURFACES, type Surface } from '../scene/layers.ts';
-import { PLASMA } from '../ui/scale.ts';
-import type { Theme } from '../ui/theme.ts';
-import type { Scenery, Seen } from './protocol.ts';
+import type { Scenery, Seen } from './painterProtocol.ts';
 import { colour } from './relief.ts';
 import { scaleTexture } from './scaleTexture.ts';
 

@@ -2,7 +2,7 @@
 
 import { Group, Mesh, MeshStandardMaterial } from 'three';
 import { Husky } from './husky.ts';
-import type { GhostStep } from './protocol.ts';
+import type { GhostStep } from './painterProtocol.ts';
 import { Route } from './route.ts';
 
 const OPACITY = 0.5;

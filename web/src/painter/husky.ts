@@ -10,7 +10,7 @@ import {
   MeshStandardMaterial,
   TorusGeometry,
 } from 'three';
-import type { Pose } from '../core/protocol.ts';
+import type { Pose } from '../protocol/simulationProtocol.ts';
 
 const WHEEL_RADIUS_M = 0.165;
 const HALF_WHEELBASE_M = 0.256;
@@ -44,7 +44,7 @@ export class Husky {
     this.group.rotation.set(roll, -pitch, yaw);
   }
 
-  /** Turns the wheels by the way driven and the turn made. */
+  /** Turns the wheels by the distance driven and the turn made. */
   roll(forward_m: number, turn_rad: number): void {
     for (const wheel of this.#wheels) {
       const arc_m = forward_m - turn_rad * wheel.position.y;

@@ -1,13 +1,13 @@
-/** What somebody points at: a bright rim and a pin on a subgoal, its way, and its segment as a thick arc. */
+/** What somebody points at: a bright rim and a pin on a subgoal, the line to it, and its segment as a thick arc. */
 
 import { BackSide, CylinderGeometry, Group, Mesh, MeshBasicMaterial, SphereGeometry } from 'three';
+import type { Theme } from '../colours/theme.ts';
 import { segmentArc } from '../scene/segmentArc.ts';
-import type { Target } from '../ui/attention.ts';
-import type { Theme } from '../ui/theme.ts';
-import type { Seen } from './protocol.ts';
+import type { Target } from '../scene/selection.ts';
+import type { Seen } from './painterProtocol.ts';
 import { colour } from './relief.ts';
-import { Strokes } from './strokes.ts';
 import { MARKS_ORDER } from './subgoals.ts';
+import { ThickLines } from './thickLines.ts';
 
 const RIM_M = 0.4;
 const PIN_M = 1.6;
@@ -20,7 +20,7 @@ export class Marks {
     new CylinderGeometry(0.03, 0.03, PIN_M, 6).rotateX(Math.PI / 2).translate(0, 0, PIN_M / 2),
     new MeshBasicMaterial(),
   );
-  readonly #arc = new Strokes(256, 9, 0.75);
+  readonly #arc = new ThickLines(256, 9, 0.75);
 
   constructor(theme: Theme) {
     this.group.add(this.#rim, this.#pin, this.#arc.line);
@@ -46,7 +46,7 @@ export class Marks {
       this.#pin.position.set(subgoal.x, subgoal.y, z);
     }
     this.#arc.clear();
-    if (segment) this.#arc.add(segmentArc(segment, seen.world_from_sensor, radius_m), this.#look.color);
+    if (segment) this.#arc.add(segmentArc(segment, seen.sensor, radius_m), this.#look.color);
     this.#arc.done();
   }
 }

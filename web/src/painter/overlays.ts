@@ -1,21 +1,21 @@
-/** The planner's thinking in the 3D view: surfaces, segments, ways, and marks on what somebody points at. */
+/** What the inspector shows in the 3D view: surfaces, segments, the planned path, and marks on what somebody points at. */
 
 import { Group } from 'three';
-import type { Pose } from '../core/protocol.ts';
+import type { Theme } from '../colours/theme.ts';
+import type { Pose } from '../protocol/simulationProtocol.ts';
 import type { Layers } from '../scene/layers.ts';
-import type { Target } from '../ui/attention.ts';
-import type { Theme } from '../ui/theme.ts';
+import type { Target } from '../scene/selection.ts';
 import { Bands } from './bands.ts';
 import { Marks } from './marks.ts';
-import type { Scenery, Seen } from './protocol.ts';
-import { Ways } from './ways.ts';
+import type { Scenery, Seen } from './painterProtocol.ts';
+import { SegmentsAndPath } from './segmentsAndPath.ts';
 
 type Height = (x: number, y: number) => number;
 
 export class Overlays {
   readonly group = new Group();
   readonly #bands: Bands;
-  readonly #ways: Ways;
+  readonly #lines: SegmentsAndPath;
   readonly #marks: Marks;
   readonly #height: Height;
   #radius_m = 0;
@@ -24,15 +24,15 @@ export class Overlays {
   constructor(theme: Theme, layers: Layers, height: Height) {
     this.#height = height;
     this.#bands = new Bands(theme);
-    this.#ways = new Ways(theme);
+    this.#lines = new SegmentsAndPath(theme);
     this.#marks = new Marks(theme);
-    this.group.add(this.#bands.group, this.#ways.group, this.#marks.group);
+    this.group.add(this.#bands.group, this.#lines.group, this.#marks.group);
     this.layers(layers);
   }
 
   theme(theme: Theme): void {
-    for (const part of [this.#bands, this.#ways, this.#marks]) part.theme(theme);
-    this.#showWays();
+    for (const part of [this.#bands, this.#lines, this.#marks]) part.theme(theme);
+    this.#showLines();
   }
 
   session(scenery: Scenery): void {
@@ -42,8 +42,8 @@ export class Overlays {
 
   layers(layers: Layers): void {
     this.#bands.layers(layers);
-    this.#ways.layers(layers);
-    this.#showWays();
+    this.#lines.layers(layers);
+    this.#showLines();
   }
 
   /** The robot has moved to here. */
@@ -54,7 +54,7 @@ export class Overlays {
   show(seen: Seen): void {
     this.#seen = seen;
     this.#bands.show(seen);
-    this.#showWays();
+    this.#showLines();
   }
 
   /** Marks what somebody points at. */
@@ -62,7 +62,7 @@ export class Overlays {
     if (this.#seen) this.#marks.show(this.#seen, target, this.#radius_m, this.#height);
   }
 
-  #showWays(): void {
-    if (this.#seen) this.#ways.show(this.#seen, this.#radius_m, this.#height);
+  #showLines(): void {
+    if (this.#seen) this.#lines.show(this.#seen, this.#radius_m, this.#height);
   }
 }

@@ -1,18 +1,18 @@
 /** Draws the 3D view as it is told to. Draws only when something changed. */
 
 import { AmbientLight, DirectionalLight, Group, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
-import type { Ground, GroundPatch, Pose } from '../core/protocol.ts';
-import { HeightField } from '../scene/heightfield.ts';
+import { wrap } from '../base/format.ts';
+import type { Theme } from '../colours/theme.ts';
+import { HeightField } from '../ground/heightField.ts';
+import type { Ground, GroundPatch, Pose } from '../protocol/simulationProtocol.ts';
 import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
 import { sensorAt } from '../scene/sensor.ts';
-import { wrap } from '../ui/format.ts';
-import type { Theme } from '../ui/theme.ts';
 import { Ghosts } from './ghosts.ts';
 import { Husky } from './husky.ts';
 import { Overlays } from './overlays.ts';
 import type { Pacer } from './pacer.ts';
+import { DEPTH_M, type FromPainter, type Look, type Scenery, type Seen, type ToPainter } from './painterProtocol.ts';
 import { Places } from './places.ts';
-import { DEPTH_M, type FromPainter, type Look, type Scenery, type Seen, type ToPainter } from './protocol.ts';
 import { Refusals } from './refusals.ts';
 import { Relief } from './relief.ts';
 import { Returns } from './returns.ts';
@@ -25,7 +25,7 @@ import { Waypoints } from './waypoints.ts';
 const GRID_VERTICES = { hardware: 512, software: 160 };
 /** What has stood for so long is drawn once more, as finely as the screen shows it. */
 const STILL_MS = 400;
-/** The way not taken again, or not yet. */
+/** The part of the run that comes after the time shown. */
 const PALE = 0.35;
 
 export class Painter {
@@ -194,8 +194,8 @@ export class Painter {
       this.#ahead.clear();
     }
     if (seen.ahead) this.#ahead.extend(seen.ahead);
-    this.#waypoints.passed(seen.waypointsPassed);
-    this.#route.extend(seen.path);
+    this.#waypoints.passed(seen.waypoints_passed);
+    this.#route.extend(seen.trail);
     this.#returns.show(seen, this.#scenery?.occupancy_radius_m ?? 0);
     this.#subgoals.show(seen.subgoals, this.#height);
     this.#overlays.show(seen);

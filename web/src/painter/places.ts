@@ -10,9 +10,9 @@ import {
   MeshBasicMaterial,
   RingGeometry,
 } from 'three';
-import type { Heading, Place } from '../core/protocol.ts';
-import type { Vector } from '../scene/heightfield.ts';
-import type { Theme } from '../ui/theme.ts';
+import type { Theme } from '../colours/theme.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Vector } from '../ground/heightField.ts';
 import { colour } from './relief.ts';
 
 /** From farther away the flag grows with the distance. */

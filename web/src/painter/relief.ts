@@ -15,11 +15,11 @@ import {
   Vector3,
   Vector4,
 } from 'three';
-import type { Place } from '../core/protocol.ts';
-import { HeightField } from '../scene/heightfield.ts';
+import type { Rgb } from '../colours/scale.ts';
+import type { Theme } from '../colours/theme.ts';
+import type { Place } from '../experiment/place.ts';
+import { HeightField } from '../ground/heightField.ts';
 import { COLOURINGS, type Colouring, STEEPEST_SHOWN_RAD } from '../scene/layers.ts';
-import type { Rgb } from '../ui/scale.ts';
-import type { Theme } from '../ui/theme.ts';
 import { FRAGMENT, VERTEX } from './reliefShader.ts';
 import { SUN, sunlight } from './sunlight.ts';
 

@@ -10,10 +10,10 @@ import {
   Vector2,
   Vector3,
 } from 'three';
+import { VIRIDIS } from '../colours/scale.ts';
+import type { Theme } from '../colours/theme.ts';
 import { FARTHEST_RANGE_M, POINT_COLOURS, type PointColours } from '../scene/layers.ts';
-import { VIRIDIS } from '../ui/scale.ts';
-import type { Theme } from '../ui/theme.ts';
-import type { Seen } from './protocol.ts';
+import type { Seen } from './painterProtocol.ts';
 import { colour } from './relief.ts';
 import { scaleTexture } from './scaleTexture.ts';
 
@@ -113,7 +113,7 @@ export class Returns {
     this.points.material.uniforms.heights?.value.set(min_m, Math.max(max_m, min_m + 0.1));
   }
 
-  show({ buffers, returns, world_from_sensor }: Seen, radius_m: number): void {
+  show({ buffers, returns, sensor }: Seen, radius_m: number): void {
     const shown = Math.min(returns, CAPACITY);
     this.#positions.array.set(buffers.points.subarray(0, 3 * shown));
     this.#positions.clearUpdateRanges();
@@ -121,8 +121,8 @@ export class Returns {
     this.#positions.needsUpdate = true;
     this.points.geometry.setDrawRange(0, shown);
     const { uniforms } = this.points.material;
-    uniforms.sensor?.value.fromArray(world_from_sensor, 0);
-    uniforms.up?.value.fromArray(world_from_sensor, 9);
+    uniforms.sensor?.value.copy(sensor.position);
+    uniforms.up?.value.copy(sensor.z_axis);
     if (uniforms.radius) uniforms.radius.value = radius_m;
   }
 }

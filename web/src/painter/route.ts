@@ -4,7 +4,7 @@ import { InstancedInterleavedBuffer, InterleavedBufferAttribute } from 'three';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
-import type { Theme } from '../ui/theme.ts';
+import type { Theme } from '../colours/theme.ts';
 import { colour } from './relief.ts';
 
 /** Points are kept at this distance, so that the longest trials fit. */
@@ -33,7 +33,7 @@ export class Route {
     this.#material.color.copy(colour(theme.accent));
   }
 
-  /** A colour of its own, for the way of another robot. */
+  /** A colour of its own, for the path of another robot. */
   paint(hex: string): void {
     this.#material.color.set(hex);
   }

@@ -1,7 +1,7 @@
 /** A colour scale as a texture for shaders. */
 
 import { DataTexture, LinearFilter, SRGBColorSpace } from 'three';
-import { type Rgb, ramp } from '../ui/scale.ts';
+import { type Rgb, ramp } from '../colours/scale.ts';
 
 const STEPS = 64;
 

@@ -15,9 +15,9 @@ import {
 import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
-import type { Subgoal } from '../core/protocol.ts';
-import { costColours } from '../ui/costColours.ts';
-import type { Theme } from '../ui/theme.ts';
+import { costColours } from '../colours/costColours.ts';
+import type { Theme } from '../colours/theme.ts';
+import type { Subgoal } from '../protocol/simulationProtocol.ts';
 import { colour } from './relief.ts';
 
 const CAPACITY = 256;

@@ -1,6 +1,6 @@
 /** How bright each sample of the ground is: cast shadow times the openness of its surroundings. Computed once per relief. */
 
-import type { HeightField } from '../scene/heightfield.ts';
+import type { HeightField } from '../ground/heightField.ts';
 
 /** Towards the sun: north-west, as on every shaded map. */
 export const SUN = normalise(-0.62, 0.62, 0.62);

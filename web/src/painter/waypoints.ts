@@ -1,10 +1,10 @@
 /** The waypoints before the goal, as numbered signs that face the viewer. */
 
 import { CanvasTexture, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Sprite, SpriteMaterial } from 'three';
-import type { Place } from '../core/protocol.ts';
-import type { Vector } from '../scene/heightfield.ts';
-import { css } from '../ui/scale.ts';
-import type { Theme } from '../ui/theme.ts';
+import { css } from '../colours/scale.ts';
+import type { Theme } from '../colours/theme.ts';
+import type { Place } from '../experiment/place.ts';
+import type { Vector } from '../ground/heightField.ts';
 import { colour } from './relief.ts';
 
 const SIGN_PX = 128;

@@ -1,4 +1,4 @@
-/** What the 3D view shows of the ground and of the planner's thinking. */
+/** What the 3D view shows of the ground and of what the planner computes. */
 
 export const COLOURINGS = ['elevation', 'slope', 'stand'] as const;
 /** By what the ground is coloured. */
@@ -23,8 +23,8 @@ export interface Layers {
   readonly variance: boolean;
   readonly segments: boolean;
   readonly subgoals: boolean;
-  /** The way to the chosen subgoal. */
-  readonly way: boolean;
+  /** The planned path to the chosen subgoal. */
+  readonly path: boolean;
 }
 
 export const FIRST_LAYERS: Layers = {
@@ -34,7 +34,7 @@ export const FIRST_LAYERS: Layers = {
   variance: false,
   segments: false,
   subgoals: true,
-  way: true,
+  path: true,
 };
 
 /** Whether the layers need the surfaces that the worker predicts on demand. */

@@ -1,7 +1,7 @@
 /** Where the LiDAR is on the robot. */
 
-import type { Pose } from '../core/protocol.ts';
-import type { Vector } from './heightfield.ts';
+import type { Vector } from '../ground/heightField.ts';
+import type { Pose } from '../protocol/simulationProtocol.ts';
 
 /** The sensor in the world, `height_m` above the ground contact along the body's z axis. */
 export function sensorAt(pose: Pose, height_m: number): Vector {

@@ -1,10 +1,10 @@
 /** The paper, step by step, on the live scene. */
 
-import type { Frame, SessionInfo } from '../core/protocol.ts';
+import { degrees, fixed, grouped } from '../base/format.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Layers } from '../scene/layers.ts';
-import type { CameraMode } from '../scene/viewpoint.ts';
-import { type Finder, subgoalTarget } from '../ui/attention.ts';
-import { degrees, fixed, grouped } from '../ui/format.ts';
+import { type Finder, subgoalTarget } from '../scene/selection.ts';
+import type { CameraMode } from '../view/viewpoint.ts';
 
 export interface Step {
   readonly title: string;
@@ -27,21 +27,21 @@ export const BARE: Layers = {
   variance: false,
   segments: false,
   subgoals: false,
-  way: false,
+  path: false,
 };
 
 export const STEPS: readonly Step[] = [
   {
-    title: 'A goal, and no map',
-    text: (_, { limits }) =>
-      `The robot knows where it stands and where the flag is, and nothing of the ground between. It must never roll beyond ${degrees(limits.roll_rad)} or pitch beyond ${degrees(limits.pitch_rad)}. So ten times a second it looks around and decides anew where to go.`,
+    title: 'A goal, and no global map',
+    text: (_, { limits, period_s }) =>
+      `The robot knows its own pose and where the flag is, but nothing of the ground between. It must never roll beyond ${degrees(limits.roll_rad)} or pitch beyond ${degrees(limits.pitch_rad)}. So every ${fixed(period_s, 2)} s it takes a scan and decides anew where to go. It keeps only the ground that it has seen nearby.`,
     camera: 'free',
     layers: {},
   },
   {
     title: 'It scans the ground',
-    text: ({ returns }, { occupancy_radius_m }) =>
-      `A LiDAR on its mast sends out 16 rings of beams; each ring has its own colour here. ${grouped(returns)} beams of this scan came back. The method uses those from within ${metres(occupancy_radius_m)}, inside the dashed circle.`,
+    text: ({ returns }, { occupancy_radius_m, image }) =>
+      `A LiDAR on its mast sends out ${image.rings} rings of beams; each ring has its own colour here. ${grouped(returns)} beams of this scan came back. The method uses those from within ${metres(occupancy_radius_m)}, inside the dashed circle.`,
     camera: 'chase',
     layers: { points: 'ring' },
   },
@@ -89,9 +89,9 @@ export const STEPS: readonly Step[] = [
   {
     title: 'The cheapest subgoal wins',
     text: (_, { preset }) =>
-      `Subgoals stand on the segments. Each is charged for turning towards it, for what then remains to the goal, and for steepness.${preset === 'paper' ? '' : ' The best planner here also forecasts roll and pitch along the way, refuses ways that would tilt the robot too far, and charges for changing its mind and for detours that it knows of.'} Yellow costs least; the ringed one is chosen.`,
+      `Subgoals stand on the segments. Each has a cost: for turning towards it, for the distance that then remains to the goal, and for steepness.${preset === 'paper' ? '' : ' The best planner here also plans a path to each, refuses paths that would tilt the robot too far, and adds costs for leaving its committed target and for detours that it has learned of.'} Yellow costs least; the ringed one is chosen.`,
     camera: 'top',
-    layers: { subgoals: true, way: true },
+    layers: { subgoals: true, path: true },
     marks: (frame) =>
       subgoalTarget(
         frame,
@@ -99,9 +99,9 @@ export const STEPS: readonly Step[] = [
       ),
   },
   {
-    title: 'Drive, and look again',
+    title: 'Drive, and scan again',
     text: () =>
-      'A PID controller turns the robot towards the subgoal and drives. A tenth of a second later there is another scan, and all of this happens again. Now it is yours: raise a hill in its way, or give it another goal.',
+      'A PID controller turns the robot towards the subgoal and drives. Then comes the next scan, and all of this happens again. Now it is yours: raise a hill in its path, or give it another goal.',
     camera: 'chase',
     layers: { points: 'use', subgoals: true },
     drives: true,

@@ -1,10 +1,10 @@
 /** The guided tour: a card that says what the scene shows, one step after the other. Everything is put back at its end. */
 
-import type { Frame, SessionInfo } from '../core/protocol.ts';
+import { html, setText } from '../base/dom.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Layers } from '../scene/layers.ts';
-import type { CameraMode } from '../scene/viewpoint.ts';
-import type { Finder } from '../ui/attention.ts';
-import { html, setText } from '../ui/dom.ts';
+import type { Finder } from '../scene/selection.ts';
+import type { CameraMode } from '../view/viewpoint.ts';
 import { BARE, STEPS } from './steps.ts';
 
 /** What a tour does to the page. */

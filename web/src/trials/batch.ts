@@ -1,7 +1,7 @@
 /** Many seeds of one planner, dealt over several workers: who has driven one gets the next. */
 
-import { type RunningJob, startJob } from './client.ts';
-import type { Course, FromTrials, Summary, TrialResult } from './protocol.ts';
+import { type RunningJob, startJob } from './trialsClient.ts';
+import type { Course, FromTrials, Summary, TrialResult } from './trialsProtocol.ts';
 
 /** Each worker has the planners and the ground in memory of its own. */
 const MOST_WORKERS = 4;

@@ -1,13 +1,10 @@
 /** The course that the page shows now, for other trials on it. */
 
-import type { App } from '../app.ts';
-import type { Course } from './protocol.ts';
+import type { Ground, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Course } from './trialsProtocol.ts';
 
-/** Nothing until the first scenario is there. */
-export function courseOf(app: App): Course | undefined {
-  const { info, field } = app;
-  if (!info || !field) return undefined;
+export function courseOf(info: SessionInfo, ground: Ground): Course {
   const { overrides, learning, start, waypoints, goal } = info;
-  const { columns, rows, cell_m, heights_m } = field;
+  const { columns, rows, cell_m, heights_m } = ground;
   return { overrides, learning, start, waypoints, goal, ground: { columns, rows, cell_m, heights_m } };
 }

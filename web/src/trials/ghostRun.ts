@@ -1,9 +1,8 @@
 /** What is known of one ghost: its rows by tick and how it stands. */
 
-import { POSE } from '../core/columns.ts';
-import { named, only } from '../core/decode.ts';
-import type { Pose } from '../core/protocol.ts';
-import { ROW, type Row, standing, type TrialResult } from './protocol.ts';
+import type { Metrics, Pose } from '../protocol/simulationProtocol.ts';
+import { METRICS, POSE } from '../run/columns.ts';
+import { ROW, type TrialResult } from './trialsProtocol.ts';
 
 const STRIDE = ROW.length;
 const FIRST_TICKS = 512;
@@ -37,16 +36,17 @@ export class GhostRun {
 
   pose(tick: number): Pose | undefined {
     if (tick < 0 || tick > this.lastTick) return undefined;
-    return only(POSE, this.#row(tick));
+    return Object.fromEntries(POSE.map((name) => [name, this.#get(tick, name)])) as unknown as Pose;
   }
 
   /** How it stood at a tick, or stands now where that is later. */
   at(tick: number): TrialResult {
     if (tick >= this.lastTick) return this.#result;
-    return { ...this.#result, outcome: 'running', ...standing(this.#row(tick)) };
+    const metrics = Object.fromEntries(METRICS.map((name) => [name, this.#get(tick, name)])) as unknown as Metrics;
+    return { ...this.#result, outcome: 'running', tick, time_s: this.#get(tick, 'time_s'), metrics };
   }
 
-  #row(tick: number): Row {
-    return named(ROW, this.#rows.subarray(STRIDE * tick, STRIDE * (tick + 1)));
+  #get(tick: number, name: (typeof ROW)[number]): number {
+    return this.#rows[STRIDE * tick + ROW.indexOf(name)] ?? Number.NaN;
   }
 }

@@ -10,8 +10,7 @@ use glam::DVec2;
 use profile::{boulder, bump, crater, flat_bottom, flat_top};
 
 pub(crate) use profile::smooth_step;
-pub(crate) use stroke::StrokeTable;
-pub use stroke::{Stroke, StrokeError};
+pub use stroke::{Stroke, StrokeError, StrokeKind, StrokeTable};
 
 /// What a brush does to the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]

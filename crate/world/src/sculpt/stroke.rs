@@ -48,29 +48,45 @@ pub enum StrokeError {
     },
 }
 
-/// The table as written.
-#[derive(Deserialize)]
+/// A stroke as written, unchecked.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct StrokeTable {
-    kind: Kind,
-    radius_m: f64,
-    strength_m: f64,
-    height_m: Option<f64>,
-    seed: Option<u64>,
-    points: Vec<[f64; 2]>,
+pub struct StrokeTable {
+    /// What each touch does.
+    pub kind: StrokeKind,
+    /// Radius of the brush.
+    pub radius_m: f64,
+    /// The largest change of a height by one touch.
+    pub strength_m: f64,
+    /// Of [`StrokeKind::Level`] alone.
+    pub height_m: Option<f64>,
+    /// Of [`StrokeKind::Roughen`] alone.
+    pub seed: Option<u64>,
+    /// x and y of each touch.
+    pub points: Vec<[f64; 2]>,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+/// The tool of a stroke: see [`BrushKind`].
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
-enum Kind {
+pub enum StrokeKind {
+    /// [`BrushKind::Raise`].
     Raise,
+    /// [`BrushKind::Lower`].
     Lower,
+    /// [`BrushKind::Smooth`].
     Smooth,
+    /// [`BrushKind::Level`].
     Level,
+    /// [`BrushKind::Roughen`].
     Roughen,
+    /// [`BrushKind::Crater`].
     Crater,
+    /// [`BrushKind::Boulder`].
     Boulder,
+    /// [`BrushKind::Ramp`] from each place to the next.
     Ramp,
+    /// [`BrushKind::Ditch`] from each place to the next.
     Ditch,
 }
 
@@ -124,10 +140,10 @@ impl StrokeTable {
             expected: expected.to_owned(),
         };
         let missing = |key| value(key, "absent".to_owned(), "a value");
-        if self.height_m.is_some() && self.kind != Kind::Level {
+        if self.height_m.is_some() && self.kind != StrokeKind::Level {
             return Err(value("height_m", "present".to_owned(), "none beside a kind other than level"));
         }
-        if self.seed.is_some() && self.kind != Kind::Roughen {
+        if self.seed.is_some() && self.kind != StrokeKind::Roughen {
             return Err(value("seed", "present".to_owned(), "none beside a kind other than roughen"));
         }
         let to = |make: fn(DVec2) -> BrushKind| {
@@ -137,15 +153,17 @@ impl StrokeTable {
             Ok(self.points.iter().skip(1).map(|&point| make(DVec2::from_array(point))).collect())
         };
         let kind = match self.kind {
-            Kind::Raise => BrushKind::Raise,
-            Kind::Lower => BrushKind::Lower,
-            Kind::Smooth => BrushKind::Smooth,
-            Kind::Level => BrushKind::Level { height_m: self.height_m.ok_or_else(|| missing("height_m"))? },
-            Kind::Roughen => BrushKind::Roughen { seed: self.seed.ok_or_else(|| missing("seed"))? },
-            Kind::Crater => BrushKind::Crater,
-            Kind::Boulder => BrushKind::Boulder,
-            Kind::Ramp => return to(|to| BrushKind::Ramp { to }),
-            Kind::Ditch => return to(|to| BrushKind::Ditch { to }),
+            StrokeKind::Raise => BrushKind::Raise,
+            StrokeKind::Lower => BrushKind::Lower,
+            StrokeKind::Smooth => BrushKind::Smooth,
+            StrokeKind::Level => {
+                BrushKind::Level { height_m: self.height_m.ok_or_else(|| missing("height_m"))? }
+            }
+            StrokeKind::Roughen => BrushKind::Roughen { seed: self.seed.ok_or_else(|| missing("seed"))? },
+            StrokeKind::Crater => BrushKind::Crater,
+            StrokeKind::Boulder => BrushKind::Boulder,
+            StrokeKind::Ramp => return to(|to| BrushKind::Ramp { to }),
+            StrokeKind::Ditch => return to(|to| BrushKind::Ditch { to }),
         };
         if self.points.is_empty() {
             return Err(value("points", "[]".to_owned(), "at least one point"));

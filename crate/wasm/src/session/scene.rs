@@ -1,0 +1,89 @@
+//! What changes only between trials and with the route.
+
+use mapless::skyline::occupancy::{COLUMNS, RINGS};
+use mapless::skyline::surface::ROWS;
+use serde::Serialize;
+use tsify::{Ts, Tsify};
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+use super::Session;
+use crate::places::{Heading, Place};
+use crate::shared::give;
+
+/// What a scenario is made of, after its files were read.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Scene {
+    /// Of the sensor's noise.
+    seed: u64,
+    start: Heading,
+    /// Driven to one after the other, before the goal.
+    waypoints: Vec<Place>,
+    goal: Place,
+    /// Time between two ticks.
+    period_s: f64,
+    limits: TiltLimits,
+    /// Radius of the occupancy surface: what lies farther is not looked at.
+    occupancy_radius_m: f64,
+    /// The sensor's height above the ground contact, along the body's z axis.
+    sensor_height_m: f64,
+    image: ImageSize,
+    demands: SegmentDemands,
+}
+
+/// How far the robot may tilt.
+#[derive(Debug, Serialize, Tsify)]
+pub struct TiltLimits {
+    roll_rad: f64,
+    pitch_rad: f64,
+}
+
+/// Lattice of the predicted surfaces; the observed one has a row for each ring of the sensor.
+#[derive(Debug, Serialize, Tsify)]
+pub struct ImageSize {
+    columns: usize,
+    rows: usize,
+    rings: usize,
+}
+
+/// What a segment must be to carry subgoals.
+#[derive(Debug, Serialize, Tsify)]
+pub struct SegmentDemands {
+    /// Wider than the robot's width and the margin on it together.
+    robot_width_m: f64,
+    safety_margin_m: f64,
+    /// The skyline no higher and no lower than this, seen from the sensor's foot.
+    max_slope_rad: f64,
+    /// Whether columns without a return may carry subgoals, on ground that earlier scans saw.
+    subgoals_on_unknown: bool,
+}
+
+#[wasm_bindgen]
+impl Session {
+    /// What changes only between trials and with the route.
+    ///
+    /// # Errors
+    /// A seed beyond the whole numbers of JavaScript.
+    pub fn scene(&self) -> Result<Ts<Scene>, JsError> {
+        let (trial, config) = (&self.now.trial, self.now.trial.planner_config());
+        give(&Scene {
+            seed: self.seed,
+            start: trial.start().into(),
+            waypoints: trial.waypoints_m().iter().copied().map(Place::from).collect(),
+            goal: trial.goal_m().into(),
+            period_s: trial.period_s(),
+            limits: TiltLimits {
+                roll_rad: config.robot.roll_limit_rad,
+                pitch_rad: config.robot.pitch_limit_rad,
+            },
+            occupancy_radius_m: config.perception.surface_radius_m,
+            sensor_height_m: config.sensor.height_m,
+            image: ImageSize { columns: COLUMNS, rows: ROWS, rings: RINGS },
+            demands: SegmentDemands {
+                robot_width_m: config.robot.width_m,
+                safety_margin_m: config.segments.safety_margin_m,
+                max_slope_rad: config.segments.max_slope_rad,
+                subgoals_on_unknown: config.segments.subgoals_on_unknown,
+            },
+        })
+    }
+}

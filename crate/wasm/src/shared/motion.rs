@@ -1,0 +1,84 @@
+//! Where the robot is and how well it has driven.
+
+use mapless_trials::{Navigator, Trial};
+use serde::Serialize;
+use tsify::Tsify;
+
+/// Where the robot is: x east, y north, z up; pitch positive nose-up, roll positive with the left side up.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Pose {
+    x: f64,
+    y: f64,
+    /// Height of the ground contact under the body's centre.
+    z: f64,
+    roll: f64,
+    pitch: f64,
+    yaw: f64,
+}
+
+impl Pose {
+    pub(crate) fn of<N: Navigator>(trial: &Trial<N>) -> Self {
+        let [x, y, z, roll, pitch, yaw, ..] = trial.motion();
+        Self { x, y, z, roll, pitch, yaw }
+    }
+}
+
+/// The paper's six metrics, with the names that the command line prints.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Metrics {
+    distance_m: f64,
+    max_abs_roll_rad: f64,
+    max_abs_pitch_rad: f64,
+    mean_vibration_rad_s: f64,
+    mean_elevation_rate_cm_s: f64,
+    curvature_change_rad_m: f64,
+}
+
+impl Metrics {
+    pub(crate) fn of<N: Navigator>(trial: &Trial<N>) -> Self {
+        let metrics = trial.metrics();
+        Self {
+            distance_m: metrics.distance_m,
+            max_abs_roll_rad: metrics.max_abs_roll_rad,
+            max_abs_pitch_rad: metrics.max_abs_pitch_rad,
+            mean_vibration_rad_s: metrics.mean_vibration_rad_s,
+            mean_elevation_rate_cm_s: metrics.mean_elevation_rate_cm_s,
+            curvature_change_rad_m: metrics.curvature_change_rad_m,
+        }
+    }
+}
+
+/// How a trial stands: `running`, or how it ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Tsify)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// It goes on.
+    Running,
+    /// The robot is at the goal.
+    Reached,
+    /// It rolled or pitched too far.
+    TiltLimit,
+    /// It got nowhere for too long.
+    Stuck,
+    /// The planner knows no way on.
+    NoSubgoal,
+    /// It would have left the terrain.
+    LeftTerrain,
+    /// Its time ran out.
+    Timeout,
+}
+
+impl Outcome {
+    pub(crate) fn of<N: Navigator>(trial: &Trial<N>) -> Self {
+        use mapless_trials::Outcome as Ended;
+        match trial.outcome() {
+            None => Self::Running,
+            Some(Ended::Reached) => Self::Reached,
+            Some(Ended::TiltLimit) => Self::TiltLimit,
+            Some(Ended::Stuck) => Self::Stuck,
+            Some(Ended::NoSubgoal) => Self::NoSubgoal,
+            Some(Ended::LeftTerrain) => Self::LeftTerrain,
+            Some(Ended::Timeout) => Self::Timeout,
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Terrains: reading them, generating them, and their heights as a grid.
+
+use js_sys::{Float32Array, Uint8Array};
+use mapless_world::generate::{Difficulty, terrain_recipe};
+use mapless_world::{HeightField, SampleRect, load_terrain_bytes};
+use serde::{Deserialize, Serialize};
+use tsify::{Ts, Tsify};
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+use crate::places::Place;
+use crate::shared::{give, read};
+
+/// A terrain by the file that describes it.
+#[derive(Debug, Deserialize, Tsify)]
+pub struct TerrainFiles {
+    name: String,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Uint8Array")]
+    bytes: Uint8Array,
+    /// The file that the recipe imports, where it imports one.
+    #[tsify(optional, type = "Uint8Array")]
+    imported: Option<Bytes>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(transparent)]
+struct Bytes(#[serde(with = "serde_wasm_bindgen::preserve")] Uint8Array);
+
+impl TerrainFiles {
+    pub(crate) fn load(&self) -> Result<HeightField, JsError> {
+        let terrain = load_terrain_bytes(&self.name, &self.bytes.to_vec(), &mut |wanted| {
+            let Some(Bytes(imported)) = &self.imported else {
+                return Err(format!("expected the file {wanted} beside the recipe"));
+            };
+            Ok(imported.to_vec())
+        })?;
+        Ok(terrain.field)
+    }
+}
+
+/// A regular grid of heights: row by row, each from west to east, the southern row first.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Ground {
+    columns: usize,
+    rows: usize,
+    cell_m: f64,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Float32Array<ArrayBuffer>")]
+    heights_m: Float32Array,
+}
+
+impl Ground {
+    pub(crate) fn of(field: &HeightField) -> Self {
+        Self {
+            columns: field.columns(),
+            rows: field.rows(),
+            cell_m: field.cell_m(),
+            heights_m: Float32Array::from(field.heights_m()),
+        }
+    }
+
+    /// Every so many samples, so that there are at most `most` along a side.
+    fn coarse(field: &HeightField, most: u32) -> Self {
+        let longer = field.columns().max(field.rows()) - 1;
+        let stride = longer.div_ceil(most.max(2) as usize - 1).max(1);
+        let every = |count: usize| (0..count).step_by(stride);
+        let rows = every(field.rows()).map(|row| row * field.columns());
+        let samples = rows.flat_map(|row| every(field.columns()).map(move |column| row + column));
+        let heights_m: Vec<f32> = samples.map(|at| field.heights_m()[at]).collect();
+        Self {
+            columns: every(field.columns()).count(),
+            rows: every(field.rows()).count(),
+            cell_m: stride as f64 * field.cell_m(),
+            heights_m: Float32Array::from(heights_m.as_slice()),
+        }
+    }
+}
+
+/// The heights of a rectangle of the grid, row by row from its south-western corner.
+#[derive(Debug, Serialize, Deserialize, Tsify)]
+pub struct GroundPatch {
+    column: usize,
+    row: usize,
+    columns: usize,
+    rows: usize,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Float32Array<ArrayBuffer>")]
+    heights_m: Float32Array,
+}
+
+impl GroundPatch {
+    pub(crate) fn of(field: &HeightField, rect: SampleRect) -> Self {
+        let columns = rect.column_begin..rect.column_end;
+        let lines = field.heights_m().chunks_exact(field.columns());
+        let lines = lines.skip(rect.row_begin).take(rect.row_end - rect.row_begin);
+        let heights_m: Vec<f32> = lines.flat_map(|line| &line[columns.clone()]).copied().collect();
+        Self {
+            column: rect.column_begin,
+            row: rect.row_begin,
+            columns: columns.len(),
+            rows: rect.row_end - rect.row_begin,
+            heights_m: Float32Array::from(heights_m.as_slice()),
+        }
+    }
+
+    pub(crate) fn rect(&self) -> SampleRect {
+        SampleRect {
+            column_begin: self.column,
+            column_end: self.column.saturating_add(self.columns),
+            row_begin: self.row,
+            row_end: self.row.saturating_add(self.rows),
+        }
+    }
+
+    pub(crate) fn heights_m(&self) -> Vec<f32> {
+        self.heights_m.to_vec()
+    }
+}
+
+/// Two level places of a terrain far from each other.
+#[derive(Debug, Serialize, Tsify)]
+pub struct LevelPlaces {
+    start: Place,
+    goal: Place,
+}
+
+/// The recipe of a generated terrain; `difficulty` is `easy`, `moderate` or `hard`.
+///
+/// # Errors
+/// An unknown difficulty.
+#[wasm_bindgen]
+pub fn generated_recipe(difficulty: &str, seed: u32) -> Result<String, JsError> {
+    let difficulty: Difficulty = difficulty.parse()?;
+    Ok(terrain_recipe(&format!("{difficulty} {seed}"), difficulty, seed.into()))
+}
+
+/// Two level places of a terrain far from each other, for a start and a goal.
+///
+/// # Errors
+/// A fault of the terrain, with place, value and expectation.
+#[wasm_bindgen]
+pub fn level_places(terrain: Ts<TerrainFiles>) -> Result<Ts<LevelPlaces>, JsError> {
+    let [start, goal] = read(terrain)?.load()?.level_places();
+    give(&LevelPlaces { start: start.into(), goal: goal.into() })
+}
+
+/// A terrain as a coarse grid for a picture, with at most `most` samples along a side.
+///
+/// # Errors
+/// A fault of the terrain, with place, value and expectation.
+#[wasm_bindgen]
+pub fn terrain_preview(terrain: Ts<TerrainFiles>, most: u32) -> Result<Ts<Ground>, JsError> {
+    give(&Ground::coarse(&read(terrain)?.load()?, most))
+}

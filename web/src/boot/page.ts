@@ -1,0 +1,244 @@
+/** Puts the page together. */
+
+import { App } from '../app/app.ts';
+import { publish } from '../app/windowApi.ts';
+import { byId, setText } from '../base/dom.ts';
+import { readTheme, watchTheme } from '../colours/theme.ts';
+import { BrushPanel } from '../controls/brushPanel.ts';
+import { Controls } from '../controls/controls.ts';
+import { GroundKey } from '../controls/groundKey.ts';
+import { bindKeys } from '../controls/keys.ts';
+import { ShareSheet } from '../controls/shareSheet.ts';
+import { TerrainsSheet } from '../controls/terrainsSheet.ts';
+import { TimelineBar } from '../controls/timelineBar.ts';
+import { UndoButtons } from '../controls/undoButtons.ts';
+import type { Editor } from '../editor/editor.ts';
+import { Autosave } from '../experiment/autosave.ts';
+import { entry, following } from '../experiment/catalogue.ts';
+import { countOverrides } from '../experiment/overrides.ts';
+import { AttitudeInstrument, PITCH, ROLL } from '../inspector/attitude.ts';
+import { Inspector } from '../inspector/inspector.ts';
+import { OUTCOME_WORDS, StatusPanel } from '../inspector/status.ts';
+import type { Lab } from '../lab/lab.ts';
+import { Measure } from '../measurements/measurements.ts';
+import { watchFaults, watchGraphics } from '../notices/faults.ts';
+import { Notice } from '../notices/notice.ts';
+import { keepOffline } from '../offline/register.ts';
+import { published } from '../run/published.ts';
+import { GroundTools } from '../view/groundTools.ts';
+import { Stage } from '../view/stage.ts';
+import { beginPlainly, begun, core } from './startCore.ts';
+import { begin, leadOut } from './welcome.ts';
+
+const element = (id: string) => byId(id, HTMLElement);
+const view = byId('view', HTMLCanvasElement);
+const notice = new Notice();
+const roll = new AttitudeInstrument(ROLL);
+const pitch = new AttitudeInstrument(PITCH);
+element('attitude').append(roll.element, pitch.element);
+const status = new StatusPanel({
+  outcome: element('outcome'),
+  time: element('time'),
+  speed: element('speed-now'),
+  reason: element('reason'),
+  returns: element('returns'),
+  digest: element('digest'),
+  announcement: element('announcement'),
+});
+const result = element('result');
+const help = byId('help-sheet', HTMLDialogElement);
+
+/** The drawer with parameters, comparison and seeds: loaded when it is first opened. */
+let lab: Lab | undefined;
+
+async function openLab(): Promise<void> {
+  if (!lab) {
+    const { Lab } = await import('../lab/lab.ts');
+    lab ??= new Lab(app, stage, byId('lab', HTMLButtonElement));
+  }
+  lab.toggle();
+}
+
+function labCount(count: number): void {
+  const badge = element('lab-count');
+  badge.hidden = count === 0;
+  setText(badge, String(count));
+  byId('lab', HTMLButtonElement).setAttribute(
+    'aria-label',
+    `Parameters, comparison, many seeds${count > 0 ? `; ${count} changed` : ''}`,
+  );
+}
+
+/** What is said and published of a scenario is shown only where its ground, start and route are its own. */
+function showCourse({ experiment, asItComes }: Editor): void {
+  const name = asItComes && experiment ? experiment.name : '';
+  measure.paper(published(name));
+  setText(element('scene-lesson'), asItComes === false ? CHANGED : entry(name).lesson);
+}
+
+const CHANGED = 'Changed: ground, start or route are no longer the scenario’s.';
+
+const SLOW = 'Opening this takes long. Wait for it, or stop it and go on with what was there before.';
+
+let stage: Stage | undefined;
+
+const app = new App(core, {
+  session(info, field) {
+    stage?.session(info, field);
+    timeline.session(info.period_s);
+    labCount(countOverrides(info.overrides));
+    lab?.session(info);
+    inspector.session(info, field);
+    roll.limit(info.limits.roll_rad);
+    pitch.limit(info.limits.pitch_rad);
+    status.session(info);
+    measure.session(info);
+    controls.showSession(info);
+    groundKey.session(info);
+    if (field) {
+      groundKey.ground(field);
+      brushPanel.ground(field.min_m, field.max_m);
+      lab?.sculpted();
+    }
+    const { group, title } = entry(info.scenario);
+    setText(element('scene-title'), `${group}: ${title}`);
+    setText(element('next-title'), following(info.scenario).title);
+  },
+  frame(frame) {
+    stage?.frame(frame);
+    timeline.show(frame);
+    lab?.frame(frame);
+    inspector.frame(frame);
+    measure.frame(frame);
+    roll.show(frame.pose.roll, frame.metrics.max_abs_roll_rad);
+    pitch.show(frame.pose.pitch, frame.metrics.max_abs_pitch_rad);
+  },
+  status(frame, playing) {
+    status.show(frame, playing);
+    // Once a trial has ended, the button starts it anew.
+    controls.showPlaying(playing && frame.outcome === 'running');
+    result.hidden = frame.outcome === 'running';
+    result.dataset.outcome = frame.outcome;
+    setText(element('result-words'), OUTCOME_WORDS[frame.outcome]);
+  },
+  sculpted(patch) {
+    stage?.sculpted(patch);
+    lab?.sculpted();
+    if (app.field) groundKey.ground(app.field);
+  },
+  playing: (playing) => controls.showPlaying(playing),
+  speed(speed) {
+    controls.showSpeed(speed);
+    stage?.speed(speed);
+  },
+  still: () => stage?.still() ?? Promise.resolve(),
+  countdown(seconds) {
+    setText(element('countdown'), seconds === undefined ? '' : `in ${seconds} s`);
+  },
+  experiment(editor) {
+    undoButtons.show(editor);
+    showCourse(editor);
+    // A link in the address is no longer what is shown.
+    if (editor.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
+    if (!editor.experiment) return;
+    if (app.touched) autosave.save(editor.experiment);
+    app.attempt(leadOut(editor.experiment));
+  },
+  notice: (message) => notice.show(message),
+  clearNotice: () => notice.hide(),
+  slow: (stop) => notice.tell(SLOW, 'Stop', stop),
+  clearSlow: () => notice.withdraw(SLOW),
+});
+
+const graphics = watchGraphics(
+  (message) => notice.show(message),
+  () => notice.hide(),
+);
+/** Without WebGL the numbers, the image and the controls still work. */
+try {
+  stage = new Stage(view, readTheme(), graphics);
+} catch {
+  graphics.unavailable();
+}
+
+const measure = new Measure({
+  record: app.record,
+  view: stage,
+  go: (time_s) => app.attempt(app.seekTime(time_s)),
+  notice: (message) => notice.show(message),
+});
+const inspector = new Inspector(app, stage, view);
+const tools = stage
+  ? new GroundTools(view, stage, {
+      setGoal: (goal) => app.attempt(app.setGoal(goal)),
+      addWaypoint: (place) => app.attempt(app.addWaypoint(place)),
+      setStart: (start) => app.attempt(app.setStart(start)),
+      pressed: (onGround) => controls.showHint(onGround),
+      moveView: (right, ahead) => inspector.moveView(right, ahead),
+      stroke(brush) {
+        const stroke = app.editor.stroke(brush);
+        return { touch: stroke.touch, end: () => app.attempt(stroke.end()) };
+      },
+    })
+  : undefined;
+
+const actions = {
+  togglePlay: () => app.attempt(app.togglePlay()),
+  step: () => app.attempt(app.step()),
+  restart: () => app.attempt(app.restart().then(() => app.play())),
+  next: () => app.attempt(app.next()),
+  setSpeed: (speed: number) => app.attempt(app.setSpeed(speed)),
+  faster: (steps: number) => app.attempt(app.faster(steps)),
+  load: (...args: Parameters<App['runScenario']>) => app.attempt(app.runScenario(...args)),
+  selectTool(tool: Parameters<GroundTools['select']>[0]) {
+    tools?.select(tool);
+    controls.showTool(tool);
+    brushPanel.tool(tool);
+  },
+  change: (part: Parameters<App['change']>[0]) => app.attempt(app.change(part)),
+  growBrush: (steps: number) => brushPanel.grow(steps),
+  strengthenBrush: (steps: number) => brushPanel.strengthen(steps),
+  terrains: () => terrainsSheet.open(),
+  share: () => app.attempt(shareSheet.open()),
+  letGo() {
+    actions.selectTool('look');
+    inspector.letGo();
+  },
+  help: () => help.showModal(),
+  addWaypoints: (adding: boolean) => tools?.addWaypoints(adding),
+  clearWaypoints: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
+  jump: (times: number) => app.attempt(app.jump(times)),
+  lab: () => app.attempt(openLab()),
+};
+const brushPanel = new BrushPanel((setting) => tools?.brush(setting));
+const groundKey = new GroundKey((colouring) => stage?.colouring(colouring));
+const undoButtons = new UndoButtons(app);
+const terrainsSheet = new TerrainsSheet(app);
+const shareSheet = new ShareSheet(app);
+const autosave = new Autosave((why) => notice.show(why));
+const controls = new Controls(actions);
+const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
+byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
+bindKeys(actions, inspector);
+controls.showTool('look');
+controls.showSpeed(1);
+
+watchTheme((theme) => {
+  stage?.theme(theme);
+  inspector.theme(theme);
+});
+for (const event of ['pointerdown', 'keydown', 'wheel']) {
+  document.addEventListener(event, () => app.touch(), { passive: true, capture: true });
+}
+document.addEventListener('visibilitychange', () => app.attempt(app.hidden(document.hidden)));
+watchFaults((message) => notice.show(message));
+element('skip').addEventListener('click', (event) => {
+  // An address with #view would stand in the history and in shared links.
+  event.preventDefault();
+  view.focus();
+});
+keepOffline((start) => notice.tell('A new version of this page is ready.', 'Reload', start));
+
+publish(app);
+
+app.attempt(begin(app, notice, begun, beginPlainly));

@@ -1,0 +1,45 @@
+/** Shows what the page begins with. */
+
+import type { App } from '../app/app.ts';
+import { byId } from '../base/dom.ts';
+import { CATALOGUE } from '../experiment/catalogue.ts';
+import { type Experiment, FIRST_SETUP } from '../experiment/experiment.ts';
+import { linkTo } from '../experiment/link.ts';
+import type { Notice } from '../notices/notice.ts';
+import type { Beginning } from '../protocol/simulationProtocol.ts';
+
+/** `begun` is what the core loads; `plainly` has it load what it would without an address. */
+export async function begin(
+  app: App,
+  notice: Notice,
+  begun: Promise<Beginning>,
+  plainly: () => Promise<Beginning>,
+): Promise<void> {
+  // In another page's frame: the view alone, with a way out of it.
+  if (new URLSearchParams(location.search).has('embed')) document.documentElement.toggleAttribute('data-embed', true);
+  try {
+    welcome(app, notice, await app.begin(begun));
+  } catch (error) {
+    // What was asked for does not work: say why, and show what does. That may be the very work of the last visit.
+    await app.begin(plainly()).catch(() => first(app));
+    notice.show(error instanceof Error ? error.message : String(error));
+  }
+}
+
+function first(app: App): Promise<void> {
+  return app.runScenario(CATALOGUE[0]?.id ?? '', FIRST_SETUP);
+}
+
+function welcome(app: App, notice: Notice, { from, own, unread }: Beginning): void {
+  if (unread) notice.show(`What this browser kept of the last visit cannot be read. ${unread}`);
+  else if (from === 'link' && own) notice.tell('This came with the link. Undo leads back to your own work.');
+  else if (from === 'last visit') {
+    notice.tell('Here is where you left off.', 'Start afresh', () => app.attempt(first(app)));
+  }
+}
+
+/** The way out of another page's frame leads to what is shown there, however it came. */
+export async function leadOut(experiment: Experiment): Promise<void> {
+  if (!document.documentElement.hasAttribute('data-embed')) return;
+  byId('open-page', HTMLAnchorElement).href = await linkTo(location.href.split('?')[0] ?? '', experiment);
+}

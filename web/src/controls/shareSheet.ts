@@ -1,0 +1,89 @@
+/** The sheet for links and files. */
+
+import { byId, setText } from '../base/dom.ts';
+import type { Experiment } from '../experiment/experiment.ts';
+import { linkTo, MAX_LINK_CHARACTERS } from '../experiment/link.ts';
+import { zip } from '../files/archive.ts';
+import { download } from '../files/download.ts';
+import { heightsAscii, heightsPng } from '../files/heights.ts';
+import type { HeightField } from '../ground/heightField.ts';
+import type { NamedFile } from '../protocol/simulationProtocol.ts';
+
+/** What there is to share: the page's experiment, and its ground as it is now. */
+export interface Shared {
+  readonly editor: { readonly experiment: Experiment | undefined };
+  readonly field: HeightField | undefined;
+  /** Whether ground or route changed during the run. */
+  state(): { readonly disturbed: boolean } | undefined;
+  /** The files with which `mapless run` drives the same run. */
+  files(): Promise<NamedFile[]>;
+}
+
+export class ShareSheet {
+  readonly #shared: Shared;
+  readonly #sheet = byId('share-sheet', HTMLDialogElement);
+  readonly #note = byId('share-note', HTMLElement);
+  readonly #state = byId('share-state', HTMLElement);
+  readonly #link = byId('link', HTMLInputElement);
+  readonly #copy = byId('copy-link', HTMLButtonElement);
+
+  constructor(shared: Shared) {
+    this.#shared = shared;
+    this.#copy.addEventListener('click', () => this.#copyLink());
+    this.#saves('save-experiment', async (name) => {
+      const json = `${JSON.stringify(shared.editor.experiment, undefined, 1)}\n`;
+      download(`${name}.json`, new Blob([json], { type: 'application/json' }));
+    });
+    this.#saves('save-scenario', async (name) => download(`${name}.zip`, zip(await shared.files())));
+    this.#saves('save-png', async (name) => download(`${name}.png`, await heightsPng(ground(shared))));
+    this.#saves('save-asc', async (name) => download(`${name}.asc`, heightsAscii(ground(shared))));
+  }
+
+  async open(): Promise<void> {
+    const { experiment } = this.#shared.editor;
+    if (!experiment) return;
+    setText(this.#state, '');
+    const link = await linkTo(location.href.split('?')[0] ?? '', experiment);
+    const short = link.length <= MAX_LINK_CHARACTERS;
+    this.#link.value = short ? link : '';
+    this.#copy.disabled = !short;
+    this.#link.hidden = !short;
+    const changed = this.#shared.state()?.disturbed
+      ? ' Ground or route changed during this run: restart it to see that run.'
+      : '';
+    setText(
+      this.#note,
+      short
+        ? `The link holds terrain, strokes, start, route and settings (${link.length} characters) and drives the same run from its start.${changed}`
+        : `This is too much for a link that chats carry (${link.length} characters, ${MAX_LINK_CHARACTERS} at most). Save the experiment as a file and send that.`,
+    );
+    if (!this.#sheet.open) this.#sheet.showModal();
+    if (short) this.#copy.focus();
+  }
+
+  async #copyLink(): Promise<void> {
+    this.#link.select();
+    try {
+      await navigator.clipboard.writeText(this.#link.value);
+      setText(this.#state, 'Copied.');
+    } catch {
+      setText(this.#state, 'The browser does not let the page copy: the link is selected, copy it from there.');
+    }
+  }
+
+  #saves(id: string, save: (name: string) => Promise<void>): void {
+    byId(id, HTMLButtonElement).addEventListener('click', () => {
+      const name = (this.#shared.editor.experiment?.name ?? 'experiment').replace(/[^\w-]+/g, '-');
+      // What goes wrong is said in the sheet, which covers the notice.
+      save(name).then(
+        () => setText(this.#state, ''),
+        (error: unknown) => setText(this.#state, error instanceof Error ? error.message : String(error)),
+      );
+    });
+  }
+}
+
+function ground({ field }: Shared): HeightField {
+  if (!field) throw new Error('There is no ground yet.');
+  return field;
+}

@@ -1,0 +1,116 @@
+/** The sheet of terrains: those of the scenarios, generated ones, and files of one's own. */
+
+import { byId, html, setText } from '../base/dom.ts';
+import { readTheme } from '../colours/theme.ts';
+import { CATALOGUE } from '../experiment/catalogue.ts';
+import { DIFFICULTIES, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
+import type { Ground, NamedFile } from '../protocol/simulationProtocol.ts';
+import { drawRelief } from './reliefPicture.ts';
+
+/** Generated terrains shown at once. */
+const GENERATED = 4;
+
+export interface TerrainActions {
+  /** The ground of a terrain, coarsely, for a picture. */
+  preview(terrain: Terrain): Promise<Ground>;
+  runScenario(scenario: string): Promise<void>;
+  runTerrain(terrain: Terrain, name: string): Promise<void>;
+  runFiles(files: readonly NamedFile[]): Promise<void>;
+  /** Says what goes wrong. */
+  attempt(action: Promise<void>): void;
+}
+
+export class TerrainsSheet {
+  readonly #actions: TerrainActions;
+  readonly #sheet = byId('terrains-sheet', HTMLDialogElement);
+  readonly #cards = byId('terrain-cards', HTMLElement);
+  readonly #generated = byId('generated-cards', HTMLElement);
+  readonly #difficulty = byId('difficulty', HTMLSelectElement);
+  readonly #seed = byId('terrain-seed', HTMLInputElement);
+  readonly #files = byId('files', HTMLInputElement);
+
+  constructor(actions: TerrainActions) {
+    this.#actions = actions;
+    byId('generate', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
+    for (const input of [this.#difficulty, this.#seed]) input.addEventListener('change', () => this.#generate());
+    byId('more-terrains', HTMLButtonElement).addEventListener('click', () => {
+      const next = this.#seed.valueAsNumber + GENERATED;
+      this.#seed.valueAsNumber = next <= MAX_SEED - GENERATED ? next : 0;
+      this.#generate();
+    });
+    byId('open-files', HTMLButtonElement).addEventListener('click', () => this.#files.click());
+    this.#files.addEventListener('change', () => {
+      actions.attempt(this.#open(this.#files.files ?? []));
+      this.#files.value = '';
+    });
+    document.addEventListener('dragover', (event) => {
+      if (event.dataTransfer?.types.includes('Files')) event.preventDefault();
+    });
+    document.addEventListener('drop', (event) => {
+      if (!event.dataTransfer?.files.length) return;
+      event.preventDefault();
+      actions.attempt(this.#open(event.dataTransfer.files));
+    });
+  }
+
+  open(): void {
+    // Pictures follow light and dark, so they are drawn for each visit.
+    this.#cards.replaceChildren(...TERRAINS.map(([name, title, scenario]) => this.#catalogued(name, title, scenario)));
+    this.#generate();
+    if (!this.#sheet.open) this.#sheet.showModal();
+  }
+
+  #catalogued(name: string, title: string, scenario: string): HTMLElement {
+    return this.#card({ catalogue: name }, title, () => this.#actions.runScenario(scenario));
+  }
+
+  #generate(): void {
+    const first = this.#seed.valueAsNumber;
+    if (!this.#seed.reportValidity() || !Number.isInteger(first)) return;
+    const difficulty = DIFFICULTIES.find((one) => one === this.#difficulty.value) ?? 'moderate';
+    const cards = Array.from({ length: GENERATED }, (_, step) => {
+      const seed = first + step;
+      const terrain = { generated: { difficulty, seed } };
+      const name = `${difficulty} ${seed}`;
+      return this.#card(terrain, `Seed ${seed}`, () => this.#actions.runTerrain(terrain, name));
+    });
+    this.#generated.replaceChildren(...cards);
+  }
+
+  #card(terrain: Terrain, title: string, choose: () => Promise<void>): HTMLElement {
+    const picture = html('canvas', 'card-picture');
+    const words = html('span', 'card-title', [title]);
+    const button = html('button', 'card', [picture, words]);
+    button.type = 'button';
+    button.addEventListener('click', () => {
+      this.#sheet.close();
+      this.#actions.attempt(choose());
+    });
+    this.#actions.preview(terrain).then(
+      (ground) => drawRelief(picture, ground, readTheme()),
+      (error: unknown) => setText(words, `${title}: ${error instanceof Error ? error.message : error}`),
+    );
+    return html('li', '', [button]);
+  }
+
+  async #open(list: ArrayLike<File>): Promise<void> {
+    this.#sheet.close();
+    const files: NamedFile[] = [];
+    for (const file of Array.from(list)) {
+      files.push({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
+    }
+    if (files.length > 0) await this.#actions.runFiles(files);
+  }
+}
+
+/** Each terrain once, with the first scenario on it. */
+const TERRAINS = [
+  ['cht', 'Challenging hilly terrain'],
+  ['ml', 'Martian landscape'],
+  ['vta', 'Valley trail ascent'],
+  ['gsb', 'Gentle slope bypass'],
+  ['ht', 'Hilly terrain'],
+].map(([name = '', title = '']) => {
+  const scenario = CATALOGUE.find(({ id }) => id === name || id.startsWith(`${name}-`));
+  return [name, title, scenario?.id ?? name] as const;
+});

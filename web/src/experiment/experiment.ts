@@ -1,0 +1,99 @@
+/**
+ * The experiment: all that a run depends on, as one plain document. The same document gives the same run, bit by bit, in any
+ * browser and on the command line. Undo, links, files and autosave all keep documents of this kind.
+ */
+
+import type { Stroke, StrokeKind } from '../wasm/mapless_wasm.js';
+import type { Overrides } from './overrides.ts';
+import type { Heading, Place } from './place.ts';
+import type { Learning, Preset, Setup } from './setting.ts';
+
+export const VERSION = 1;
+
+export const DIFFICULTIES = ['easy', 'moderate', 'hard'] as const;
+export type Difficulty = (typeof DIFFICULTIES)[number];
+
+/** A file as text, for recipes that import a grid of heights. */
+export interface ImportedFile {
+  readonly name: string;
+  readonly base64: string;
+}
+
+/** Where the ground comes from, before any stroke. */
+export type Terrain =
+  | { readonly catalogue: string }
+  | { readonly generated: { readonly difficulty: Difficulty; readonly seed: number } }
+  /** The text of a recipe, and the file that it imports, if it does. */
+  | { readonly recipe: string; readonly imported?: ImportedFile };
+
+export type { Stroke, StrokeKind };
+
+export const STROKE_KINDS = [
+  'raise',
+  'lower',
+  'smooth',
+  'level',
+  'roughen',
+  'crater',
+  'boulder',
+  'ramp',
+  'ditch',
+] as const satisfies readonly StrokeKind[];
+
+export interface Experiment {
+  readonly version: typeof VERSION;
+  /** That of the scenario or of the file it began with. */
+  readonly name: string;
+  readonly terrain: Terrain;
+  readonly strokes: readonly Stroke[];
+  readonly start: Heading;
+  /** Driven to one after the other, before the goal. */
+  readonly waypoints: readonly Place[];
+  readonly goal: Place;
+  readonly seed: number;
+  readonly preset: Preset;
+  readonly learning: Learning;
+  /** Tables `planner`, `sensor` and `robot`. */
+  readonly overrides: Overrides;
+}
+
+/** How the first visit begins. */
+export const FIRST_SETUP: Setup = { preset: 'default', learning: 'fixed', overrides: {} };
+
+export const OVERRIDDEN = ['planner', 'sensor', 'robot'] as const;
+export const PRESETS: readonly Preset[] = ['default', 'paper'];
+export const LEARNING: readonly Learning[] = ['fixed', 'once', 'every_scan'];
+
+export const MAX_SEED = 0xffff_ffff;
+/** Touches of all strokes together: more would take long to repeat. */
+export const MAX_TOUCHES = 50_000;
+export const MAX_WAYPOINTS = 1000;
+export const MAX_RECIPE_CHARACTERS = 1_000_000;
+/** Of an imported file. */
+export const MAX_FILE_BYTES = 16 << 20;
+
+/** A whole centimetre: finer places make longer links and no difference. */
+export function centimetres(value_m: number): number {
+  return Math.round(100 * value_m);
+}
+
+/** Rounded as documents keep it: places to centimetres. */
+export function tidyPlace({ x, y }: Place): Place {
+  return { x: centimetres(x) / 100, y: centimetres(y) / 100 };
+}
+
+/** Places to centimetres, headings to a thousandth of a radian. */
+export function tidyHeading(heading: Heading): Heading {
+  return { ...tidyPlace(heading), heading_rad: Math.round(1000 * heading.heading_rad) / 1000 };
+}
+
+/** Whether two experiments lead over the same ground from the same start to the same goal. */
+export function sameCourse(one: Experiment, other: Experiment): boolean {
+  const route = ({ start, waypoints, goal }: Experiment) =>
+    JSON.stringify([tidyHeading(start), waypoints.map(tidyPlace), tidyPlace(goal)]);
+  return (
+    one.strokes.length + other.strokes.length === 0 &&
+    route(one) === route(other) &&
+    JSON.stringify(one.terrain) === JSON.stringify(other.terrain)
+  );
+}

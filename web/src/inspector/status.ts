@@ -1,0 +1,72 @@
+/** How the trial stands: outcome, clock, decision in words, and what the machine did. */
+
+import { setText } from '../base/dom.ts';
+import { clock, fixed, grouped } from '../base/format.ts';
+import type { Activity, Frame, Outcome, SessionInfo } from '../protocol/simulationProtocol.ts';
+import { reason } from './reason.ts';
+
+export const OUTCOME_WORDS: Record<Outcome, string> = {
+  running: 'Driving',
+  reached: 'Goal reached',
+  tilt_limit: 'Tipped too far',
+  stuck: 'Stuck',
+  no_subgoal: 'No safe path found',
+  left_terrain: 'Left the terrain',
+  timeout: 'Out of time',
+};
+
+const ACTIVITY_WORDS: Record<Activity, string> = {
+  driving: 'Driving',
+  arrived: 'Driving',
+  backtracking: 'Backtracking',
+  searching: 'Searching',
+  stopped: 'Standing',
+};
+
+/** How the trial stands, in two or three words. */
+export function standing({ outcome, activity }: Frame, playing: boolean): string {
+  if (outcome !== 'running') return OUTCOME_WORDS[outcome];
+  return playing ? ACTIVITY_WORDS[activity] : 'Paused';
+}
+
+export interface StatusElements {
+  readonly outcome: HTMLElement;
+  readonly time: HTMLElement;
+  readonly speed: HTMLElement;
+  readonly reason: HTMLElement;
+  readonly returns: HTMLElement;
+  readonly digest: HTMLElement;
+  /** Announced to screen readers, only when a trial ends. */
+  readonly announcement: HTMLElement;
+}
+
+export class StatusPanel {
+  readonly #elements: StatusElements;
+  #outcome: Outcome | undefined;
+  #info: SessionInfo | undefined;
+
+  constructor(elements: StatusElements) {
+    this.#elements = elements;
+  }
+
+  session(info: SessionInfo): void {
+    this.#info = info;
+  }
+
+  show(frame: Frame, playing: boolean): void {
+    const { outcome, time, speed, returns, digest, announcement } = this.#elements;
+    const words = standing(frame, playing);
+    setText(outcome, words);
+    outcome.dataset.outcome = frame.outcome === 'running' && !playing ? 'paused' : frame.outcome;
+    setText(time, clock(frame.time_s));
+    setText(speed, `${fixed(frame.v_m_s, 2)} m/s`);
+    const why = this.#info ? reason(frame, this.#info) : '';
+    setText(this.#elements.reason, why);
+    setText(returns, grouped(frame.returns));
+    setText(digest, frame.digest);
+    if (this.#outcome !== frame.outcome) {
+      this.#outcome = frame.outcome;
+      setText(announcement, frame.outcome === 'running' ? '' : `${words}. ${why}`);
+    }
+  }
+}

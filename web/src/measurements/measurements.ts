@@ -1,0 +1,89 @@
+/** The measurements of a run: the six metrics beside the paper's, plots over time, times, digest, and its files. */
+
+import { byId, setText } from '../base/dom.ts';
+import { ExportButtons } from '../export/exportButtons.ts';
+import type { Run } from '../export/exportedRun.ts';
+import type { Filmed } from '../export/film.ts';
+import { TimePlots } from '../plots/timePlots.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Published } from '../run/published.ts';
+import type { RunRecord } from '../run/record.ts';
+import { MetricsPanel } from './metrics.ts';
+import { TimingPanel } from './timing.ts';
+
+/** How long a button says that it has done its work. */
+const THANKS_MS = 1600;
+
+export interface MeasureOptions {
+  readonly record: RunRecord;
+  readonly view: Filmed | undefined;
+  /** Takes the run to another time. */
+  go(time_s: number): Promise<void>;
+  notice(message: string): void;
+}
+
+export class Measure {
+  readonly #plots: TimePlots;
+  readonly #metrics = new MetricsPanel(byId('metrics', HTMLElement));
+  readonly #timing = new TimingPanel();
+  readonly #record: RunRecord;
+  #info: SessionInfo | undefined;
+  #frame: Frame | undefined;
+
+  constructor({ record, view, go, notice }: MeasureOptions) {
+    this.#record = record;
+    this.#plots = new TimePlots(record, go);
+    byId('plots', HTMLElement).append(this.#plots.element);
+    this.#enlarges();
+    this.#copiesDigest(notice);
+    new ExportButtons({ run: () => this.#run(), plots: (title) => this.#plots.file(title), view, notice });
+  }
+
+  session(info: SessionInfo): void {
+    this.#info = info;
+    this.#plots.session(info);
+  }
+
+  /** What the paper reports for the course that is driven; nothing for any other. */
+  paper(paper: Published | undefined): void {
+    this.#metrics.paper(paper);
+    this.#plots.paper(paper);
+  }
+
+  frame(frame: Frame): void {
+    this.#frame = frame;
+    this.#metrics.show(frame.metrics);
+    this.#timing.show(this.#record);
+    this.#plots.update(frame);
+  }
+
+  #run(): Run | undefined {
+    const [info, frame] = [this.#info, this.#frame];
+    if (!info || !frame) return undefined;
+    return { info, frame, record: this.#record.copy(), points: frame.buffers.points.slice(0, 3 * frame.returns) };
+  }
+
+  /** The plots move into a sheet of the whole window, and back. */
+  #enlarges(): void {
+    const sheet = byId('plots-sheet', HTMLDialogElement);
+    const large = byId('plots-large', HTMLElement);
+    byId('plots-enlarge', HTMLButtonElement).addEventListener('click', () => {
+      large.append(this.#plots.element);
+      sheet.showModal();
+    });
+    sheet.addEventListener('close', () => byId('plots', HTMLElement).append(this.#plots.element));
+  }
+
+  #copiesDigest(notice: (message: string) => void): void {
+    const button = byId('copy-digest', HTMLButtonElement);
+    button.addEventListener('click', async () => {
+      try {
+        await navigator.clipboard.writeText(byId('digest', HTMLElement).textContent ?? '');
+        setText(button, 'Copied');
+        setTimeout(() => setText(button, 'Copy'), THANKS_MS);
+      } catch {
+        notice('The browser did not let the page write to the clipboard; select the digest and copy it.');
+      }
+    });
+  }
+}

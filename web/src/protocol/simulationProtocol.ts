@@ -1,0 +1,166 @@
+/**
+ * What the page and the worker that owns the simulation say to each other.
+ *
+ * Everything is in SI units and radians. World frame: x east, y north, z up. Robot frame: x forward, y left, z up.
+ * Pitch is positive nose-up, roll positive with the left side up. Azimuths are positive to the robot's left.
+ */
+
+import type { Experiment, Stroke, Terrain } from '../experiment/experiment.ts';
+import type { ParameterGroup } from '../experiment/parameters.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Setting, Setup } from '../experiment/setting.ts';
+import type {
+  Frame as CoreFrame,
+  Cost,
+  FrameBuffers,
+  Ground,
+  GroundPatch,
+  Overrides,
+  Scene,
+  Timeline,
+} from '../wasm/mapless_wasm.js';
+
+/** What crosses from the core as it is. */
+export type {
+  Activity,
+  Cost,
+  FrameBuffers,
+  Ground,
+  GroundPatch,
+  Metrics,
+  Outcome,
+  PathPoint,
+  Pose,
+  Segment,
+  SensorPose,
+  Subgoal,
+  Timeline,
+  Verdict,
+} from '../wasm/mapless_wasm.js';
+
+/** What a scenario is made of, after its files were read. */
+export interface SessionInfo extends Setting, Scene {
+  readonly scenario: string;
+  /** Every parameter, with the value that holds unless it is overridden. */
+  readonly parameters: readonly ParameterGroup[];
+  readonly overrides: Overrides;
+}
+
+/** What `FrameBuffers.kinds` says of a column, by its number. */
+export const COLUMN_KINDS = ['ground', 'unknown', 'wall'] as const;
+export type ColumnKind = (typeof COLUMN_KINDS)[number];
+
+/** The terms of a subgoal's cost. The paper has the first three. */
+export const TERMS = [
+  'direction',
+  'distance',
+  'steepness',
+  'commitment',
+  'correction',
+] as const satisfies readonly (keyof Cost)[];
+
+/** Hands a frame's arrays over instead of copying them. */
+export function transferables(buffers: FrameBuffers): ArrayBuffer[] {
+  return Object.values(buffers).map((array: FrameBuffers[keyof FrameBuffers]) => array.buffer);
+}
+
+export const TIMELINE_START: Timeline = { first: 0, end: 0, changes: [] };
+
+/** Everything that one planning tick saw, decided and did, and what came since the frame before. */
+export interface Frame extends CoreFrame {
+  /** Whether the surfaces in `buffers` are this tick's; otherwise nobody watches them, or they are not due again yet. */
+  readonly surfaces: boolean;
+  readonly buffers: FrameBuffers;
+  /** Duration of the planner's last step. */
+  readonly planner_ms: number;
+  /** x, y, z after each tick since the frame before; after a jump in time, since the beginning. */
+  readonly trail: Float32Array<ArrayBuffer>;
+  /** The ticks since the frame before, as rows of the record (record.ts). */
+  readonly rows: Float64Array<ArrayBuffer>;
+  /** Whether `trail` takes the place of all before: after a jump in time or a new start. */
+  readonly anew: boolean;
+  /** After a jump back: x, y, z of what came next. */
+  readonly ahead: Float32Array<ArrayBuffer> | undefined;
+}
+
+/** Simulated seconds per second; `Infinity` is as fast as it goes. */
+export type Speed = number;
+
+/** A file by its name. */
+export interface NamedFile {
+  readonly name: string;
+  readonly bytes: Uint8Array<ArrayBuffer>;
+}
+
+/** What an experiment is loaded from: a scenario of the catalogue, a document, a terrain without start and goal, or files. */
+export type Source =
+  | { readonly scenario: string; readonly setup: Setup; readonly seed: number | undefined }
+  | { readonly experiment: Experiment }
+  | { readonly terrain: Terrain; readonly name: string; readonly setup: Setup }
+  | { readonly files: readonly NamedFile[]; readonly setup: Setup };
+
+/** The parts of the page's address that say what to begin with. */
+export interface Address {
+  readonly hash: string;
+  readonly search: string;
+}
+
+/** What the page began with. */
+export interface Beginning {
+  readonly from: 'link' | 'address' | 'last visit' | 'catalogue';
+  /** Where somebody left off. */
+  readonly own: Experiment | undefined;
+  /** Why that cannot be read, where it cannot. */
+  readonly unread: string | undefined;
+}
+
+export type Command =
+  /** Loads and drives what the page begins with; answered with a `Beginning`. */
+  | { type: 'begin'; address: Address }
+  /** With `play`, it drives at once; otherwise it does so if what was there before did. */
+  | { type: 'load'; source: Source; play: boolean }
+  | { type: 'restart' }
+  | { type: 'play'; playing: boolean }
+  | { type: 'speed'; speed: Speed }
+  | { type: 'step' }
+  | { type: 'goal'; goal: Place; waypoints: readonly Place[] }
+  /** Begins anew with these overrides in place of all others, on the same ground and route. */
+  | { type: 'parameters'; overrides: Overrides; seed: number | undefined }
+  /** Goes to a tick of the timeline and stays there. */
+  | { type: 'seek'; tick: number }
+  | { type: 'start'; start: Heading }
+  | { type: 'sculpt'; stroke: Stroke }
+  /** Puts heights back; answered like a stroke. */
+  | { type: 'replace'; patch: GroundPatch }
+  /** Answered with the ground of a terrain, coarsely, as a `Ground`. */
+  | { type: 'preview'; terrain: Terrain }
+  /** Answered with the files that `mapless run` reads, as a list of `NamedFile`. */
+  | { type: 'export'; experiment: Experiment }
+  /** Whether anything shows the surfaces: predicting them costs more than the decision itself. */
+  | { type: 'watch'; surfaces: boolean }
+  | { type: 'hidden'; hidden: boolean };
+
+/** What is new after a load. */
+export interface Loaded {
+  readonly ground: Ground;
+  readonly experiment: Experiment;
+  /** The scenario that it is named after, as that comes; nothing where there is none. */
+  readonly scenario: Experiment | undefined;
+}
+
+/** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */
+export type ToSimulation =
+  | { type: 'request'; id: number; command: Command }
+  | { type: 'recycle'; buffers: FrameBuffers };
+
+/** From the worker. */
+export type FromSimulation =
+  /** Its thread runs: whatever keeps the page busy, the core loads beside it. */
+  | { type: 'started' }
+  /** The core is there, and opens what this request asks for. */
+  | { type: 'opening'; id: number }
+  | { type: 'session'; info: SessionInfo; loaded: Loaded | undefined }
+  | { type: 'frame'; frame: Frame }
+  | { type: 'ground'; patch: GroundPatch }
+  | { type: 'done'; id: number; value: unknown }
+  | { type: 'failed'; id: number | undefined; message: string; panicked: boolean };

@@ -1,0 +1,30 @@
+/** What the page begins with: a link, a scenario by name, where somebody left off, or the first scenario. */
+
+import { askedFor } from '../experiment/address.ts';
+import { kept } from '../experiment/autosave.ts';
+import { CATALOGUE } from '../experiment/catalogue.ts';
+import { type Experiment, FIRST_SETUP } from '../experiment/experiment.ts';
+import { carriesExperiment, experimentIn } from '../experiment/link.ts';
+import type { Address, Beginning, Source } from '../protocol/simulationProtocol.ts';
+
+/** What the page's address asks for, or else what this browser kept; throws where the address makes no sense. */
+export async function beginningAt({ hash, search }: Address): Promise<Beginning & { readonly source: Source }> {
+  let own: Experiment | undefined;
+  let unread: string | undefined;
+  try {
+    own = await kept();
+  } catch (error) {
+    unread = error instanceof Error ? error.message : String(error);
+  }
+  if (carriesExperiment(hash)) {
+    return { from: 'link', source: { experiment: await experimentIn(hash) }, own, unread };
+  }
+  const asked = askedFor(new URLSearchParams(search));
+  if (asked) {
+    const { scenario, preset = FIRST_SETUP.preset, seed } = asked;
+    return { from: 'address', source: { scenario, setup: { ...FIRST_SETUP, preset }, seed }, own, unread };
+  }
+  if (own) return { from: 'last visit', source: { experiment: own }, own, unread };
+  const first = { scenario: CATALOGUE[0]?.id ?? '', setup: FIRST_SETUP, seed: undefined };
+  return { from: 'catalogue', source: first, own, unread };
+}

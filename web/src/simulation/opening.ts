@@ -1,0 +1,210 @@
+/** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
+
+import type { Core } from '../bindings/simulationModule.ts';
+import { loadTrials } from '../bindings/trialsModule.ts';
+import { CATALOGUE, TASK, terrainFile } from '../experiment/catalogue.ts';
+import {
+  type Experiment,
+  MAX_FILE_BYTES,
+  MAX_SEED,
+  type Stroke,
+  type Terrain,
+  VERSION,
+} from '../experiment/experiment.ts';
+import { readExperiment } from '../experiment/readExperiment.ts';
+import { recipeFile, scenarioFile } from '../experiment/scenarioFiles.ts';
+import type { Setup } from '../experiment/setting.ts';
+import { unzip } from '../files/archive.ts';
+import type { Ground, NamedFile, Source } from '../protocol/simulationProtocol.ts';
+import type { ScenarioRead, TerrainFiles } from '../wasm/mapless_wasm.js';
+
+const ARCHIVE = /\.zip$/i;
+const GRIDS = /\.(png|asc|tiff?)$/i;
+/** Samples along the longer side of a preview. */
+const PREVIEW_SAMPLES = 96;
+const encoder = new TextEncoder();
+
+const TERRAIN_FILE = 'terrain.toml';
+
+/** The files of a run: the scenario, the recipe with the strokes and, last, the grid that it imports, if it does. */
+export function filesOf(core: Core, experiment: Experiment): [NamedFile, NamedFile, ...NamedFile[]] {
+  const scenario = encoder.encode(scenarioFile(experiment, TERRAIN_FILE));
+  return [{ name: 'scenario.toml', bytes: scenario }, ...filesOfTerrain(core, experiment.terrain, experiment.strokes)];
+}
+
+/** As the core takes them: a recipe, and the grid that it imports, if it does. */
+export function terrainFiles([recipe, imported]: readonly [NamedFile, ...NamedFile[]]): TerrainFiles {
+  return imported ? { ...recipe, imported: imported.bytes } : recipe;
+}
+
+/** The files of a terrain with strokes. */
+function filesOfTerrain(core: Core, terrain: Terrain, strokes: readonly Stroke[]): [NamedFile, ...NamedFile[]] {
+  const imported = 'imported' in terrain ? terrain.imported : undefined;
+  const recipe = encoder.encode(recipeFile(baseRecipe(core, terrain), strokes));
+  return [
+    { name: TERRAIN_FILE, bytes: recipe },
+    ...(imported ? [{ name: imported.name, bytes: fromBase64(imported.base64) }] : []),
+  ];
+}
+
+function baseRecipe(core: Core, terrain: Terrain): string {
+  if ('catalogue' in terrain) return terrainFile(`${terrain.catalogue}.toml`);
+  if ('recipe' in terrain) return terrain.recipe;
+  return core.generated_recipe(terrain.generated.difficulty, terrain.generated.seed);
+}
+
+/** A small picture's worth of a terrain's heights. */
+export function preview(core: Core, terrain: Terrain): Ground {
+  return core.terrain_preview(terrainFiles(filesOfTerrain(core, terrain, [])), PREVIEW_SAMPLES);
+}
+
+export async function experimentFrom(core: Core, source: Source): Promise<Experiment> {
+  if ('experiment' in source) return source.experiment;
+  if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setup);
+  if ('files' in source) return fromFiles(core, source.files, source.setup);
+  const { scenario, setup, seed } = source;
+  const { read, terrain } = TASK.test(scenario) ? await task(core, scenario) : catalogued(core, scenario);
+  return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setup);
+}
+
+/** The scenario that what was loaded is named after, as it comes; nothing where there is none. */
+export function scenarioOf(core: Core, source: Source, experiment: Experiment): Experiment | undefined {
+  if ('scenario' in source) return experiment;
+  const { name, terrain: own } = experiment;
+  // Files of one's own may bear any name.
+  if (!('catalogue' in own) || !CATALOGUE.some(({ id }) => id === name)) return undefined;
+  const { read, terrain } = catalogued(core, name);
+  return fromScenario(read, name, terrain, experiment);
+}
+
+function catalogued(core: Core, scenario: string): { read: ScenarioRead; terrain: Terrain } {
+  const file = `scenarios/${scenario}.toml`;
+  const read = core.read_scenario(file, terrainFile(file));
+  return { read, terrain: { catalogue: stem(read.terrain) } };
+}
+
+/** A generated task, as `mapless generate` writes it. What the oracle cannot solve is drawn anew, so this needs the oracle. */
+async function task(core: Core, name: string): Promise<{ read: ScenarioRead; terrain: Terrain }> {
+  const { scenario, recipe } = (await loadTrials()).generated_task(name);
+  return { read: core.read_scenario(`${name}.toml`, scenario), terrain: { recipe } };
+}
+
+function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, setup: Setup): Experiment {
+  if (read.seed > MAX_SEED) throw new Error(`seed = ${read.seed}: expected at most ${MAX_SEED} in this page`);
+  return {
+    version: VERSION,
+    name,
+    terrain,
+    strokes: [],
+    start: read.start,
+    waypoints: read.waypoints,
+    goal: read.goal,
+    seed: read.seed,
+    preset: setup.preset,
+    learning: setup.learning,
+    // What is set in the page stays set, unless the scenario sets parameters itself; a file says all there is to it.
+    overrides: Object.keys(read.overrides).length > 0 ? read.overrides : setup.overrides,
+  };
+}
+
+/** A scenario with the terrain it names, a terrain by itself, or a saved experiment, each also within an archive. */
+function fromFiles(core: Core, given: readonly NamedFile[], setup: Setup): Experiment {
+  const archive = given.find(({ name }) => ARCHIVE.test(name));
+  const files = given.flatMap((file) => {
+    if (!ARCHIVE.test(file.name)) return [file];
+    // A grid of the largest size, and what says how to read it.
+    limit(file, 2 * MAX_FILE_BYTES);
+    return unzip(file, 2 * MAX_FILE_BYTES);
+  });
+  for (const file of files) limit(file, MAX_FILE_BYTES);
+  const texts = files.filter(({ name }) => /\.(toml|json)$/i.test(name)).map((file) => ({ ...file, text: text(file) }));
+  const saved = texts.find(({ name }) => /\.json$/i.test(name));
+  if (saved) return readFile(saved.name, saved.text);
+  const scenario = texts.find((file) => /^\s*terrain\s*=/m.test(file.text));
+  const grid = files.find(({ name }) => GRIDS.test(name));
+  const recipe = texts.find((file) => file !== scenario);
+  if (scenario) {
+    const read = core.read_scenario(scenario.name, scenario.text);
+    const own = terrainOf(recipe, grid);
+    const terrain = own ?? cataloguedTerrain(scenario.name, read.terrain);
+    return fromScenario(read, shortName((archive ?? scenario).name), terrain, { ...setup, overrides: {} });
+  }
+  const terrain = terrainOf(recipe, grid);
+  const [first] = given;
+  if (!terrain || !first) {
+    const expected =
+      'a scenario or recipe (.toml), heights (.png, .asc, .tif), a saved experiment (.json), or a .zip of them';
+    throw new Error(`${first?.name ?? 'Nothing'}: expected ${expected}`);
+  }
+  return onLevelPlaces(core, terrain, shortName(recipe?.name ?? first.name), setup);
+}
+
+function limit({ name, bytes }: NamedFile, most: number): void {
+  if (bytes.length > most) throw new Error(`${name}: ${bytes.length} bytes: expected at most ${most}`);
+}
+
+function terrainOf(
+  recipe: { name: string; text: string } | undefined,
+  grid: NamedFile | undefined,
+): Terrain | undefined {
+  if (!grid) return recipe ? { recipe: recipe.text } : undefined;
+  const name = `terrain${(GRIDS.exec(grid.name)?.[0] ?? '').toLowerCase()}`;
+  const imported = { name, base64: base64(grid.bytes) };
+  // A recipe says how its grid is to be read, but by the file's own name.
+  if (recipe) return { recipe: recipe.text.replace(/^(\s*file\s*=\s*).*$/m, `$1"${name}"`), imported };
+  return { recipe: `name = ${JSON.stringify(shortName(grid.name))}\n\n[import]\nfile = "${name}"\n`, imported };
+}
+
+/** A terrain of the catalogue that a scenario names without its file being there. */
+function cataloguedTerrain(scenario: string, path: string): Terrain {
+  try {
+    terrainFile(`${stem(path)}.toml`);
+  } catch (cause) {
+    const wanted = `${scenario}: terrain = "${path}": choose that file together with the scenario`;
+    throw new Error(wanted, { cause });
+  }
+  return { catalogue: stem(path) };
+}
+
+/** A terrain by itself: start and goal where it is level. */
+function onLevelPlaces(core: Core, terrain: Terrain, name: string, setup: Setup): Experiment {
+  const { start, goal } = core.level_places(terrainFiles(filesOfTerrain(core, terrain, [])));
+  const heading_rad = Math.round(1000 * Math.atan2(goal.y - start.y, goal.x - start.x)) / 1000;
+  const read = { terrain: '', start: { ...start, heading_rad }, waypoints: [], goal, seed: 1, overrides: {} };
+  return fromScenario(read, name, terrain, setup);
+}
+
+function readFile(name: string, json: string): Experiment {
+  try {
+    return readExperiment(JSON.parse(json));
+  } catch (cause) {
+    throw new Error(`${name}: ${cause instanceof Error ? cause.message : cause}`, { cause });
+  }
+}
+
+function text({ name, bytes }: NamedFile): string {
+  try {
+    return new TextDecoder('utf-8', { fatal: true }).decode(bytes);
+  } catch (cause) {
+    throw new Error(`${name}: expected text in UTF-8`, { cause });
+  }
+}
+
+function base64(bytes: Uint8Array): string {
+  const parts: string[] = [];
+  for (let at = 0; at < bytes.length; at += 0x8000) parts.push(String.fromCharCode(...bytes.subarray(at, at + 0x8000)));
+  return btoa(parts.join(''));
+}
+
+function fromBase64(letters: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
+}
+
+/** A path's last part without its extension. */
+function stem(path: string): string {
+  return (path.split(/[/\\]/).pop() ?? '').replace(/\.[^.]*$/, '');
+}
+
+function shortName(file: string): string {
+  return stem(file).slice(0, 80);
+}

@@ -1,0 +1,171 @@
+/** One loaded scenario in the wasm core, as the plain data of the protocol. Runs in the worker. */
+
+import type { Core } from '../bindings/simulationModule.ts';
+import type { Experiment } from '../experiment/experiment.ts';
+import type { Overrides } from '../experiment/overrides.ts';
+import type { Heading, Place } from '../experiment/place.ts';
+import type { Setting } from '../experiment/setting.ts';
+import type { Frame, FrameBuffers, Ground, GroundPatch, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Session as CoreSession, Standing, Stroke, Tick } from '../wasm/mapless_wasm.js';
+import { filesOf, terrainFiles } from './opening.ts';
+
+/** All beams of a full scan: 16 rings × 1800 azimuths. */
+const MAX_RETURNS = 28_800;
+
+export class Session {
+  readonly #core: CoreSession;
+  readonly #name: string;
+  readonly #setting: Setting;
+  readonly #pool: FrameBuffers[] = [];
+  #overrides: Overrides;
+  #info: SessionInfo;
+  #standing: Standing;
+  /** Whether another route may hold than the info says. */
+  #rerouted = false;
+  #planner_ms = 0;
+
+  private constructor(core: CoreSession, { name, preset, learning, overrides }: Experiment) {
+    this.#core = core;
+    this.#name = name;
+    this.#setting = { preset, learning };
+    this.#overrides = overrides;
+    this.#info = this.#readInfo(undefined);
+    this.#standing = core.standing();
+  }
+
+  static open(core: Core, experiment: Experiment): Session {
+    const { preset, learning, overrides } = experiment;
+    // Without the overrides, so that the core knows the defaults, too.
+    const [scenario, ...terrain] = filesOf(core, { ...experiment, overrides: {} });
+    const text = new TextDecoder().decode(scenario.bytes);
+    const options = {
+      scenario: { name: scenario.name, text },
+      terrain: terrainFiles(terrain),
+      preset,
+      learning,
+      overrides,
+    };
+    return new Session(new core.Session(options), experiment);
+  }
+
+  free(): void {
+    this.#core.free();
+  }
+
+  get info(): SessionInfo {
+    return this.#info;
+  }
+
+  /** Where the robot stands, and whether the trial goes on. */
+  get standing(): Standing {
+    return this.#standing;
+  }
+
+  get running(): boolean {
+    return this.#standing.outcome === 'running';
+  }
+
+  ground(): Ground {
+    return this.#core.ground();
+  }
+
+  restart(): void {
+    this.#core.restart();
+    this.#began();
+  }
+
+  setRoute(waypoints: readonly Place[], goal: Place): void {
+    this.#core.set_route({ waypoints, goal });
+    this.#info = this.#readInfo(this.#info);
+    this.#standing = this.#core.standing();
+  }
+
+  /** Begins anew with these overrides, and another seed if given; the ground, the start and the route stay. */
+  setOverrides(overrides: Overrides, seed?: number): void {
+    this.#core.set_parameters(overrides, seed);
+    this.#overrides = overrides;
+    this.#info = this.#readInfo(undefined);
+    this.#began();
+  }
+
+  /** Going back in time may bring another route back; says whether it did. */
+  followRoute(): boolean {
+    if (!this.#rerouted) return false;
+    this.#rerouted = false;
+    this.#info = this.#readInfo(this.#info);
+    return true;
+  }
+
+  /** Goes back to the nearest tick there is, or to a little before it; says which that is. */
+  goBack(tick: number): number {
+    const nearest = this.#core.go_back(tick);
+    this.#rerouted = true;
+    this.#standing = this.#core.standing();
+    return nearest;
+  }
+
+  setStart(start: Heading): void {
+    this.#core.set_start(start);
+    this.#info = this.#readInfo(this.#info);
+    this.#began();
+  }
+
+  /** Applies a stroke; returns the new heights of the rectangle that changed, if any. */
+  sculpt(stroke: Stroke): GroundPatch | undefined {
+    const changed = this.#core.sculpt(stroke);
+    this.#standing = this.#core.standing();
+    return changed;
+  }
+
+  replaceGround(patch: GroundPatch): void {
+    this.#core.replace_ground(patch);
+    this.#standing = this.#core.standing();
+  }
+
+  tick(): Tick {
+    const tick = this.#core.tick();
+    this.#standing = tick.after;
+    this.#rerouted ||= tick.rerouted;
+    this.#planner_ms = tick.planner_ms;
+    return tick;
+  }
+
+  recycle(buffers: FrameBuffers): void {
+    const { columns, rows } = this.#info.image;
+    if (buffers.variance.length === columns * rows) this.#pool.push(buffers);
+  }
+
+  /** Everything of the present state; the surfaces only on demand, since predicting them takes longer than deciding. */
+  frame(since: Pick<Frame, 'trail' | 'anew' | 'ahead' | 'rows'>, surfaces: boolean): Frame {
+    const buffers = this.#pool.pop() ?? this.#newBuffers();
+    return { ...this.#core.frame(buffers, surfaces), surfaces, planner_ms: this.#planner_ms, buffers, ...since };
+  }
+
+  #began(): void {
+    this.#planner_ms = 0;
+    this.#standing = this.#core.standing();
+  }
+
+  /** The parameters stay those of the info `before`, where there is one. */
+  #readInfo(before: SessionInfo | undefined): SessionInfo {
+    return {
+      ...this.#core.scene(),
+      scenario: this.#name,
+      ...this.#setting,
+      parameters: before?.parameters ?? this.#core.parameters(),
+      overrides: this.#overrides,
+    };
+  }
+
+  #newBuffers(): FrameBuffers {
+    const { columns, rows, rings } = this.#info.image;
+    return {
+      points: new Float32Array(3 * MAX_RETURNS),
+      observed: new Float32Array(columns * rings),
+      occupancy: new Float32Array(columns * rows),
+      variance: new Float32Array(columns * rows),
+      profile: new Float32Array(columns),
+      kinds: new Uint8Array(columns),
+    };
+  }
+}

@@ -1,0 +1,321 @@
+/** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
+
+import { loadCore } from '../bindings/simulationModule.ts';
+import {
+  type Command,
+  type Frame,
+  type FromSimulation,
+  type GroundPatch,
+  type Source,
+  type ToSimulation,
+  transferables,
+} from '../protocol/simulationProtocol.ts';
+import { rowOf } from '../run/record.ts';
+import { beginningAt } from './beginning.ts';
+import { experimentFrom, filesOf, preview, scenarioOf } from './opening.ts';
+import { Session } from './session.ts';
+import { Trail } from './trail.ts';
+
+/** Frames that the page may have at once, the one it shows among them; while it is slower, frames are skipped. */
+const FRAMES_IN_FLIGHT = 3;
+/** How long the loop may simulate before it listens again, in milliseconds. */
+const SLICE_MS = 12;
+/** No frame is posted sooner after the one before than this. */
+const FRAME_INTERVAL_MS = 50;
+/** No surfaces are predicted sooner after those before than this, which lets every tick have its own at normal speed. */
+const SURFACE_INTERVAL_MS = 80;
+/** Part of the time that predicting surfaces may take while the robot drives. */
+const SURFACE_DUTY = 0.25;
+
+/** Begun at once: it compiles while the page builds its view. Who needs it hears if that fails. */
+const loading = loadCore();
+loading.catch(() => undefined);
+let session: Session | undefined;
+let playing = false;
+let hidden = false;
+let speed = 1;
+/** When the next tick is due, on the clock of `performance.now()`. */
+let due_ms = 0;
+let scheduled = false;
+let inFlight = 0;
+let lastFrame_ms = 0;
+let unsent = false;
+/** Whether the page shows the surfaces. */
+let watched = false;
+/** When the next surfaces may be predicted, and whether those that the page has are older than its frame. */
+let surfacesDue_ms = 0;
+let surfacesOld = false;
+const trail = new Trail();
+/** The newest tick that the page has seen; nothing after a jump. */
+let seen: number | undefined;
+let rewound = false;
+/** The newest wish to go elsewhere in time: older ones are given up. */
+let newestSeek: number | undefined;
+/** Rows of the record since the newest frame. */
+let rows: number[] = [];
+/** Requests are carried out one after the other: loading waits for files. */
+let queue: Promise<void> = Promise.resolve();
+
+const wake = new MessageChannel();
+wake.port1.onmessage = loop;
+
+function post(message: FromSimulation, transfer: Transferable[] = []): void {
+  self.postMessage(message, { transfer });
+}
+
+/** Reports an error: of a request, which changes nothing else, or of the loop, which then stands still. */
+function fail(error: unknown, id?: number): void {
+  if (id === undefined) playing = false;
+  const panicked = error instanceof WebAssembly.RuntimeError;
+  const message = error instanceof Error ? error.message : String(error);
+  post({ type: 'failed', id, message, panicked });
+}
+
+function running(): Session | undefined {
+  return playing && !hidden && session?.running ? session : undefined;
+}
+
+function schedule(): void {
+  if (scheduled || !running()) return;
+  scheduled = true;
+  const wait_ms = due_ms - performance.now();
+  if (wait_ms > 1) setTimeout(loop, wait_ms);
+  else wake.port2.postMessage(0);
+}
+
+function loop(): void {
+  scheduled = false;
+  try {
+    const began_ms = performance.now();
+    // After a pause or a slow spell, go on from now rather than catching up.
+    due_ms = Math.max(due_ms, began_ms - 250);
+    while (running() && due_ms <= performance.now() && performance.now() - began_ms < SLICE_MS) {
+      advance();
+      const tick_ms = 1000 * (session?.info.period_s ?? 0);
+      due_ms = Number.isFinite(speed) ? due_ms + tick_ms / speed : performance.now();
+    }
+    showIfDue();
+    schedule();
+  } catch (error) {
+    fail(error);
+  }
+}
+
+function advance(): void {
+  if (!session) return;
+  rows.push(...rowOf(session.tick()));
+  notePlace();
+  unsent = true;
+}
+
+/** Posts the newest state unless the page is still busy with earlier ones. */
+function showIfDue(): void {
+  const wait_ms = lastFrame_ms + FRAME_INTERVAL_MS - performance.now();
+  const last = !session?.running;
+  if (!unsent || inFlight >= FRAMES_IN_FLIGHT) return;
+  if (last || wait_ms <= 0) show();
+  // What stands still has no tick after which to look again.
+  else if (!running()) setTimeout(loop, wait_ms);
+}
+
+/** What stands still is shown whole: its last tick, and the surfaces where they are looked at. */
+function showAtRest(): void {
+  if (!running() && (unsent || (watched && surfacesOld))) show();
+}
+
+function show(): void {
+  if (!session) return;
+  if (session.followRoute()) tellSession();
+  const began_ms = performance.now();
+  lastFrame_ms = began_ms;
+  // What stands still shows everything.
+  const surfaces = watched && (!running() || began_ms >= surfacesDue_ms);
+  const { tick } = session.standing;
+  const anew = seen === undefined;
+  const newest = trail.part(seen === undefined ? 0 : seen + 1, tick);
+  const ahead = rewound ? trail.after(tick) : undefined;
+  const frame: Frame = session.frame({ trail: newest, anew, ahead, rows: new Float64Array(rows) }, surfaces);
+  surfacesOld = !surfaces;
+  if (surfaces) {
+    const took_ms = performance.now() - began_ms;
+    surfacesDue_ms = began_ms + Math.max(SURFACE_INTERVAL_MS, took_ms / SURFACE_DUTY);
+  }
+  [seen, rewound] = [tick, false];
+  rows = [];
+  unsent = false;
+  inFlight += 1;
+  post({ type: 'frame', frame }, [...transferables(frame.buffers), frame.trail.buffer, frame.rows.buffer]);
+}
+
+function openFromStart(): void {
+  if (!session) return;
+  const { tick, x, y, z } = session.standing;
+  trail.begin(tick, x, y, z);
+  seen = undefined;
+  rows = [];
+  due_ms = performance.now();
+  show();
+}
+
+/** Says what is loaded now, on the ground that the page has. */
+function tellSession(): void {
+  if (session) post({ type: 'session', info: session.info, loaded: undefined });
+}
+
+function notePlace(): void {
+  if (!session) return;
+  const { tick, x, y, z } = session.standing;
+  trail.put(tick, x, y, z);
+}
+
+/** Goes to a tick: from the nearest copy before it, the ticks in between are run again. */
+async function seek(tick: number, id: number): Promise<void> {
+  if (!session) return;
+  playing = false;
+  const target = session.goBack(Math.round(tick));
+  let rested_ms = performance.now();
+  while (session.standing.tick < target && session.running && id === newestSeek) {
+    // The record has these ticks already.
+    session.tick();
+    if (performance.now() - rested_ms < SLICE_MS) continue;
+    await new Promise((resolve) => setTimeout(resolve));
+    rested_ms = performance.now();
+  }
+  [seen, rewound] = [undefined, true];
+  show();
+}
+
+/** The ground has changed: what came after the present tick happened on another one. */
+function showPatch(patch: GroundPatch): void {
+  trail.cut(session?.standing.tick ?? 0);
+  notePlace();
+  post({ type: 'ground', patch }, [patch.heights_m.buffer]);
+  unsent = true;
+  // The stroke goes on first: a scan of the new ground takes longer than a touch. What drives is shown by the loop.
+  if (!running()) setTimeout(loop);
+}
+
+async function load(source: Source, play: boolean, id: number): Promise<void> {
+  const core = await loading;
+  post({ type: 'opening', id });
+  const experiment = await experimentFrom(core, source);
+  const opened = Session.open(core, experiment);
+  session?.free();
+  session = opened;
+  playing ||= play;
+  const ground = session.ground();
+  const loaded = { ground, experiment, scenario: scenarioOf(core, source, experiment) };
+  post({ type: 'session', info: session.info, loaded }, [ground.heights_m.buffer]);
+  openFromStart();
+}
+
+/** Returns what the request is answered with. */
+async function carryOut(command: Command, id: number): Promise<unknown> {
+  if (command.type === 'begin') {
+    const { source, ...beginning } = await beginningAt(command.address);
+    await load(source, true, id);
+    return beginning;
+  }
+  if (command.type === 'load') {
+    await load(command.source, command.play, id);
+    return;
+  }
+  if (command.type === 'watch') {
+    watched = command.surfaces;
+    if (watched && surfacesOld) show();
+    return;
+  }
+  if (command.type === 'preview') {
+    return preview(await loading, command.terrain);
+  }
+  if (command.type === 'export') {
+    return filesOf(await loading, command.experiment);
+  }
+  if (command.type === 'hidden') {
+    hidden = command.hidden;
+    due_ms = performance.now();
+    showAtRest();
+    return;
+  }
+  if (!session) throw new Error('No scenario is loaded yet.');
+  switch (command.type) {
+    case 'play':
+      playing = command.playing;
+      due_ms = performance.now();
+      showAtRest();
+      break;
+    case 'speed':
+      speed = command.speed;
+      due_ms = performance.now();
+      break;
+    case 'step':
+      playing = false;
+      advance();
+      show();
+      break;
+    case 'restart':
+      session.restart();
+      tellSession();
+      openFromStart();
+      break;
+    case 'seek':
+      await seek(command.tick, id);
+      break;
+    case 'parameters':
+      session.setOverrides(command.overrides, command.seed);
+      tellSession();
+      openFromStart();
+      break;
+    case 'goal':
+      session.setRoute(command.waypoints, command.goal);
+      trail.cut(session.standing.tick);
+      tellSession();
+      show();
+      break;
+    case 'start':
+      session.setStart(command.start);
+      session.restart();
+      tellSession();
+      openFromStart();
+      break;
+    case 'sculpt': {
+      const patch = session.sculpt(command.stroke);
+      if (patch) showPatch(patch);
+      break;
+    }
+    case 'replace':
+      session.replaceGround(command.patch);
+      showPatch(command.patch);
+      break;
+  }
+}
+
+function hear(message: ToSimulation): void {
+  if (message.type === 'recycle') {
+    // Frames from before a panic come back to the worker that took over.
+    inFlight = Math.max(0, inFlight - 1);
+    session?.recycle(message.buffers);
+    try {
+      showIfDue();
+    } catch (error) {
+      fail(error);
+    }
+    return;
+  }
+  const { id, command } = message;
+  if (command.type === 'seek') newestSeek = id;
+  queue = queue.then(async () => {
+    try {
+      const value = await carryOut(command, id);
+      post({ type: 'done', id, value });
+    } catch (error) {
+      fail(error, id);
+    }
+    schedule();
+  });
+}
+
+post({ type: 'started' });
+self.onmessage = ({ data }: MessageEvent<ToSimulation>) => hear(data);
+// The first request comes as the worker's name.
+if (self.name) hear(JSON.parse(self.name));

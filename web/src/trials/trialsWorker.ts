@@ -1,0 +1,106 @@
+/** The worker of ghosts and batches: runs whole trials beside the page's own, and tells how they stand. */
+
+import { loadTrials, type TrialsModule } from '../bindings/trialsModule.ts';
+import { type Runner, RunnerFactory, summary } from './runner.ts';
+import type { FromTrials, Job, ToTrials } from './trialsProtocol.ts';
+
+/** How long it runs before it listens and tells again, in milliseconds. */
+const SLICE_MS = 40;
+
+let until = 0;
+let wake: (() => void) | undefined;
+
+function post(message: FromTrials, transfer: Transferable[] = []): void {
+  self.postMessage(message, { transfer });
+}
+
+function words(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
+/** Lets messages in. */
+function rest(): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve));
+}
+
+async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' }>): Promise<void> {
+  const factory = new RunnerFactory(await loadTrials(), course);
+  let running: { runner: Runner; tick: number }[] = [];
+  for (const planner of planners) {
+    try {
+      const runner = factory.runner(planner, seed);
+      running.push({ runner, tick: 0 });
+      post({ type: 'ghost', rows: new Float64Array(runner.row), result: runner.result });
+    } catch (error) {
+      if (error instanceof WebAssembly.RuntimeError) throw error;
+      post({ type: 'refused', planner, message: words(error) });
+    }
+  }
+  while (running.length > 0) {
+    // The one that is farthest behind comes first, so that all stay in step.
+    running.sort((a, b) => a.tick - b.tick);
+    const [next] = running;
+    if (!next || next.tick >= until) {
+      await new Promise<void>((resolve) => {
+        wake = resolve;
+      });
+      continue;
+    }
+    const began_ms = performance.now();
+    const rows: number[] = [];
+    while (next.runner.running && next.tick < until && performance.now() - began_ms < SLICE_MS) {
+      next.runner.tick();
+      next.tick += 1;
+      rows.push(...next.runner.row);
+    }
+    post({ type: 'ghost', rows: new Float64Array(rows), result: next.runner.result });
+    running = running.filter(({ runner }) => runner.running);
+    await rest();
+  }
+}
+
+interface Batch {
+  readonly module: TrialsModule;
+  readonly factory: RunnerFactory;
+  readonly planner: string;
+}
+
+/** There once the job is a batch. */
+let batch: Promise<Batch> | undefined;
+
+async function opened({ course, planner }: Extract<Job, { type: 'seeds' }>): Promise<Batch> {
+  const module = await loadTrials();
+  return { module, factory: new RunnerFactory(module, course), planner };
+}
+
+function drive({ factory, planner }: Batch, seed: number): void {
+  const runner = factory.runner(planner, seed);
+  while (runner.running) runner.tick();
+  post({ type: 'trial', result: runner.result });
+  runner.free();
+}
+
+/** Whatever is asked of a batch while it loads is done in its order afterwards. */
+function carryOut(message: ToTrials): Promise<void> | undefined {
+  switch (message.type) {
+    case 'until':
+      until = message.tick;
+      wake?.();
+      return;
+    case 'ghosts':
+      return ghosts(message);
+    case 'seeds':
+      batch = opened(message);
+      return;
+    case 'drive':
+      return batch?.then((open) => drive(open, message.seed));
+    case 'sum':
+      return batch?.then(({ module }) => post({ type: 'summary', summary: summary(module, message.results) }));
+  }
+}
+
+self.onmessage = ({ data }: MessageEvent<ToTrials>) => {
+  carryOut(data)?.catch((error: unknown) => {
+    post({ type: 'failed', message: words(error), panicked: error instanceof WebAssembly.RuntimeError });
+  });
+};

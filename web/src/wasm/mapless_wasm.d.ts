@@ -1,0 +1,809 @@
+/* tslint:disable */
+/* eslint-disable */
+/**
+ * A file by its name, which messages about it begin with.
+ */
+export interface TextFile {
+    name: string;
+    text: string;
+}
+
+/**
+ * A place and which way the robot faces there.
+ */
+export interface Heading {
+    x: number;
+    y: number;
+    /**
+     * Counter-clockwise from east.
+     */
+    heading_rad: number;
+}
+
+/**
+ * A place on the path to the chosen subgoal.
+ */
+export interface PathPoint {
+    x: number;
+    y: number;
+    /**
+     * Whether the robot gets there in reverse.
+     */
+    reverse: boolean;
+}
+
+/**
+ * A place seen from above.
+ */
+export interface Place {
+    x: number;
+    y: number;
+}
+
+/**
+ * A place where the robot could go next: on the skyline, where it already heads, at the frontier of what was seen, or the
+ * goal itself once it is in sight.
+ */
+export interface Subgoal {
+    /**
+     * Direction in the sensor frame.
+     */
+    azimuth_rad: number;
+    elevation_rad: number;
+    /**
+     * Position in the world.
+     */
+    x: number;
+    y: number;
+    z: number;
+    chosen: boolean;
+    /**
+     * Why it is no candidate, where it is none.
+     */
+    refusal: Refusal | undefined;
+    /**
+     * Index of its segment; nothing for a place that is not on the skyline.
+     */
+    segment: number | undefined;
+    /**
+     * Nothing where the cost judges steepness by the paper's height alone.
+     */
+    forecast: Forecast | undefined;
+    /**
+     * Nothing for the refused and for the goal itself.
+     */
+    cost: Cost | undefined;
+}
+
+/**
+ * A point or a direction in the world: x east, y north, z up.
+ */
+export interface Point {
+    x: number;
+    y: number;
+    z: number;
+}
+
+/**
+ * A regular grid of heights: row by row, each from west to east, the southern row first.
+ */
+export interface Ground {
+    columns: number;
+    rows: number;
+    cell_m: number;
+    heights_m: Float32Array<ArrayBuffer>;
+}
+
+/**
+ * A run of neighbouring columns at one level of the skyline.
+ */
+export interface Segment {
+    /**
+     * Azimuth in the sensor frame, in [-π, π).
+     */
+    begin_rad: number;
+    /**
+     * At least `begin_rad`; beyond π where the segment crosses the azimuth behind the robot.
+     */
+    end_rad: number;
+    /**
+     * Nothing where the ground is unknown, and so is the height.
+     */
+    elevation_rad: number | undefined;
+    /**
+     * Height over the ground under the robot.
+     */
+    height_m: number | undefined;
+    width_m: number;
+    verdict: Verdict;
+}
+
+/**
+ * A terrain by the file that describes it.
+ */
+export interface TerrainFiles {
+    name: string;
+    bytes: Uint8Array;
+    /**
+     * The file that the recipe imports, where it imports one.
+     */
+    imported?: Uint8Array;
+}
+
+/**
+ * All that a session is opened with.
+ */
+export interface SessionOptions {
+    scenario: TextFile;
+    terrain: TerrainFiles;
+    preset: Preset;
+    /**
+     * The scenario's own without it.
+     */
+    learning?: Learning;
+    /**
+     * The scenario's own without it.
+     */
+    seed?: number;
+    /**
+     * Set from the beginning: see `Session.set_parameters`.
+     */
+    overrides?: Overrides;
+}
+
+/**
+ * Everything that one tick saw, decided and did. At tick 0 there is a scan but no decision yet.
+ */
+export interface Frame {
+    tick: number;
+    time_s: number;
+    outcome: Outcome;
+    activity: Activity;
+    /**
+     * Why the planner stopped, where it did.
+     */
+    stop_reason: string | undefined;
+    pose: Pose;
+    v_m_s: number;
+    omega_rad_s: number;
+    command: Velocity;
+    /**
+     * Points in `FrameBuffers.points`.
+     */
+    returns: number;
+    /**
+     * Where the scan was taken.
+     */
+    sensor: SensorPose;
+    /**
+     * Share of the prior variance above which space counts as free.
+     */
+    threshold: number;
+    segments: Segment[];
+    subgoals: Subgoal[];
+    /**
+     * The path to the chosen subgoal, from where the robot stands; empty without one, and where subgoals are judged by the
+     * paper's height alone.
+     */
+    path: PathPoint[];
+    metrics: Metrics;
+    /**
+     * Digest of the whole trajectory so far; the command line prints the same one.
+     */
+    digest: string;
+    timeline: Timeline;
+    waypoints_passed: number;
+}
+
+/**
+ * Forward speed and counter-clockwise turn rate.
+ */
+export interface Velocity {
+    v_m_s: number;
+    omega_rad_s: number;
+}
+
+/**
+ * How a trial stands: `running`, or how it ended.
+ */
+export type Outcome = "running" | "reached" | "tilt_limit" | "stuck" | "no_subgoal" | "left_terrain" | "timeout";
+
+/**
+ * How far the robot may tilt.
+ */
+export interface TiltLimits {
+    roll_rad: number;
+    pitch_rad: number;
+}
+
+/**
+ * Lattice of the predicted surfaces; the observed one has a row for each ring of the sensor.
+ */
+export interface ImageSize {
+    columns: number;
+    rows: number;
+    rings: number;
+}
+
+/**
+ * One tick: where the robot was when the scan was taken, what the planner decided on it, and what came of it.
+ */
+export interface Tick {
+    tick: number;
+    time_s: number;
+    pose: Pose;
+    v_m_s: number;
+    omega_rad_s: number;
+    command: Velocity;
+    /**
+     * Where the planner heads, if it does.
+     */
+    subgoal: Place | undefined;
+    activity: Activity;
+    /**
+     * From the start to this tick.
+     */
+    metrics: Metrics;
+    /**
+     * How long scanning, planning and moving took; NaN outside a worker.
+     */
+    scan_ms: number;
+    planner_ms: number;
+    motion_ms: number;
+    after: Standing;
+    /**
+     * Whether the route is another one now: what was changed at this tick before is changed again as it is repeated.
+     */
+    rerouted: boolean;
+}
+
+/**
+ * One tool in one go. The names are those of a recipe's `[[stroke]]`.
+ */
+export interface Stroke {
+    kind: StrokeKind;
+    radius_m: number;
+    /**
+     * The largest change of a height by one touch.
+     */
+    strength_m: number;
+    /**
+     * Of `level`.
+     */
+    height_m?: number;
+    /**
+     * Of `roughen`.
+     */
+    seed?: number;
+    /**
+     * x, y of each touch in whole centimetres; `ramp` and `ditch` go from each place to the next.
+     */
+    points_cm: readonly number[];
+}
+
+/**
+ * Parameters by the names and tables of scenario files: nothing but `planner`, `sensor` and `robot`, and within them what
+ * differs.
+ */
+export type Overrides = { readonly [key: string]: OverrideValue | Overrides };
+
+/**
+ * Parameters that belong together.
+ */
+export interface ParameterGroup {
+    /**
+     * The table of a scenario file that they stand in.
+     */
+    table: string;
+    title: string;
+    parameters: Parameter[];
+}
+
+/**
+ * The heights of a rectangle of the grid, row by row from its south-western corner.
+ */
+export interface GroundPatch {
+    column: number;
+    row: number;
+    columns: number;
+    rows: number;
+    heights_m: Float32Array<ArrayBuffer>;
+}
+
+/**
+ * The paper's six metrics, with the names that the command line prints.
+ */
+export interface Metrics {
+    distance_m: number;
+    max_abs_roll_rad: number;
+    max_abs_pitch_rad: number;
+    mean_vibration_rad_s: number;
+    mean_elevation_rate_cm_s: number;
+    curvature_change_rad_m: number;
+}
+
+/**
+ * The value of a parameter.
+ */
+export type OverrideValue = number | string | boolean | readonly (OverrideValue | Overrides)[];
+
+/**
+ * The weighted terms of a subgoal's cost. The paper has the first three.
+ */
+export interface Cost {
+    direction: number;
+    distance: number;
+    steepness: number;
+    commitment: number;
+    /**
+     * What was learned about the way on from there.
+     */
+    correction: number;
+    /**
+     * Their sum.
+     */
+    total: number;
+}
+
+/**
+ * Two level places of a terrain far from each other.
+ */
+export interface LevelPlaces {
+    start: Place;
+    goal: Place;
+}
+
+/**
+ * Typed arrays that a frame fills, each as far as it goes.
+ */
+export interface FrameBuffers {
+    /**
+     * LiDAR returns in the world frame: x, y, z of `Frame.returns` points.
+     */
+    points: Float32Array<ArrayBuffer>;
+    /**
+     * Observed occupancy in metres, azimuth-major from straight behind over the right, lowest ring first; NaN without a
+     * return.
+     */
+    observed: Float32Array<ArrayBuffer>;
+    /**
+     * Predicted occupancy in metres, azimuth-major likewise, the lowest row first.
+     */
+    occupancy: Float32Array<ArrayBuffer>;
+    /**
+     * Predictive variance as a share of the prior's, on the same lattice.
+     */
+    variance: Float32Array<ArrayBuffer>;
+    /**
+     * Elevation of the skyline in each column; NaN where there is none.
+     */
+    profile: Float32Array<ArrayBuffer>;
+    /**
+     * What each column shows: 0 ground, 1 unknown, 2 wall.
+     */
+    kinds: Uint8Array<ArrayBuffer>;
+}
+
+/**
+ * What a checked scenario file says.
+ */
+export interface ScenarioRead {
+    terrain: string;
+    start: Heading;
+    waypoints: Place[];
+    goal: Place;
+    seed: number;
+    /**
+     * Its tables `planner`, `sensor` and `robot` as written, where they are there.
+     */
+    overrides: Overrides;
+}
+
+/**
+ * What a parameter's value may be.
+ */
+export type ParameterKind = "number" | "whole" | "pair" | "switch" | "choice";
+
+/**
+ * What a scenario is made of, after its files were read.
+ */
+export interface Scene {
+    /**
+     * Of the sensor's noise.
+     */
+    seed: number;
+    start: Heading;
+    /**
+     * Driven to one after the other, before the goal.
+     */
+    waypoints: Place[];
+    goal: Place;
+    /**
+     * Time between two ticks.
+     */
+    period_s: number;
+    limits: TiltLimits;
+    /**
+     * Radius of the occupancy surface: what lies farther is not looked at.
+     */
+    occupancy_radius_m: number;
+    /**
+     * The sensor's height above the ground contact, along the body's z axis.
+     */
+    sensor_height_m: number;
+    image: ImageSize;
+    demands: SegmentDemands;
+}
+
+/**
+ * What a segment must be to carry subgoals.
+ */
+export interface SegmentDemands {
+    /**
+     * Wider than the robot's width and the margin on it together.
+     */
+    robot_width_m: number;
+    safety_margin_m: number;
+    /**
+     * The skyline no higher and no lower than this, seen from the sensor's foot.
+     */
+    max_slope_rad: number;
+    /**
+     * Whether columns without a return may carry subgoals, on ground that earlier scans saw.
+     */
+    subgoals_on_unknown: boolean;
+}
+
+/**
+ * What each touch does.
+ */
+export type StrokeKind = "raise" | "lower" | "smooth" | "level" | "roughen" | "crater" | "boulder" | "ramp" | "ditch";
+
+/**
+ * What people are told of a parameter.
+ */
+export interface Parameter {
+    name: string;
+    /**
+     * Empty for shares, counts and choices.
+     */
+    unit: string;
+    /**
+     * What it does.
+     */
+    text: string;
+    kind: ParameterKind;
+    /**
+     * Of a number, a whole number or a pair: lowest and highest.
+     */
+    range: readonly [low: number, high: number] | undefined;
+    /**
+     * Of a choice.
+     */
+    choices: string[] | undefined;
+    /**
+     * What holds where nothing is overridden.
+     */
+    value: OverrideValue;
+    /**
+     * What the paper gives, where it gives one.
+     */
+    paper: OverrideValue | undefined;
+}
+
+/**
+ * What the path to a subgoal promises, from the ground that the last scans saw.
+ */
+export interface Forecast {
+    /**
+     * Straight distance from the robot to where the path ends.
+     */
+    reach_m: number;
+    /**
+     * Length of the path.
+     */
+    path_m: number;
+    /**
+     * What the path goes up and down, together.
+     */
+    climb_m: number;
+    /**
+     * Mean of (slope / slope at the limit)² over the path.
+     */
+    mean_risk: number;
+    max_roll_rad: number;
+    max_pitch_rad: number;
+    end: ReachEnd;
+}
+
+/**
+ * What the planner does at present.
+ */
+export type Activity = "driving" | "arrived" | "searching" | "stopped" | "backtracking";
+
+/**
+ * When the planner learns the hyperparameters of its Gaussian process.
+ */
+export type Learning = "fixed" | "once" | "every_scan";
+
+/**
+ * Where in time one can go, in ticks.
+ */
+export interface Timeline {
+    first: number;
+    end: number;
+    /**
+     * Where the route was changed.
+     */
+    changes: readonly number[];
+}
+
+/**
+ * Where the robot is: x east, y north, z up; pitch positive nose-up, roll positive with the left side up.
+ */
+export interface Pose {
+    x: number;
+    y: number;
+    /**
+     * Height of the ground contact under the body's centre.
+     */
+    z: number;
+    roll: number;
+    pitch: number;
+    yaw: number;
+}
+
+/**
+ * Where the robot stands, and whether the trial goes on: it does while the outcome is `running`.
+ */
+export interface Standing {
+    tick: number;
+    x: number;
+    y: number;
+    z: number;
+    outcome: Outcome;
+}
+
+/**
+ * Where the sensor is, and the directions of its axes: x forward, y to the left, z up.
+ */
+export interface SensorPose {
+    position: Point;
+    x_axis: Point;
+    y_axis: Point;
+    z_axis: Point;
+}
+
+/**
+ * Where to drive: to each waypoint in turn, then to the goal.
+ */
+export interface Route {
+    waypoints: readonly Place[];
+    goal: Place;
+}
+
+/**
+ * Whether subgoals may stand on a segment, and if not, why.
+ */
+export type Verdict = "valid" | "too_narrow" | "too_steep" | "unknown" | "wall";
+
+/**
+ * Why a forecast ends where it does.
+ */
+export type ReachEnd = "whole" | "tilt" | "unseen";
+
+/**
+ * Why a subgoal is no candidate.
+ */
+export type Refusal = "tilt" | "unseen";
+
+/**
+ * `default` is the best mapless planner known to the project, `paper` the literal text of the paper.
+ */
+export type Preset = "default" | "paper";
+
+
+/**
+ * A running trial.
+ */
+export class Session {
+    free(): void;
+    [Symbol.dispose](): void;
+    /**
+     * Digest of the trajectory so far.
+     */
+    digest(): string;
+    /**
+     * The present state. Fills `buffers`; the surfaces only where `surfaces` is set, since predicting them takes longer than
+     * deciding.
+     *
+     * # Errors
+     * A start whose ground has gone.
+     */
+    frame(buffers: FrameBuffers, surfaces: boolean): Frame;
+    /**
+     * Goes back to `tick`, or to the nearest one that can be gone to; gives that. The session may stand shortly before it:
+     * running forward from there repeats what happened.
+     */
+    go_back(tick: number): number;
+    /**
+     * The whole ground.
+     *
+     * # Errors
+     * None, unless JavaScript runs out of memory.
+     */
+    ground(): Ground;
+    /**
+     * Loads a scenario.
+     *
+     * # Errors
+     * A fault in one of the files or of an option, with place, value and expectation.
+     */
+    constructor(options: SessionOptions);
+    /**
+     * Every parameter, with the value that holds unless it is overridden.
+     *
+     * # Errors
+     * A value that does not fit the preset.
+     */
+    parameters(): ParameterGroup[];
+    /**
+     * Puts other heights in place of those in a rectangle.
+     *
+     * # Errors
+     * Heights that do not fit; nothing then changes.
+     */
+    replace_ground(patch: GroundPatch): void;
+    /**
+     * Back to the start, with ground, start and route as they are now.
+     *
+     * # Errors
+     * A start whose ground has gone.
+     */
+    restart(): void;
+    /**
+     * What changes only between trials and with the route.
+     *
+     * # Errors
+     * A seed beyond the whole numbers of JavaScript.
+     */
+    scene(): Scene;
+    /**
+     * Applies a stroke; gives the rectangle that changed, or nothing when the stroke is off the terrain.
+     *
+     * # Errors
+     * A stroke that makes no sense; nothing then changes.
+     */
+    sculpt(stroke: Stroke): GroundPatch | undefined;
+    /**
+     * Begins anew with these overrides in place of all others. Ground, start and route stay as they are, and so does the
+     * seed unless another is given.
+     *
+     * # Errors
+     * A value that makes no sense, with its place and what was expected; nothing then changes.
+     */
+    set_parameters(overrides: Overrides, seed?: number | null): void;
+    /**
+     * Sets another route and drives on.
+     *
+     * # Errors
+     * A place off the terrain; nothing then changes.
+     */
+    set_route(route: Route): void;
+    /**
+     * Begins anew from another start.
+     *
+     * # Errors
+     * A start off the terrain; nothing then changes.
+     */
+    set_start(start: Heading): void;
+    /**
+     * Where the robot stands.
+     *
+     * # Errors
+     * None, unless JavaScript runs out of memory.
+     */
+    standing(): Standing;
+    /**
+     * Runs one tick: senses, plans, acts.
+     *
+     * # Errors
+     * A start whose ground has gone.
+     */
+    tick(): Tick;
+}
+
+/**
+ * The recipe of a generated terrain; `difficulty` is `easy`, `moderate` or `hard`.
+ *
+ * # Errors
+ * An unknown difficulty.
+ */
+export function generated_recipe(difficulty: string, seed: number): string;
+
+/**
+ * Two level places of a terrain far from each other, for a start and a goal.
+ *
+ * # Errors
+ * A fault of the terrain, with place, value and expectation.
+ */
+export function level_places(terrain: TerrainFiles): LevelPlaces;
+
+/**
+ * Reads a scenario file.
+ *
+ * # Errors
+ * The scenario's fault, with file, place, value and expectation.
+ */
+export function read_scenario(file: string, text: string): ScenarioRead;
+
+/**
+ * Runs once when the page loads the module.
+ */
+export function start(): void;
+
+/**
+ * A terrain as a coarse grid for a picture, with at most `most` samples along a side.
+ *
+ * # Errors
+ * A fault of the terrain, with place, value and expectation.
+ */
+export function terrain_preview(terrain: TerrainFiles, most: number): Ground;
+
+export type InitInput = RequestInfo | URL | Response | BufferSource | WebAssembly.Module;
+
+export interface InitOutput {
+    readonly memory: WebAssembly.Memory;
+    readonly __wbg_session_free: (a: number, b: number) => void;
+    readonly generated_recipe: (a: number, b: number, c: number) => [number, number, number, number];
+    readonly level_places: (a: any) => [number, number, number];
+    readonly read_scenario: (a: number, b: number, c: number, d: number) => [number, number, number];
+    readonly session_digest: (a: number) => [number, number];
+    readonly session_frame: (a: number, b: any, c: number) => [number, number, number];
+    readonly session_go_back: (a: number, b: number) => number;
+    readonly session_ground: (a: number) => [number, number, number];
+    readonly session_new: (a: any) => [number, number, number];
+    readonly session_parameters: (a: number) => [number, number, number, number];
+    readonly session_replace_ground: (a: number, b: any) => [number, number];
+    readonly session_restart: (a: number) => [number, number];
+    readonly session_scene: (a: number) => [number, number, number];
+    readonly session_sculpt: (a: number, b: any) => [number, number, number];
+    readonly session_set_parameters: (a: number, b: any, c: number) => [number, number];
+    readonly session_set_route: (a: number, b: any) => [number, number];
+    readonly session_set_start: (a: number, b: any) => [number, number];
+    readonly session_standing: (a: number) => [number, number, number];
+    readonly session_tick: (a: number) => [number, number, number];
+    readonly start: () => void;
+    readonly terrain_preview: (a: any, b: number) => [number, number, number];
+    readonly __wbindgen_malloc: (a: number, b: number) => number;
+    readonly __wbindgen_realloc: (a: number, b: number, c: number, d: number) => number;
+    readonly __wbindgen_free: (a: number, b: number, c: number) => void;
+    readonly __wbindgen_exn_store: (a: number) => void;
+    readonly __externref_table_alloc: () => number;
+    readonly __wbindgen_externrefs: WebAssembly.Table;
+    readonly __externref_table_dealloc: (a: number) => void;
+    readonly __externref_drop_slice: (a: number, b: number) => void;
+    readonly __wbindgen_start: () => void;
+}
+
+export type SyncInitInput = BufferSource | WebAssembly.Module;
+
+/**
+ * Instantiates the given `module`, which can either be bytes or
+ * a precompiled `WebAssembly.Module`.
+ *
+ * @param {{ module: SyncInitInput }} module - Passing `SyncInitInput` directly is deprecated.
+ *
+ * @returns {InitOutput}
+ */
+export function initSync(module: { module: SyncInitInput } | SyncInitInput): InitOutput;
+
+/**
+ * If `module_or_path` is {RequestInfo} or {URL}, makes a request and
+ * for everything else, calls `WebAssembly.instantiate` directly.
+ *
+ * @param {{ module_or_path: InitInput | Promise<InitInput> }} module_or_path - Passing `InitInput` directly is deprecated.
+ *
+ * @returns {Promise<InitOutput>}
+ */
+export default function __wbg_init (module_or_path?: { module_or_path: InitInput | Promise<InitInput> } | InitInput | Promise<InitInput>): Promise<InitOutput>;
