@@ -1,7 +1,7 @@
-//! Going back the way the robot came.
+//! Backtracking along the robot's own recorded trajectory.
 //!
-//! Where it stands too steep, or nothing leads on, what it was told of the ground is not true or not enough. Where it has stood, and as it
-//! turned there, it can stand again: that way back needs no forecast.
+//! The robot backtracks when the attitude is too steep or no path leads on: the elevation window was wrong or
+//! incomplete. Every pose of the trajectory was safe once, so returning needs no prediction.
 
 use core::time::Duration;
 use std::collections::VecDeque;
@@ -11,50 +11,53 @@ use glam::DVec2;
 use crate::math::angle::wrap_rad;
 use crate::pose::{FrameChange, Pose};
 
-/// Stances on the trail lie this far or this much of a turn apart, and so many are kept.
+/// Distance and turn between two poses of the trajectory, and the number of poses that are kept.
 const SPACING_M: f64 = 0.1;
 const SPACING_RAD: f64 = 0.15;
-const MOST_STANCES: usize = 200;
-/// Two stances this near to each other, with a radian for so many metres, are the same, unless one is among the next on the trail.
-const SAME_M: f64 = 0.08;
+const MOST_POSES: usize = 200;
+/// Two poses this near to each other, with a radian counted as this many metres, are the same, unless they
+/// are close neighbours on the trajectory.
+const SAME_POSE_M: f64 = 0.08;
 const NEIGHBOURS: usize = 3;
 const RADIAN_M: f64 = 0.5;
-/// The robot is at a stance that is no farther ahead or behind than this and, where it turned there, not turned further from it.
-const THERE_M: f64 = 0.03;
-const THERE_RAD: f64 = 0.05;
-/// From a stance to one nearer than this it turned.
+/// The robot has arrived at a pose within this distance along its heading and, where it turned there, within
+/// this angle.
+const ARRIVAL_M: f64 = 0.03;
+const ARRIVAL_RAD: f64 = 0.05;
+/// Between poses nearer than this the robot turned on the spot.
 const TURN_M: f64 = 0.08;
-/// A smaller part of a turn is not worth while.
+/// Smaller parts of a turn are not worth commanding.
 const LEAST_TURN_RAD: f64 = 0.1;
-/// It turns to how it stood within the way there or, where that is shorter, within this one, and in no sharper curve.
-const LEAST_WAY_M: f64 = 0.05;
+/// The robot turns to the recorded heading over the distance to the pose, or over this distance if that is
+/// shorter, and with at most this curvature.
+const LEAST_ARC_M: f64 = 0.05;
 const MOST_TURN_RAD_M: f64 = 4.0;
-/// Each metre that it is beside the trail bends its way towards it by so much of a turn a metre, up to so much.
-const BESIDE_RAD_M2: f64 = 25.0;
-const MOST_BESIDE_RAD_M: f64 = 2.0;
-/// A robot this far from its trail has lost it.
+/// Gain from the lateral offset to the curvature that leads back onto the trajectory, and its bound.
+const OFFSET_GAIN_RAD_M2: f64 = 25.0;
+const MOST_OFFSET_RAD_M: f64 = 2.0;
+/// Farther than this from its trajectory the robot has lost it.
 const LOST_M: f64 = 0.4;
-/// A robot that moves and turns more slowly than this stands still, and after this time it has had the time to.
+/// Below these speeds the robot stands still; braking ends after this time at the latest.
 const STILL_M_S: f64 = 0.1;
 const STILL_RAD_S: f64 = 0.1;
 const MOST_BRAKING_TIME: Duration = Duration::from_secs(2);
-/// A robot that is farther from where it last was did not drive there.
+/// A larger distance from the last pose is a jump of the localisation.
 const JUMP_M: f64 = 1.0;
-/// The direction in which it came is that from a place this far back or, where it came less far, from where it began, if that is no nearer than
-/// the least.
-const CAME_M: f64 = 0.3;
-const LEAST_CAME_M: f64 = 0.1;
-/// It goes back at least this far.
+/// The direction of travel is taken from the pose this far back on the trajectory or, on a shorter one, from
+/// its first pose, if that is at least the second distance away.
+const TRAVEL_M: f64 = 0.3;
+const LEAST_TRAVEL_M: f64 = 0.1;
+/// The robot backtracks at least this far.
 const LEAST_M: f64 = 1.0;
 
-/// How the robot has stood, seen from above.
+/// A pose of the trajectory, seen from above.
 #[derive(Clone, Copy, Debug)]
-struct Stance {
+struct Pose2 {
     place_m: DVec2,
     yaw_rad: f64,
 }
 
-impl Stance {
+impl Pose2 {
     fn of(pose: &Pose) -> Self {
         Self { place_m: pose.plan_m(), yaw_rad: pose.yaw_rad }
     }
@@ -72,56 +75,57 @@ impl Stance {
         DVec2::new(cos, sin)
     }
 
-    /// Whether a robot that stands like this is past `stance` on its way to `next`.
-    fn is_past(&self, stance: &Self, next: &Self) -> bool {
-        let past_m = (self.place_m - stance.place_m).dot((next.place_m - stance.place_m).normalize_or_zero());
-        past_m > if self.turned_rad(stance) < SPACING_RAD { 0.0 } else { THERE_M }
+    /// Whether this pose is past `pose` on the path to `next`.
+    fn is_past(&self, recorded: &Self, next: &Self) -> bool {
+        let past_m =
+            (self.place_m - recorded.place_m).dot((next.place_m - recorded.place_m).normalize_or_zero());
+        past_m > if self.turned_rad(recorded) < SPACING_RAD { 0.0 } else { ARRIVAL_M }
     }
 }
 
-/// The next move on the way back.
+/// The next move of the backtrack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum BacktrackCommand {
-    /// To a stop, out of the drive that led here.
+    /// Brake to a stop.
     Brake,
-    /// On the spot, anticlockwise.
+    /// Turn on the spot, anticlockwise.
     Turn { by_rad: f64 },
-    /// Along an arc, with so much of a turn, anticlockwise, for each metre driven.
+    /// Drive an arc with this curvature, anticlockwise turn per metre.
     Drive { turn_rad_m: f64, reverse: bool },
 }
 
-/// How the robot has last stood, and whether it goes back there.
+/// The recorded trajectory, and whether the robot backtracks along it.
 #[derive(Clone, Debug)]
 pub(crate) struct Backtrack {
     /// The newest last.
-    trail: VecDeque<Stance>,
-    last: Option<Stance>,
-    began_at_m: Option<DVec2>,
-    /// For so long yet, or until it stands.
+    trajectory: VecDeque<Pose2>,
+    last: Option<Pose2>,
+    started_at_m: Option<DVec2>,
+    /// Time left for braking.
     braking: Duration,
 }
 
 impl Backtrack {
     pub(crate) fn new() -> Self {
         Self {
-            trail: VecDeque::with_capacity(MOST_STANCES),
+            trajectory: VecDeque::with_capacity(MOST_POSES),
             last: None,
-            began_at_m: None,
+            started_at_m: None,
             braking: Duration::ZERO,
         }
     }
 
     pub(crate) fn clear(&mut self) {
-        self.trail.clear();
+        self.trajectory.clear();
         self.last = None;
         self.end();
     }
 
-    /// The robot is here, wherever it goes.
-    pub(crate) fn be_at(&mut self, pose: &Pose, elapsed: Duration) {
-        let here = Stance::of(pose);
+    /// Records the robot's pose.
+    pub(crate) fn record(&mut self, pose: &Pose, elapsed: Duration) {
+        let here = Pose2::of(pose);
         let last = self.last.replace(here);
-        if self.is_on() && self.braking.is_zero() {
+        if self.is_active() && self.braking.is_zero() {
             return;
         }
         let elapsed_s = elapsed.as_secs_f64();
@@ -130,50 +134,54 @@ impl Backtrack {
                 || here.turned_rad(&last) > STILL_RAD_S * elapsed_s
         });
         self.braking = if moves { self.braking.saturating_sub(elapsed) } else { Duration::ZERO };
-        if let Some(last) = self.trail.back() {
+        if let Some(last) = self.trajectory.back() {
             let moved_m = (here.place_m - last.place_m).length();
             if moved_m < SPACING_M && here.turned_rad(last) < SPACING_RAD {
                 return;
             }
             if moved_m > JUMP_M {
-                self.trail.clear();
+                self.trajectory.clear();
             }
         }
-        // A loop leads nowhere: the way back leaves it out.
-        let older = self.trail.len().saturating_sub(NEIGHBOURS);
-        if let Some(before) = self.trail.iter().take(older).position(|stance| here.away_m(stance) < SAME_M) {
-            self.trail.truncate(before);
+        // Loops are cut out of the trajectory.
+        let older = self.trajectory.len().saturating_sub(NEIGHBOURS);
+        if let Some(before) =
+            self.trajectory.iter().take(older).position(|recorded| here.away_m(recorded) < SAME_POSE_M)
+        {
+            self.trajectory.truncate(before);
         }
-        if self.trail.len() == MOST_STANCES {
-            self.trail.pop_front();
+        if self.trajectory.len() == MOST_POSES {
+            self.trajectory.pop_front();
         }
-        self.trail.push_back(here);
+        self.trajectory.push_back(here);
     }
 
-    /// Whether the robot goes back.
-    pub(crate) fn is_on(&self) -> bool {
-        self.began_at_m.is_some()
+    /// Whether the robot is backtracking.
+    pub(crate) fn is_active(&self) -> bool {
+        self.started_at_m.is_some()
     }
 
-    /// Whether it has gone back far enough to try again.
-    pub(crate) fn has_gone_far(&self, here_m: DVec2) -> bool {
-        self.began_at_m.is_some_and(|began_at_m| (here_m - began_at_m).length() > LEAST_M)
+    /// Whether it has backtracked far enough to try again.
+    pub(crate) fn has_driven_far(&self, here_m: DVec2) -> bool {
+        self.started_at_m.is_some_and(|started_at_m| (here_m - started_at_m).length() > LEAST_M)
     }
 
-    /// Turns back. Gives the unit vector along which the robot came; `None`, and no turning back, when it came from nowhere.
+    /// Begins to backtrack. Returns the unit vector of the last direction of travel; `None`, without
+    /// backtracking, if the trajectory is too short for one.
     pub(crate) fn begin(&mut self, here_m: DVec2) -> Option<DVec2> {
-        let far = self.way_back_m().find(|place_m| (here_m - *place_m).length() > CAME_M);
-        let came = here_m - far.or_else(|| self.way_back_m().last())?;
-        if came.length() < LEAST_CAME_M {
+        let far = self.positions_m().find(|place_m| (here_m - *place_m).length() > TRAVEL_M);
+        let came = here_m - far.or_else(|| self.positions_m().last())?;
+        if came.length() < LEAST_TRAVEL_M {
             return None;
         }
-        self.began_at_m = Some(here_m);
+        self.started_at_m = Some(here_m);
         self.braking = MOST_BRAKING_TIME;
         Some(came.normalize())
     }
 
-    /// The next move on the way back; `None`, and the end of it, when there is none left or the trail is lost. Where the trail begins stays
-    /// known. Beside where it stood a turn may be too steep: `safe_turn_rad` says how much of one, anticlockwise, is not.
+    /// The next move; `None`, which ends the backtrack, at the first pose of the trajectory or if the
+    /// trajectory is lost. Its first pose is kept. Off the trajectory a turn may be too steep:
+    /// `safe_turn_rad` returns the largest part of a turn, anticlockwise, that is safe.
     pub(crate) fn next(
         &mut self,
         pose: &Pose,
@@ -182,17 +190,18 @@ impl Backtrack {
         if !self.braking.is_zero() {
             return Some(BacktrackCommand::Brake);
         }
-        let here = Stance::of(pose);
-        while let Some(&stance) = self.trail.back() {
-            if (stance.place_m - here.place_m).length() > LOST_M {
-                self.trail.clear();
+        let here = Pose2::of(pose);
+        while let Some(&recorded) = self.trajectory.back() {
+            if (recorded.place_m - here.place_m).length() > LOST_M {
+                self.trajectory.clear();
                 break;
             }
-            let before = self.trail.iter().nth_back(1);
-            if !before.is_some_and(|before| here.is_past(&stance, before)) {
-                let turns = before.is_some_and(|before| (before.place_m - stance.place_m).length() < TURN_M);
-                let enough_rad = if turns { THERE_RAD } else { SPACING_RAD };
-                let back = toward(&here, &stance, enough_rad, &safe_turn_rad);
+            let before = self.trajectory.iter().nth_back(1);
+            if !before.is_some_and(|before| here.is_past(&recorded, before)) {
+                let turns =
+                    before.is_some_and(|before| (before.place_m - recorded.place_m).length() < TURN_M);
+                let enough_rad = if turns { ARRIVAL_RAD } else { SPACING_RAD };
+                let back = move_to(&here, &recorded, enough_rad, &safe_turn_rad);
                 if back.is_some() {
                     return back;
                 }
@@ -200,61 +209,61 @@ impl Backtrack {
             if before.is_none() {
                 break;
             }
-            self.trail.pop_back();
+            self.trajectory.pop_back();
         }
         self.end();
         None
     }
 
-    /// The places on the way back, the nearest first.
-    pub(crate) fn way_back_m(&self) -> impl Iterator<Item = DVec2> + use<'_> {
-        self.trail.iter().rev().map(|stance| stance.place_m)
+    /// The positions of the trajectory, the newest first.
+    pub(crate) fn positions_m(&self) -> impl Iterator<Item = DVec2> + use<'_> {
+        self.trajectory.iter().rev().map(|recorded| recorded.place_m)
     }
 
     /// Moves the trajectory from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
-        let moved = |stance: &Stance| Stance {
-            place_m: change.place_m(stance.place_m),
-            yaw_rad: stance.yaw_rad + change.turn_rad(),
+        let moved = |recorded: &Pose2| Pose2 {
+            place_m: change.place_m(recorded.place_m),
+            yaw_rad: recorded.yaw_rad + change.turn_rad(),
         };
-        for stance in &mut self.trail {
-            *stance = moved(stance);
+        for recorded in &mut self.trajectory {
+            *recorded = moved(recorded);
         }
         self.last = self.last.as_ref().map(moved);
-        self.began_at_m = self.began_at_m.map(|place_m| change.place_m(place_m));
+        self.started_at_m = self.started_at_m.map(|place_m| change.place_m(place_m));
     }
 
-    /// Goes on again.
+    /// Ends the backtrack.
     pub(crate) fn end(&mut self) {
-        self.began_at_m = None;
+        self.started_at_m = None;
         self.braking = Duration::ZERO;
     }
 }
 
-/// The move from how the robot stands to how it stood; `None` where it is there, turned by less than `enough_rad`, or can neither drive nor
-/// turn there.
-fn toward(
-    here: &Stance,
-    stance: &Stance,
+/// The move from the robot's pose to a recorded one; `None` if it is there, to within `enough_rad`, or can
+/// neither drive nor turn there.
+fn move_to(
+    here: &Pose2,
+    recorded: &Pose2,
     enough_rad: f64,
     safe_turn_rad: impl Fn(f64) -> f64,
 ) -> Option<BacktrackCommand> {
-    let path_m = stance.place_m - here.place_m;
+    let path_m = recorded.place_m - here.place_m;
     let ahead_m = path_m.dot(here.facing());
-    let turn_rad = wrap_rad(stance.yaw_rad - here.yaw_rad);
-    if ahead_m.abs() > THERE_M {
+    let turn_rad = wrap_rad(recorded.yaw_rad - here.yaw_rad);
+    if ahead_m.abs() > ARRIVAL_M {
         let reverse = ahead_m < 0.0;
-        let beside_m = path_m.dot(stance.facing().perp());
-        let onto_rad_m = (BESIDE_RAD_M2 * beside_m).clamp(-MOST_BESIDE_RAD_M, MOST_BESIDE_RAD_M);
-        let turn_rad_m =
-            turn_rad / ahead_m.abs().max(LEAST_WAY_M) + if reverse { -onto_rad_m } else { onto_rad_m };
+        let offset_m = path_m.dot(recorded.facing().perp());
+        let correction_rad_m = (OFFSET_GAIN_RAD_M2 * offset_m).clamp(-MOST_OFFSET_RAD_M, MOST_OFFSET_RAD_M);
+        let turn_rad_m = turn_rad / ahead_m.abs().max(LEAST_ARC_M)
+            + if reverse { -correction_rad_m } else { correction_rad_m };
         return Some(BacktrackCommand::Drive {
             turn_rad_m: turn_rad_m.clamp(-MOST_TURN_RAD_M, MOST_TURN_RAD_M),
             reverse,
         });
     }
-    // Where it stood it can stand again, whatever the ground around looks like.
-    let by_rad = if path_m.length() > THERE_M { safe_turn_rad(turn_rad) } else { turn_rad };
+    // At a recorded position every recorded heading is safe, whatever the window says.
+    let by_rad = if path_m.length() > ARRIVAL_M { safe_turn_rad(turn_rad) } else { turn_rad };
     (turn_rad.abs() > enough_rad && by_rad.abs() >= turn_rad.abs().min(LEAST_TURN_RAD))
         .then_some(BacktrackCommand::Turn { by_rad })
 }
@@ -271,7 +280,7 @@ mod tests {
         Pose { position_m: place_m.extend(0.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad }
     }
 
-    /// A robot that has driven straight ahead for so many tenths of a second.
+    /// A robot that has driven straight ahead for this many tenths of a second.
     fn driven(ticks: usize) -> (Backtrack, Pose) {
         let (mut backtrack, mut robot) = (Backtrack::new(), pose(DVec2::ZERO, 0.0));
         for _ in 0..ticks {
@@ -280,27 +289,29 @@ mod tests {
         (backtrack, robot)
     }
 
-    /// A robot that has driven a metre ahead, turned to the left for so many tenths of a second, and stands, about to go back.
+    /// A robot that has driven a metre ahead, turned to the left for this many tenths of a second, and
+    /// stands, about to backtrack.
     fn turned(ticks: usize) -> (Backtrack, Pose) {
         let (mut backtrack, mut robot) = driven(20);
         for _ in 0..ticks {
             advance(&mut backtrack, &mut robot, 0.0, 0.5);
         }
         assert!(backtrack.begin(robot.plan_m()).is_some());
-        backtrack.be_at(&robot, STEP);
+        backtrack.record(&robot, STEP);
         (backtrack, robot)
     }
 
-    /// Moves as a robot does in a tenth of a second, with the trail told of it.
+    /// Moves a robot for a tenth of a second and records its pose.
     fn advance(backtrack: &mut Backtrack, pose: &mut Pose, speed_m_s: f64, turn_rate_rad_s: f64) {
         pose.yaw_rad += 0.1 * turn_rate_rad_s;
         let heading = DVec2::from_angle(pose.yaw_rad);
         pose.position_m += DVec3::from((0.1 * speed_m_s * heading, 0.0));
-        backtrack.be_at(pose, STEP);
+        backtrack.record(pose, STEP);
     }
 
-    /// Goes all the way back, out of a drive at this speed; gives every pose on it. A Husky gains a metre a second in a second.
-    fn go_back(backtrack: &mut Backtrack, pose: &mut Pose, speed_m_s: f64) -> Vec<Pose> {
+    /// Backtracks to the first pose, out of a drive at this speed; returns every pose. A Husky accelerates at
+    /// 1 m/s².
+    fn backtrack_all(backtrack: &mut Backtrack, pose: &mut Pose, speed_m_s: f64) -> Vec<Pose> {
         assert!(backtrack.begin(pose.plan_m()).is_some());
         let mut poses = Vec::new();
         let (mut speed_m_s, mut turn_rate_rad_s) = (speed_m_s, 0.0);
@@ -325,7 +336,7 @@ mod tests {
     fn it_goes_back_as_it_came_turns_and_arcs_too() {
         let mut backtrack = Backtrack::new();
         let mut robot = pose(DVec2::ZERO, 0.0);
-        backtrack.be_at(&robot, STEP);
+        backtrack.record(&robot, STEP);
         let mut came = vec![robot];
         for (ticks, speed_m_s, turn_rate_rad_s) in [
             (30, 0.5, 0.0),
@@ -341,19 +352,19 @@ mod tests {
             }
         }
         let off_m = |pose: &Pose| {
-            let stance = Stance::of(pose);
-            came.iter().map(|pose| stance.away_m(&Stance::of(pose))).fold(f64::INFINITY, f64::min)
+            let recorded = Pose2::of(pose);
+            came.iter().map(|pose| recorded.away_m(&Pose2::of(pose))).fold(f64::INFINITY, f64::min)
         };
-        let poses = go_back(&mut backtrack, &mut robot, 0.0);
+        let poses = backtrack_all(&mut backtrack, &mut robot, 0.0);
         let worst_m = poses.iter().map(off_m).fold(0.0, f64::max);
         assert!(worst_m < 0.1, "{worst_m} m from how it stood");
-        assert!(robot.position_m.length() < 0.2 && !backtrack.is_on());
+        assert!(robot.position_m.length() < 0.2 && !backtrack.is_active());
     }
 
     #[test]
     fn it_stands_before_it_goes_back_and_goes_over_where_it_came_to_stand() {
         let (mut backtrack, mut robot) = driven(20);
-        let poses = go_back(&mut backtrack, &mut robot, 0.8);
+        let poses = backtrack_all(&mut backtrack, &mut robot, 0.8);
         let turned_at_m = poses.iter().map(|pose| pose.position_m.x).fold(0.0, f64::max);
         assert!((1.2..1.4).contains(&turned_at_m), "{turned_at_m}");
         assert!(poses.iter().all(|pose| pose.position_m.y.abs() < 0.01 && pose.yaw_rad.abs() < 0.05));
@@ -362,24 +373,24 @@ mod tests {
 
     #[test]
     fn beside_its_trail_it_gets_back_onto_it() {
-        for (beside_m, yaw_rad) in [(0.1, 0.0), (-0.1, 0.2), (0.05, -0.2)] {
+        for (offset_m, yaw_rad) in [(0.1, 0.0), (-0.1, 0.2), (0.05, -0.2)] {
             for facing_back in [false, true] {
                 let (mut backtrack, mut robot) = driven(40);
                 if facing_back {
-                    // The trail is driven forward after all.
+                    // The trajectory is driven forward after all.
                     backtrack = Backtrack::new();
                     robot = pose(DVec2::ZERO, PI);
-                    backtrack.be_at(&robot, STEP);
+                    backtrack.record(&robot, STEP);
                     for _ in 0..40 {
                         advance(&mut backtrack, &mut robot, -0.5, 0.0);
                     }
                 }
-                robot.position_m.y += beside_m;
+                robot.position_m.y += offset_m;
                 robot.yaw_rad += yaw_rad;
-                let poses = go_back(&mut backtrack, &mut robot, 0.0);
+                let poses = backtrack_all(&mut backtrack, &mut robot, 0.0);
                 let off_m = |pose: &Pose| pose.position_m.y.abs();
                 let soon = poses.iter().filter(|pose| pose.position_m.x < 1.0).map(off_m).fold(0.0, f64::max);
-                assert!(soon < 0.03, "{soon} m after {beside_m} m and {yaw_rad}");
+                assert!(soon < 0.03, "{soon} m after {offset_m} m and {yaw_rad}");
             }
         }
     }
@@ -408,11 +419,11 @@ mod tests {
         let mut ticks = 0;
         while backtrack.next(&robot, |turn| turn) == Some(BacktrackCommand::Brake) {
             robot.position_m.y = if ticks % 2 == 0 { 0.02 } else { -0.02 };
-            backtrack.be_at(&robot, STEP);
+            backtrack.record(&robot, STEP);
             ticks += 1;
             assert!(ticks < 50, "it brakes for ever");
         }
-        assert!(backtrack.is_on());
+        assert!(backtrack.is_active());
     }
 
     #[test]
@@ -428,7 +439,7 @@ mod tests {
         assert!(
             (turn_rad(backtrack.clone().next(&robot, |turn| 0.8 * turn)) - 0.8 * whole_rad).abs() < 1e-12
         );
-        // What is not safe is left out.
+        // Unsafe turns are left out.
         let next = backtrack.next(&robot, |_| 0.0);
         assert!(!matches!(next, Some(BacktrackCommand::Turn { .. })), "{next:?}");
     }
@@ -437,9 +448,9 @@ mod tests {
     fn far_from_its_trail_it_does_not_drive_where_it_has_not_stood() {
         let (mut backtrack, mut robot) = driven(20);
         assert!(backtrack.begin(robot.plan_m()).is_some());
-        backtrack.be_at(&robot, STEP);
+        backtrack.record(&robot, STEP);
         robot.position_m.y -= 0.5;
-        assert_eq!((backtrack.next(&robot, |turn| turn), backtrack.is_on()), (None, false));
+        assert_eq!((backtrack.next(&robot, |turn| turn), backtrack.is_active()), (None, false));
     }
 
     #[test]
@@ -449,7 +460,9 @@ mod tests {
         for _ in 0..ticks {
             advance(&mut backtrack, &mut robot, 0.5, core::f64::consts::TAU / (0.1 * f64::from(ticks)));
         }
-        assert!(go_back(&mut backtrack, &mut robot, 0.0).iter().all(|pose| pose.position_m.y.abs() < 0.1));
+        assert!(
+            backtrack_all(&mut backtrack, &mut robot, 0.0).iter().all(|pose| pose.position_m.y.abs() < 0.1)
+        );
         assert!(robot.position_m.length() < 0.3);
     }
 
@@ -457,8 +470,8 @@ mod tests {
     fn what_was_gone_back_is_no_trail_any_more() {
         let (mut backtrack, mut robot) = driven(100);
         assert!((backtrack.begin(robot.plan_m()).unwrap() - DVec2::X).length() < 1e-9);
-        backtrack.be_at(&robot, STEP);
-        while !backtrack.has_gone_far(robot.plan_m()) {
+        backtrack.record(&robot, STEP);
+        while !backtrack.has_driven_far(robot.plan_m()) {
             assert!(matches!(
                 backtrack.next(&robot, |turn_rad| turn_rad),
                 Some(BacktrackCommand::Drive { reverse: true, .. })
@@ -467,14 +480,14 @@ mod tests {
         }
         backtrack.end();
         assert!((3.8..4.0).contains(&robot.position_m.x), "{robot:?}");
-        assert!(backtrack.way_back_m().all(|place_m| place_m.x < 4.1));
+        assert!(backtrack.positions_m().all(|place_m| place_m.x < 4.1));
     }
 
     #[test]
     fn having_gone_all_the_way_back_it_still_knows_that_place() {
         let (mut backtrack, mut robot) = driven(10);
         for _ in 0..5 {
-            go_back(&mut backtrack, &mut robot, 0.0);
+            backtrack_all(&mut backtrack, &mut robot, 0.0);
             for _ in 0..4 {
                 advance(&mut backtrack, &mut robot, 0.5, 0.0);
             }
@@ -485,7 +498,7 @@ mod tests {
     #[test]
     fn it_goes_back_a_little_where_it_came_but_a_little() {
         let (mut backtrack, mut robot) = driven(4);
-        go_back(&mut backtrack, &mut robot, 0.0);
+        backtrack_all(&mut backtrack, &mut robot, 0.0);
         assert!(robot.position_m.length() < 0.15, "{robot:?}");
     }
 
@@ -494,14 +507,14 @@ mod tests {
         assert_eq!(Backtrack::new().begin(DVec2::ZERO), None);
         let (mut backtrack, _) = driven(100);
         let carried = pose(DVec2::splat(9.0), 0.0);
-        backtrack.be_at(&carried, STEP);
-        assert_eq!((backtrack.begin(carried.plan_m()), backtrack.is_on()), (None, false));
+        backtrack.record(&carried, STEP);
+        assert_eq!((backtrack.begin(carried.plan_m()), backtrack.is_active()), (None, false));
     }
 
     #[test]
     fn the_trail_is_as_long_as_it_may_be() {
         let (backtrack, robot) = driven(1000);
-        let length_m = robot.position_m.x - backtrack.way_back_m().last().unwrap().x;
+        let length_m = robot.position_m.x - backtrack.positions_m().last().unwrap().x;
         assert!((19.0..31.0).contains(&length_m), "{length_m}");
     }
 }

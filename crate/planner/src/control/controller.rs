@@ -1,11 +1,11 @@
-//! The paper's simple PID controller: distance error to the subgoal, yaw error α_g*.
+//! The paper's PID controller: one loop for the distance to the target, one for the yaw error α_g*.
 
 use crate::config::{ControllerConfig, PidGains};
 use core::time::Duration;
 
 use crate::math::angle::wrap_rad;
 
-/// A turn in place is never slowed to less than this share.
+/// A turn on the spot is never slowed to less than this share.
 const LEAST_TURN_SHARE: f64 = 0.4;
 
 /// A velocity command for a differential-drive robot: the paper's u = (v, ω).
@@ -36,7 +36,7 @@ impl Pid {
         let wanted = gains.proportional * error
             + gains.integral * (self.integral + error * elapsed_s)
             + gains.derivative * rate;
-        // The integral holds while the output is saturated, so that it cannot wind up.
+        // The integral is held while the output is saturated (anti-windup).
         if wanted.abs() < most {
             self.integral += error * elapsed_s;
         }
@@ -44,7 +44,7 @@ impl Pid {
     }
 }
 
-/// The two loops. Planners that are compared with this one drive through it too.
+/// The two loops. The baselines drive through them too.
 #[derive(Clone, Debug)]
 pub struct Controller {
     config: ControllerConfig,
@@ -64,8 +64,8 @@ impl Controller {
         self.yaw = Pid::default();
     }
 
-    /// Drives towards a point at `distance_m` and `bearing_rad` in the robot frame; turns first when it is far to a side.
-    /// `elapsed` is the time since the last call.
+    /// Drives towards a point at `distance_m` and `bearing_rad` in the robot frame; rotates in place first if
+    /// the bearing is large. `elapsed` is the time since the last call.
     pub fn drive(&mut self, distance_m: f64, bearing_rad: f64, elapsed: Duration) -> Command {
         let config = &self.config;
         let bearing = wrap_rad(bearing_rad);
@@ -75,7 +75,8 @@ impl Controller {
         Command { linear_m_s: forward.max(0.0) * ahead, angular_rad_s: turning }
     }
 
-    /// Drives a distance along an arc with so much of a turn, anticlockwise, for each metre; in reverse where so asked.
+    /// Drives a distance along an arc of curvature `turn_rad_m` (anticlockwise turn per metre), in reverse if
+    /// `reverse`.
     pub(crate) fn drive_arc(
         &mut self,
         distance_m: f64,
@@ -90,8 +91,8 @@ impl Controller {
         Command { linear_m_s, angular_rad_s: speed_m_s * turn_rad_m }
     }
 
-    /// The command as slow as a robot should drive that takes up `share` of a tilt limit. A turn in place leaves its wheels where they
-    /// are, by and large, and is not slowed as much.
+    /// The command with its speed regulated by the tilt utilisation `share`. A turn on the spot hardly moves
+    /// the wheels' contact points, so it is slowed less.
     pub(crate) fn regulated(&self, command: Command, share: f64) -> Command {
         let ControllerConfig { slow_from_share, least_speed_share, .. } = self.config;
         let left = (1.0 - share) / (1.0 - slow_from_share);
@@ -101,7 +102,7 @@ impl Controller {
         Command { linear_m_s: speed * command.linear_m_s, angular_rad_s: speed * command.angular_rad_s }
     }
 
-    /// Turns in place to look around.
+    /// Turns on the spot at the configured rate (spin recovery).
     pub fn spin(&mut self) -> Command {
         self.reset();
         Command { linear_m_s: 0.0, angular_rad_s: self.config.look_turn_rate_rad_s }

@@ -1,4 +1,4 @@
-//! What the robot is commanded: the PID controller, and backtracking along the robot's own trajectory.
+//! Commands: the PID controller, and backtracking along the robot's own trajectory.
 
 pub(crate) mod backtrack;
 pub mod controller;

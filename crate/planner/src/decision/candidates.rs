@@ -1,4 +1,4 @@
-//! What the robot may head for: the subgoals of the segments, the goal, what it headed for before, and where what was seen ends.
+//! Candidate targets: the subgoals of the segments, the goal, the committed target, and the frontier.
 
 use glam::DVec2;
 
@@ -10,17 +10,17 @@ use crate::route::state_lattice::{PathPoint, ReachedState, StateLattice};
 use crate::skyline::occupancy::column_of;
 use crate::skyline::profile::Column;
 
-/// Finds candidates from where the robot stands.
+/// Finds candidates from the robot's pose.
 pub(crate) struct Candidates<'a> {
     pub(crate) config: &'a PlannerConfig,
     pub(crate) pose: &'a Pose,
     pub(crate) lattice: &'a StateLattice,
-    /// Overwritten.
+    /// Scratch.
     pub(crate) path: &'a mut Vec<PathPoint>,
 }
 
 impl Candidates<'_> {
-    /// Moves a subgoal to where the ways in its direction reach, and refuses it when that is too near.
+    /// Moves a subgoal to the farthest reachable place in its direction; refuses it if that is too near.
     pub(crate) fn move_within_reach(&mut self, subgoal: &mut Subgoal) {
         let Self { config, pose, lattice, .. } = *self;
         let (sin, cos) = libm::sincos(pose.yaw_rad + subgoal.bearing_rad);
@@ -41,7 +41,7 @@ impl Candidates<'_> {
         };
     }
 
-    /// The goal itself, when a path leads to it or to a place within its tolerance.
+    /// The goal itself, if a path leads to it or to a place within its tolerance.
     pub(crate) fn goal(&mut self, goal_m: DVec2, tolerance_m: f64) -> Option<Subgoal> {
         let distance_m = (goal_m - self.pose.plan_m()).length();
         if distance_m >= self.config.perception.surface_radius_m {
@@ -51,8 +51,9 @@ impl Candidates<'_> {
         Some(self.place(place_m, reached, ReachEnd::Whole))
     }
 
-    /// Where what was seen ends, walls apart, on the best way to the goal with what is `left_m` from there. On top of a steep hill no
-    /// beam reaches the flanks, and no segment carries a subgoal: from the edge more will be seen.
+    /// The frontier place with the best path to the goal, by `cost_to_go_m` from there; walls do not count as
+    /// frontier. On top of a steep hill no beam reaches the flanks, so no segment carries a subgoal; more can
+    /// be seen from the frontier.
     pub(crate) fn frontier(
         &mut self,
         profile: &[Column],
@@ -67,7 +68,7 @@ impl Candidates<'_> {
         Some(self.place(place_m, reached, ReachEnd::Unseen))
     }
 
-    /// A place that a way leads to.
+    /// A subgoal at a reached place.
     pub(crate) fn place(&mut self, place_m: DVec2, reached: ReachedState, end: ReachEnd) -> Subgoal {
         let reach_m = (place_m - self.pose.plan_m()).length();
         let height_m = self.lattice.height_m(reached);

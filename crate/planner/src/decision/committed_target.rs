@@ -1,7 +1,8 @@
-//! Holding on to what the robot heads for, and letting go of it.
+//! The committed target: the last chosen subgoal stays a candidate until the robot arrives or makes no
+//! progress.
 //!
-//! From a tilted robot the skyline is another one at each heading: a subgoal that it turns to may not be there any more when it has
-//! turned. So what it heads for stays a candidate until it is there, as long as a way over the ground that was seen leads there.
+//! On a tilted robot the skyline changes with the heading: a subgoal may be gone once the robot has turned
+//! towards it. So the target stays a candidate as long as a path leads to it.
 
 use core::time::Duration;
 
@@ -11,24 +12,25 @@ use crate::decision::candidates::Candidates;
 use crate::decision::subgoals::Subgoal;
 use crate::pose::{FrameChange, Pose};
 
-/// The robot is there when it is this near.
+/// Within this distance the robot has arrived.
 const ARRIVAL_RADIUS_M: f64 = 0.5;
-/// It makes progress while it leaves a place by this much within this time.
+/// Progress check: the robot must leave a circle of this radius within this time.
 const PROGRESS_RADIUS_M: f64 = 1.0;
 const PROGRESS_TIME: Duration = Duration::from_secs(12);
 
-/// What the robot heads for.
+/// The committed target and its progress check.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CommittedTarget {
     subgoal: Option<Subgoal>,
     left_m: DVec2,
-    /// Since then.
+    /// Time since the robot last made progress.
     time: Duration,
 }
 
 impl CommittedTarget {
-    /// The subgoal that was chosen last as seen from here, a candidate again. `Err` is where it lies when no way leads there any more.
-    pub(crate) fn again(&mut self, candidates: &mut Candidates<'_>) -> Result<Option<Subgoal>, DVec2> {
+    /// The committed target as a candidate seen from the present pose. `Err` has its position if no path
+    /// leads there any more.
+    pub(crate) fn reconsider(&mut self, candidates: &mut Candidates<'_>) -> Result<Option<Subgoal>, DVec2> {
         let Some(last) = self.subgoal else { return Ok(None) };
         let place_m = last.position_m.truncate();
         if (place_m - candidates.pose.plan_m()).length() < ARRIVAL_RADIUS_M {
@@ -42,8 +44,9 @@ impl CommittedTarget {
         Ok(Some(candidates.place(place_m, reached, last.forecast.unwrap_or_default().end)))
     }
 
-    /// Heads for a subgoal. Gives where it lies, and lets go of it, when the robot has not got on for too long.
-    pub(crate) fn head_for(&mut self, subgoal: &Subgoal, pose: &Pose, elapsed: Duration) -> Option<DVec2> {
+    /// Commits to a subgoal and checks progress. If there was none for too long, releases the target and
+    /// returns its position.
+    pub(crate) fn commit(&mut self, subgoal: &Subgoal, pose: &Pose, elapsed: Duration) -> Option<DVec2> {
         self.subgoal = Some(*subgoal);
         if (pose.plan_m() - self.left_m).length() > PROGRESS_RADIUS_M {
             self.left_m = pose.plan_m();
@@ -56,7 +59,7 @@ impl CommittedTarget {
         })
     }
 
-    /// Moves it from one world frame to another.
+    /// Moves the target from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         self.left_m = change.place_m(self.left_m);
         if let Some(subgoal) = &mut self.subgoal {
@@ -64,8 +67,8 @@ impl CommittedTarget {
         }
     }
 
-    /// Heads for nothing.
-    pub(crate) fn stand(&mut self) {
+    /// Releases the target.
+    pub(crate) fn release(&mut self) {
         *self = Self::default();
     }
 }
@@ -98,8 +101,12 @@ mod tests {
         }
     }
 
-    /// What was headed for as seen from `here_x_m`, on level ground that ends at `end_x_m`.
-    fn again(committed: &mut CommittedTarget, here_x_m: f64, end_x_m: f64) -> Result<Option<Subgoal>, DVec2> {
+    /// The committed target as seen from `here_x_m`, on level ground that ends at `end_x_m`.
+    fn reconsider(
+        committed: &mut CommittedTarget,
+        here_x_m: f64,
+        end_x_m: f64,
+    ) -> Result<Option<Subgoal>, DVec2> {
         let (config, pose) = (PlannerConfig::default(), pose(here_x_m));
         let mut lattice = StateLattice::new(config.state_lattice, &config.robot, 7.0);
         let ground = |place_m: DVec2| {
@@ -108,36 +115,36 @@ mod tests {
         };
         lattice.search(&ground, &pose, STEP);
         let path = &mut Vec::new();
-        committed.again(&mut Candidates { config: &config, pose: &pose, lattice: &lattice, path })
+        committed.reconsider(&mut Candidates { config: &config, pose: &pose, lattice: &lattice, path })
     }
 
     #[test]
     fn what_it_heads_for_stays_a_candidate_until_it_is_there() {
         let mut committed = CommittedTarget::default();
-        assert_eq!(again(&mut committed, 0.0, 9.0), Ok(None));
-        assert_eq!(committed.head_for(&subgoal(5.0), &pose(0.0), STEP), None);
+        assert_eq!(reconsider(&mut committed, 0.0, 9.0), Ok(None));
+        assert_eq!(committed.commit(&subgoal(5.0), &pose(0.0), STEP), None);
         for x_m in [0.5, 2.0, 4.0] {
-            let again = again(&mut committed, x_m, 9.0).unwrap().unwrap();
-            assert!(again.position_m == subgoal(5.0).position_m && again.segment.is_none());
-            let forecast = again.forecast.unwrap();
+            let target = reconsider(&mut committed, x_m, 9.0).unwrap().unwrap();
+            assert!(target.position_m == subgoal(5.0).position_m && target.segment.is_none());
+            let forecast = target.forecast.unwrap();
             assert!((forecast.reach_m - (5.0 - x_m)).abs() < 1e-12 && forecast.path_m > 0.5);
         }
-        assert_eq!(again(&mut committed, 4.6, 9.0), Ok(None));
+        assert_eq!(reconsider(&mut committed, 4.6, 9.0), Ok(None));
     }
 
     #[test]
     fn where_no_way_leads_any_more_is_told_once() {
         let mut committed = CommittedTarget::default();
-        committed.head_for(&subgoal(5.0), &pose(0.0), STEP);
-        assert_eq!(again(&mut committed, 0.0, 3.0), Err(DVec2::new(5.0, 0.0)));
-        assert_eq!(again(&mut committed, 0.0, 3.0), Ok(None));
+        committed.commit(&subgoal(5.0), &pose(0.0), STEP);
+        assert_eq!(reconsider(&mut committed, 0.0, 3.0), Err(DVec2::new(5.0, 0.0)));
+        assert_eq!(reconsider(&mut committed, 0.0, 3.0), Ok(None));
     }
 
     #[test]
     fn a_robot_that_does_not_get_on_lets_go() {
         let mut committed = CommittedTarget::default();
         let lets_go = |committed: &mut CommittedTarget, x_m: f64| {
-            committed.head_for(&subgoal(5.0), &pose(x_m), STEP).is_some()
+            committed.commit(&subgoal(5.0), &pose(x_m), STEP).is_some()
         };
         for _ in 0..3 {
             assert!((0..120).all(|_| !lets_go(&mut committed, 0.1)));

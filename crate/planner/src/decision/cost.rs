@@ -3,8 +3,9 @@
 use crate::config::DecisionConfig;
 use crate::decision::subgoals::Subgoal;
 
-/// The paper's steepness cost: C_stp = dz² + exp(sign(ψ) dz) |ψ|, with dz the subgoal's height over the robot's and ψ
-/// the pitch, nose-up positive, so that it charges subgoals that would increase |ψ|.
+/// The paper's steepness cost: C_stp = dz² + exp(sign(ψ) dz) |ψ|, with dz the height of the subgoal over the
+/// robot in metres and ψ the pitch in radians, nose-up positive: a subgoal that would increase |ψ| costs
+/// more.
 pub fn steepness_cost(height_difference_m: f64, pitch_rad: f64) -> f64 {
     let sign = if pitch_rad == 0.0 { 0.0 } else { pitch_rad.signum() };
     height_difference_m * height_difference_m + libm::exp(sign * height_difference_m) * pitch_rad.abs()

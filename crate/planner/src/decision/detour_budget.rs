@@ -1,17 +1,17 @@
-//! How long the robot goes around steep ground at the price that is configured.
+//! The detour budget: how far the robot drives towards a goal at the configured cost of slopes.
 //!
-//! Where the only way is a steep one, it costs more than much driving to and fro on the ground before it: a robot that minds steepness
-//! tries all of that first. So one that has driven far without getting there minds it less.
+//! If the only path is a steep one, it costs more than many detours on the level ground before it, and the
+//! robot tries all of those first. Once the budget is spent, slopes cost less.
 
 use glam::DVec2;
 
 use crate::pose::FrameChange;
 
-/// The budget lasts for so many times the straight way, which counts as this long at least.
+/// The budget is this multiple of the straight distance, which counts as at least this long.
 const STRAIGHT_TIMES: f64 = 2.0;
 const LEAST_STRAIGHT_M: f64 = 10.0;
 
-/// The way that the robot has driven towards a goal.
+/// The distance that may still be driven before slopes cost less.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DetourBudget {
     last_m: DVec2,
@@ -19,13 +19,13 @@ pub(crate) struct DetourBudget {
 }
 
 impl DetourBudget {
-    /// Of a robot that sets out.
+    /// A full budget for a robot that sets out from `here_m`.
     pub(crate) fn new(here_m: DVec2, goal_m: DVec2) -> Self {
         let straight_m = (goal_m - here_m).length().max(LEAST_STRAIGHT_M);
         Self { last_m: here_m, left_m: STRAIGHT_TIMES * straight_m }
     }
 
-    /// Whether it is lost just now, with the robot here.
+    /// Subtracts the distance driven to `here_m`; true on the call that spends the budget.
     pub(crate) fn is_spent_now(&mut self, here_m: DVec2) -> bool {
         let had_some = self.left_m > 0.0;
         self.left_m -= (here_m - self.last_m).length();
@@ -35,7 +35,7 @@ impl DetourBudget {
 }
 
 impl DetourBudget {
-    /// Moves where the robot was from one world frame to another.
+    /// Moves the last position from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         self.last_m = change.place_m(self.last_m);
     }

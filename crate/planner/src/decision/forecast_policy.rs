@@ -1,7 +1,9 @@
-//! The forecast's choice: subgoals at the end of paths over the ground that was seen, judged by the tilt that these paths promise.
+//! The policy `forecast`: subgoals at the ends of paths over the elevation window, judged by their predicted
+//! tilt.
 //!
-//! It keeps a local elevation window, searches it with a state lattice, learns the cost-to-go around dead ends, holds on to a choice,
-//! and backtracks along the robot's own trajectory where the ground turned out too steep or no path leads on.
+//! It searches the window with a state lattice, learns corrections of the cost-to-go, commits to a target,
+//! and backtracks along the robot's own trajectory where the ground is steeper than predicted or no path
+//! leads on.
 
 use core::f64::consts::PI;
 use core::time::Duration;
@@ -23,23 +25,23 @@ use crate::route::heuristic_table::HeuristicTable;
 use crate::route::state_lattice::{PathPoint, ReachedState, StateLattice, length_m};
 use crate::terrain::elevation_window::ElevationWindow;
 
-/// The cost-to-go is learned anew when the robot has driven this far.
+/// The cost-to-go is learned again after this distance.
 const LEARN_SPACING_M: f64 = 0.5;
-/// While it backtracks the robot drives as fast as with this much left of the way.
+/// While backtracking, the robot drives as fast as with this much of the path left.
 const LEAST_BACKTRACK_M: f64 = 0.3;
-/// Beyond its detour budget a robot counts the cost of slopes by this share.
+/// Share of the slope costs that counts beyond the detour budget.
 const OVER_BUDGET_SHARE: f64 = 0.25;
-/// A target that the robot cannot get to, and the places around it, lie this much farther from the goal than they seemed.
+/// A target that the robot cannot reach, and the places around it, get this much added to their cost-to-go.
 const UNREACHABLE_PENALTY_M: f64 = 7.0;
 const UNREACHABLE_HALF_SIDE_M: f64 = 1.0;
 
-/// What it remembers.
+/// The elevation window, the lattice over it, and what they taught.
 #[derive(Clone, Debug)]
 pub(crate) struct ForecastPolicy {
     window: ElevationWindow,
     lattice: StateLattice,
     lattice_config: StateLatticeConfig,
-    /// The weights as configured, and as they are now: beyond the detour budget slopes cost less.
+    /// The weights as configured, and the present ones: slopes cost less beyond the detour budget.
     configured: DecisionConfig,
     weights: DecisionConfig,
     heuristic: HeuristicTable,
@@ -53,7 +55,7 @@ pub(crate) struct ForecastPolicy {
 }
 
 impl ForecastPolicy {
-    /// A policy that has seen nothing yet. The configuration must have been validated.
+    /// A policy with an empty window. The configuration must have been validated.
     pub(crate) fn new(config: &PlannerConfig) -> Self {
         let lattice =
             StateLattice::new(config.state_lattice, &config.robot, config.perception.surface_radius_m);
@@ -73,7 +75,7 @@ impl ForecastPolicy {
         }
     }
 
-    /// Counts the cost of slopes as configured or, beyond the detour budget, less: on paths and in the choice.
+    /// Sets the cost of slopes, on paths and in the choice: as configured, or less beyond the detour budget.
     fn scale_slope_cost(&mut self, within_budget: bool) {
         let StateLatticeConfig { escape_margin_rad, impatient_margin_rad, .. } = self.lattice_config;
         let (share, least_margin_rad) =
@@ -84,14 +86,14 @@ impl ForecastPolicy {
         self.weights.climb_weight = share * self.configured.climb_weight;
     }
 
-    /// Holds on to nothing.
-    fn let_go(&mut self) {
+    /// Releases every commitment.
+    fn release(&mut self) {
         self.last_bearing_rad = None;
-        self.lattice.stand();
-        self.committed.stand();
+        self.lattice.release();
+        self.committed.release();
     }
 
-    /// Searches paths over the terrain and chooses; `None` when there is no candidate.
+    /// Searches paths over the terrain and chooses a subgoal; `None` if there is no candidate.
     fn search(&mut self, situation: &Situation<'_>, plan: &mut Plan) -> Option<usize> {
         let Situation { pose, goal_m, elapsed, .. } = *situation;
         let here_m = pose.plan_m();
@@ -101,7 +103,7 @@ impl ForecastPolicy {
             self.heuristic.scale(OVER_BUDGET_SHARE);
         }
         match situation.terrain {
-            Some(told) => self.lattice.search(&told, pose, elapsed),
+            Some(terrain) => self.lattice.search(&terrain, pose, elapsed),
             None => self.lattice.search(&self.window, pose, elapsed),
         }
         self.choose(situation, plan).or_else(|| {
@@ -124,8 +126,8 @@ impl ForecastPolicy {
             subgoals.push(goal);
             return Some(subgoals.len() - 1);
         }
-        match self.committed.again(&mut candidates) {
-            Ok(again) => subgoals.extend(again),
+        match self.committed.reconsider(&mut candidates) {
+            Ok(target) => subgoals.extend(target),
             Err(place_m) => {
                 self.heuristic.raise(place_m, UNREACHABLE_HALF_SIDE_M, UNREACHABLE_PENALTY_M);
             }
@@ -162,8 +164,8 @@ impl ForecastPolicy {
         }
     }
 
-    /// Backtracks from where the robot stands too steep or has no candidate, until it stands on calm ground some way back and has a
-    /// candidate again. Gives the command while it does.
+    /// Backtracks if the attitude is too steep or there is no candidate, until the attitude is calm, the
+    /// robot has driven some distance back and there is a candidate. Returns the command meanwhile.
     fn backtrack(
         &mut self,
         situation: &Situation<'_>,
@@ -173,24 +175,24 @@ impl ForecastPolicy {
     ) -> Option<Command> {
         let Situation { pose, elapsed, .. } = *situation;
         let here_m = pose.plan_m();
-        self.backtrack.be_at(pose, elapsed);
-        if !self.backtrack.is_on() {
+        self.backtrack.record(pose, elapsed);
+        if !self.backtrack.is_active() {
             if !has_candidate || self.lattice.is_too_steep() {
-                self.turn_back(here_m);
+                self.start_backtrack(here_m);
             }
-        } else if has_candidate && self.lattice.is_calm() && self.backtrack.has_gone_far(here_m) {
+        } else if has_candidate && self.lattice.is_calm() && self.backtrack.has_driven_far(here_m) {
             self.backtrack.end();
         }
-        if !self.backtrack.is_on() {
+        if !self.backtrack.is_active() {
             return None;
         }
         let back = self.backtrack.next(pose, |turn_rad| self.lattice.safe_turn_rad(turn_rad))?;
-        self.let_go();
+        self.release();
         let reverse = matches!(back, BacktrackCommand::Drive { reverse: true, .. });
         let point = |position_m| PathPoint { position_m, cost_m: 0.0, reverse };
         plan.path.clear();
         plan.path.push(point(here_m));
-        plan.path.extend(self.backtrack.way_back_m().map(point));
+        plan.path.extend(self.backtrack.positions_m().map(point));
         let utilisation = self.lattice.utilisation_here();
         Some(match back {
             BacktrackCommand::Brake => Command::STOP,
@@ -206,10 +208,10 @@ impl ForecastPolicy {
         })
     }
 
-    /// Turns back from ground that turned out steeper than it had looked.
-    fn turn_back(&mut self, here_m: DVec2) {
+    /// Begins to backtrack, and inflates the slope variance of the ground ahead.
+    fn start_backtrack(&mut self, here_m: DVec2) {
         if let Some(travel) = self.backtrack.begin(here_m) {
-            self.lattice.meet_steeper_ground(travel);
+            self.lattice.inflate_variance_ahead(travel);
         }
     }
 
@@ -242,8 +244,8 @@ impl ForecastPolicy {
         controller.regulated(command, utilisation)
     }
 
-    /// Learns the cost-to-go of the places around by the best path on: to the goal itself or to the frontier, and from there as far as is
-    /// known.
+    /// Learns the cost-to-go of the places around by a backward search from the goal, if it is reached, or
+    /// else from the frontier with the corrections there.
     fn learn(&mut self, situation: &Situation<'_>) {
         let Situation { pose, goal_m, goal_tolerance_m, .. } = *situation;
         let here_m = pose.plan_m();
@@ -257,7 +259,8 @@ impl ForecastPolicy {
         self.ends.clear();
         self.ends.extend(frontier.chain(goal.map(|(reached, _)| (reached, 0.0))));
         let DecisionConfig { distance_weight, steepness_weight, climb_weight, .. } = self.weights;
-        // The prices of the subgoals' cost: a risk counts for the way to r_oc there, and 2 r_oc of distance for one.
+        // The weights of the subgoals' cost as prices of a path: a mean risk of 1 costs as much as 2 r_oc of
+        // distance.
         let tilt_price = if distance_weight > 0.0 { 2.0 * steepness_weight / distance_weight } else { 0.0 };
         for (place_m, to_goal_m) in self.lattice.backward_search(&self.ends, tilt_price, climb_weight) {
             self.heuristic.learn(place_m, goal_m, to_goal_m);
@@ -270,7 +273,7 @@ impl SubgoalPolicy for ForecastPolicy {
         self.heuristic.clear();
         self.detour_budget = None;
         self.scale_slope_cost(true);
-        self.let_go();
+        self.release();
         self.backtrack.end();
         self.learned_at_m = None;
     }
@@ -281,7 +284,7 @@ impl SubgoalPolicy for ForecastPolicy {
         self.backtrack.clear();
     }
 
-    /// Remembers the near part of the scan, and the ground that the wheels stand on.
+    /// Adds the near part of the scan, and the ground under the wheels, to the elevation window.
     fn observe(&mut self, config: &PlannerConfig, points_m: &[Vec3], pose: &Pose, elapsed: Duration) {
         self.window.advance(elapsed);
         let world_from_robot = pose.world_from_robot();
@@ -290,7 +293,7 @@ impl SubgoalPolicy for ForecastPolicy {
         let radius_squared = config.elevation_window.radius_m * config.elevation_window.radius_m;
         for point in points_m {
             let point = point.as_dvec3();
-            // Also passes over NaN.
+            // Also skips NaN.
             if point.length_squared() <= radius_squared {
                 self.window.add(sensor + world_from_robot * point);
             }
@@ -309,17 +312,17 @@ impl SubgoalPolicy for ForecastPolicy {
             return Motion::Backtrack(command);
         }
         let Some(chosen) = chosen else {
-            self.let_go();
+            self.release();
             return Motion::NoCandidate;
         };
         plan.chosen = Some(chosen);
         let subgoal = plan.subgoals[chosen];
         let pose = situation.pose;
         self.last_bearing_rad = Some(pose.yaw_rad + subgoal.bearing_rad);
-        if let Some(place_m) = self.committed.head_for(&subgoal, pose, situation.elapsed) {
+        if let Some(place_m) = self.committed.commit(&subgoal, pose, situation.elapsed) {
             self.heuristic.raise(place_m, UNREACHABLE_HALF_SIDE_M, UNREACHABLE_PENALTY_M);
             if self.lattice.is_on_steep_ground() {
-                self.turn_back(pose.plan_m());
+                self.start_backtrack(pose.plan_m());
             }
         }
         self.learn(situation);

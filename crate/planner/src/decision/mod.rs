@@ -1,4 +1,5 @@
-//! Which subgoal to drive to, and how: the paper's choice and the forecast's behind one interface, their costs, and what holds on to a choice.
+//! The choice of a subgoal and the drive to it: one interface, two policies (`paper` and `forecast`), their
+//! cost terms and their commitments.
 
 mod candidates;
 mod committed_target;

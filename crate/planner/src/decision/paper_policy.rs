@@ -1,4 +1,5 @@
-//! The paper's choice: subgoals on the skyline at r_oc, judged by their height alone; three normalised cost terms (section V-C, eq. 6).
+//! The policy `paper`: subgoals on the skyline at r_oc, judged by their height alone; three normalised cost
+//! terms (paper, section V-C, eq. 6).
 
 use core::time::Duration;
 
@@ -13,7 +14,7 @@ use crate::pose::{FrameChange, Pose};
 use crate::skyline::occupancy::column_of;
 use crate::skyline::profile::Column;
 
-/// It remembers nothing.
+/// The policy has no memory.
 #[derive(Clone, Debug)]
 pub(crate) struct PaperPolicy;
 
@@ -54,7 +55,7 @@ impl SubgoalPolicy for PaperPolicy {
     fn relocalise(&mut self, _: &FrameChange) {}
 }
 
-/// The goal itself, when it is nearer than what was seen in its direction.
+/// The goal itself, if it is nearer than the profile in its direction.
 fn goal_in_sight(situation: &Situation<'_>) -> Option<Subgoal> {
     let Situation { config, pose, goal_m, profile, .. } = *situation;
     let distance_m = (goal_m - pose.plan_m()).length();

@@ -1,4 +1,4 @@
-//! The interface between the planner and what chooses its subgoal.
+//! The interface between the planner and the policy that chooses its subgoal.
 
 use core::time::Duration;
 
@@ -13,7 +13,7 @@ use crate::route::state_lattice::PathPoint;
 use crate::skyline::profile::Column;
 use crate::skyline::segments::Segment;
 
-/// What a policy decides from.
+/// The input of a policy.
 pub(crate) struct Situation<'a> {
     pub(crate) config: &'a PlannerConfig,
     pub(crate) pose: &'a Pose,
@@ -21,9 +21,9 @@ pub(crate) struct Situation<'a> {
     pub(crate) goal_tolerance_m: f64,
     pub(crate) profile: &'a [Column],
     pub(crate) segments: &'a [Segment],
-    /// Time since the step before.
+    /// Time since the last step.
     pub(crate) elapsed: Duration,
-    /// Replaces what the policy knows of the terrain.
+    /// Replaces the policy's own knowledge of the terrain.
     pub(crate) terrain: Option<TerrainOverride<'a>>,
 }
 
@@ -43,12 +43,12 @@ impl Plan {
     }
 }
 
-/// What a policy decided.
+/// The motion that a policy decided on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Motion {
     /// Drive to the chosen subgoal.
     Drive(Command),
-    /// Go back along the robot's own trajectory.
+    /// Backtrack along the robot's own trajectory.
     Backtrack(Command),
     /// There is no candidate.
     NoCandidate,
@@ -56,24 +56,24 @@ pub(crate) enum Motion {
 
 /// Chooses a subgoal and drives to it.
 pub(crate) trait SubgoalPolicy {
-    /// Forgets what was learned on the way to the last goal.
+    /// Forgets what was learned for the last goal.
     fn start(&mut self);
 
     /// Forgets the terrain.
     fn forget_terrain(&mut self);
 
-    /// Takes in a scan, in the sensor frame, from where the robot stands.
+    /// Adds a scan, in the sensor frame, taken at `pose`.
     fn observe(&mut self, config: &PlannerConfig, points_m: &[Vec3], pose: &Pose, elapsed: Duration);
 
-    /// Fills the plan, which is empty, and says how to move.
+    /// Fills the plan, which is empty, and decides on a motion.
     fn decide(&mut self, situation: &Situation<'_>, controller: &mut Controller, plan: &mut Plan) -> Motion;
 
-    /// As much of a turn on the spot, anticlockwise, as keeps the robot within its tilt limits.
+    /// The largest part of a turn on the spot, anticlockwise, that keeps the robot within its tilt limits.
     fn safe_turn_rad(&self, turn_rad: f64) -> f64;
 
     /// Whether the robot may turn all around on the spot.
     fn may_spin(&self) -> bool;
 
-    /// Moves all that is remembered from one world frame to another.
+    /// Moves the remembered state from one world frame to another.
     fn relocalise(&mut self, change: &crate::pose::FrameChange);
 }

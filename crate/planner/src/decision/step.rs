@@ -1,4 +1,4 @@
-//! What a step of the planner takes beside the scan, and what it answers.
+//! Input of a planner's step besides the scan, and its result.
 
 use glam::DVec2;
 
@@ -12,10 +12,10 @@ use crate::skyline::segments::Segment;
 use crate::skyline::surface::GpDiagnostics;
 use crate::terrain::plane::Plane;
 
-/// Why the planner stands still for good.
+/// Why the planner stopped for good.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum StopReason {
-    /// The pose or the goal is not a number, or more than 1000 km from the origin.
+    /// The pose or the goal is not finite, or more than 1000 km from the origin.
     #[error("the pose or the goal is not finite or too far away")]
     InvalidInput,
     /// No goal was set.
@@ -27,57 +27,58 @@ pub enum StopReason {
     /// The Gaussian process has no posterior.
     #[error("no perception: {0}")]
     NoPerception(GpError),
-    /// Looking around found no candidate either.
+    /// The spin recovery found no candidate either.
     #[error("no subgoal found after looking around")]
     NoSubgoal,
-    /// At the goal, turning to the heading that was asked for would exceed a tilt limit.
+    /// The requested final heading cannot be turned to at the goal without exceeding a tilt limit.
     #[error("turning to the goal's heading would exceed a tilt limit")]
     HeadingUnsafe,
 }
 
-/// What a step decided.
+/// The outcome of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Status {
     /// Driving to the chosen subgoal.
     Driving,
     /// The goal is within its tolerance.
     Arrived,
-    /// Going back the way it came, from ground that is steeper than it had looked or from where nothing leads on.
+    /// Backtracking along its own trajectory: the ground is steeper than predicted, or no path leads on.
     Backtracking,
-    /// No candidate: turning in place to look.
+    /// Spin recovery: no candidate, turning on the spot to search for one.
     Searching,
-    /// Standing still, for this reason.
+    /// Stopped for this reason.
     Stopped(StopReason),
 }
 
-/// Everything one step saw and decided.
+/// The result of one step: perception, decision and command.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'a> {
-    /// What was decided.
+    /// The outcome.
     pub status: Status,
     /// The velocity command.
     pub command: Command,
     /// The observed occupancy surface.
     pub observed: &'a OccupancySurface,
-    /// What the Gaussian process needed for the profile.
+    /// Diagnostics of the Gaussian process's prediction of the profile.
     pub diagnostics: GpDiagnostics,
     /// The elevation profile.
     pub profile: &'a [Column],
     /// Its segments.
     pub segments: &'a [Segment],
-    /// Every subgoal, refused ones too.
+    /// Every subgoal, refused ones included.
     pub subgoals: &'a [Subgoal],
     /// Index of the chosen subgoal.
     pub chosen: Option<usize>,
-    /// The way to it, or the way back, from where the robot stands; empty where subgoals are judged by the paper's height alone.
+    /// The path to it, or back, from the robot's position on. Empty in the policy `paper`, which plans none.
     pub path: &'a [PathPoint],
 }
 
-/// The plane through the ground around a place seen from above, in the world; `None` where it is unknown.
+/// The plane through the ground around a place seen from above, in the world frame; `None` where it is
+/// unknown.
 pub type TerrainOverride<'a> = &'a dyn Fn(DVec2) -> Option<Plane>;
 
-/// What a step is told instead of finding it out from scans; nothing by default. With the truth it tells a fault of
-/// perception from one of decision.
+/// A perception override: input that replaces what the planner perceives; none by default. Ground truth here
+/// tells faults of perception from faults of decision.
 #[derive(Clone, Copy, Default)]
 pub struct PerceptionOverride<'a> {
     /// The elevation profile at an azimuth in the sensor frame.

@@ -1,4 +1,4 @@
-//! Subgoals on the segments (paper, section V-B) and their place in the world.
+//! Subgoals on the segments (paper, section V-B) and their positions in the world.
 
 use glam::{DVec2, DVec3};
 
@@ -19,9 +19,9 @@ pub struct Cost {
     pub distance: f64,
     /// k_stp times the steepness cost.
     pub steepness: f64,
-    /// Charge for turning away from the last choice.
+    /// Cost of turning away from the last choice.
     pub commitment: f64,
-    /// Charge for the learned correction of the cost-to-go: how much farther the goal is from there than the straight line says.
+    /// Cost of the learned correction of the cost-to-go at the subgoal.
     pub correction: f64,
 }
 
@@ -35,17 +35,16 @@ impl Cost {
 /// Why a subgoal is not a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// The ground on the way tilts the robot too far too soon.
+    /// The ground on the path tilts the robot too far too soon.
     Tilt,
-    /// Too little of the ground on the way was seen.
+    /// Too little of the ground on the path was seen.
     Unseen,
 }
 
-/// A place the robot could drive to next.
+/// A place that the robot could drive to next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Subgoal {
-    /// Index of its segment; `None` for the goal itself, for what the robot already headed for, and for where what was seen
-    /// ends.
+    /// Index of its segment; `None` for the goal itself, the committed target and frontier places.
     pub segment: Option<usize>,
     /// Azimuth α_g in the sensor frame, in [-π, π).
     pub azimuth_rad: f64,
@@ -55,11 +54,11 @@ pub struct Subgoal {
     pub position_m: DVec3,
     /// Bearing of the position from the robot's heading, seen from above, in [-π, π).
     pub bearing_rad: f64,
-    /// What the way there promises; `None` when the steepness is judged by the paper's height alone.
+    /// Forecast of the path there; `None` in the policy `paper`.
     pub forecast: Option<Forecast>,
     /// Why it was refused; `None` for a candidate.
     pub refusal: Option<Refusal>,
-    /// Its cost, weighted term by term; `None` when refused.
+    /// Its cost, weighted term by term; `None` if refused.
     pub cost: Option<Cost>,
 }
 
@@ -75,7 +74,7 @@ fn spread_azimuths(
     (1..parts).map(move |k| wrap_rad(begin + extent * k as f64 / parts as f64))
 }
 
-/// Whether a segment may carry subgoals. Unknown ones may where only ground already seen is driven on.
+/// Whether a segment may carry subgoals. Unknown ones may if the policy drives on seen ground alone.
 fn carries_subgoals(segment: &Segment, robot_width_m: f64, config: &SegmentConfig) -> bool {
     match segment.verdict {
         Verdict::Valid => true,
@@ -113,7 +112,7 @@ pub(crate) fn on_segments<'a>(
     })
 }
 
-/// The world position of the point at (azimuth, elevation, range) in the sensor frame: ᵂT_R g_R.
+/// World position of the point at (azimuth, elevation, range) in the sensor frame: ᵂT_R g_R.
 pub(crate) fn world_position_m(
     pose: &Pose,
     mount: &SensorModel,

@@ -1,33 +1,33 @@
-//! What the way to a subgoal promises, from the ground that the last scans saw.
+//! The forecast of a path: length, climb and tilt, predicted from the elevation window.
 
-/// What a way promises.
+/// The predicted length, climb and tilt of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Forecast {
-    /// Straight distance from the robot to where the way ends.
+    /// Straight distance from the robot to the end of the path.
     pub reach_m: f64,
-    /// Length of the way.
+    /// Length of the path.
     pub path_m: f64,
-    /// What it goes up and down.
+    /// Metres up and down along the path, summed.
     pub climb_m: f64,
-    /// Mean over the way of (slope / slope at the limit)², the worse of roll and pitch at each place, and 2 for each time that the place
-    /// turned out steeper than it had looked.
+    /// Mean over the path's places of (slope / slope at the limit)², for the worse of roll and pitch; a place
+    /// in a penalised area counts 2 more for each penalty.
     pub mean_risk: f64,
-    /// Largest predicted |roll| on the way.
+    /// Largest predicted |roll| on the path.
     pub max_roll_rad: f64,
-    /// Largest predicted |pitch| on the way.
+    /// Largest predicted |pitch| on the path.
     pub max_pitch_rad: f64,
-    /// Why it ends before the distance that was asked for.
+    /// Why the path ends before the requested distance.
     pub end: ReachEnd,
 }
 
-/// Why a way ends where it does.
+/// Why a path ends where it does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum ReachEnd {
-    /// It goes as far as asked.
+    /// The requested distance is reached.
     #[default]
     Whole,
-    /// The next place would tilt the robot too far.
+    /// The next place exceeds a tilt limit, margin included.
     Tilt,
-    /// Nothing was seen of the ground beyond.
+    /// The ground beyond was not seen.
     Unseen,
 }

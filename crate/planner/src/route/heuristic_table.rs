@@ -1,9 +1,9 @@
-//! Memory of dead ends: what was learned of how far the goal is from places around the robot.
+//! The learned heuristic: a correction of the straight-line cost-to-go for places around the robot.
 //!
-//! The straight distance is all that is known of the way to the goal beyond what the scans saw. Where every way on turns
-//! out to be longer than that, the places that it leads from are farther from the goal than the straight line says. That is kept, so
-//! that the robot does not return there for the same promise: learning real-time A* with a local search space (Koenig and
-//! Sun 2009).
+//! Beyond the elevation window, the straight distance is the only estimate of the cost-to-go. Where every
+//! path turns out longer than that, the places it was planned from get a larger cost-to-go, so that the robot
+//! does not return for the same estimate. This is learning real-time A* with a local search space, LSS-LRTA*
+//! (Koenig and Sun 2009, <https://doi.org/10.1007/s10458-008-9061-x>).
 
 use glam::{DVec2, IVec2};
 
@@ -11,10 +11,10 @@ use crate::math::elementary::floor;
 use crate::pose::FrameChange;
 use crate::terrain::rolling_grid::RollingGrid;
 
-/// Places per side of the window that moves with the robot.
+/// Places per side of the window, which moves with the robot.
 const SIDE: usize = 128;
 
-/// How much farther the goal is from the places of the state lattice than the straight line says: the correction of the heuristic.
+/// Corrections of the straight-line heuristic, in metres, at the places of the state lattice.
 #[derive(Clone, Debug)]
 pub(crate) struct HeuristicTable {
     step_m: f64,
@@ -23,7 +23,7 @@ pub(crate) struct HeuristicTable {
 }
 
 impl HeuristicTable {
-    /// For places `step_m` apart.
+    /// An empty table for places `step_m` apart.
     pub(crate) fn new(step_m: f64) -> Self {
         Self { step_m, corrections_m: RollingGrid::new(SIDE) }
     }
@@ -32,17 +32,18 @@ impl HeuristicTable {
         self.corrections_m.clear();
     }
 
-    /// How much farther the goal is from the place nearest to a point than the straight line says, as far as is known.
+    /// Learned cost-to-go at the place nearest to a point, less the straight distance; 0 where nothing was
+    /// learned.
     pub(crate) fn correction_m(&self, point_m: DVec2) -> f64 {
         self.corrections_m.get(self.index_of(point_m)).copied().unwrap_or(0.0)
     }
 
-    /// How far the goal is from the place nearest to a point, as far as is known.
+    /// Cost-to-go at the place nearest to a point: the straight distance and the correction.
     pub(crate) fn cost_to_go_m(&self, point_m: DVec2, goal_m: DVec2) -> f64 {
         (goal_m - point_m).length() + self.correction_m(point_m)
     }
 
-    /// Keeps that from a place the goal is at least `to_goal_m` away.
+    /// Raises the cost-to-go of a place to `to_goal_m`, if that is more than before.
     pub(crate) fn learn(&mut self, place_m: DVec2, goal_m: DVec2, to_goal_m: f64) {
         let correction_m = to_goal_m - (goal_m - place_m).length();
         if correction_m > self.correction_m(place_m) {
@@ -50,7 +51,7 @@ impl HeuristicTable {
         }
     }
 
-    /// Puts the goal farther from the places in a square around a point, `half_side_m` to each side.
+    /// Adds `by_m` to the corrections in a square around a point, `half_side_m` to each side.
     pub(crate) fn raise(&mut self, point_m: DVec2, half_side_m: f64, by_m: f64) {
         let centre = self.index_of(point_m);
         let reach = (half_side_m / self.step_m) as i32;
@@ -63,14 +64,14 @@ impl HeuristicTable {
         }
     }
 
-    /// Takes a share of every correction.
+    /// Multiplies every correction by `share`.
     pub(crate) fn scale(&mut self, share: f64) {
         for correction_m in self.corrections_m.cells_mut() {
             *correction_m *= share;
         }
     }
 
-    /// Moves what was learned from one world frame to another.
+    /// Moves the corrections from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         let mut moved = RollingGrid::new(SIDE);
         for (index, &correction_m) in self.corrections_m.iter() {

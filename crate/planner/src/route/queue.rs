@@ -1,6 +1,7 @@
-//! A queue by whole costs, without allocation once it is made (Dial 1969).
+//! A priority queue for integer costs, without allocation after construction (Dial 1969,
+//! <https://doi.org/10.1145/363269.363610>).
 
-/// No entry.
+/// Marks the end of a bucket's list.
 const NONE: u32 = u32::MAX;
 
 #[derive(Clone, Copy, Debug)]
@@ -10,8 +11,8 @@ struct Entry {
     next: u32,
 }
 
-/// Entries in buckets of equal width, given back bucket by bucket. Exact for a shortest-path search whose steps cost at
-/// least a bucket's width.
+/// Entries in buckets of equal width, popped bucket by bucket. Exact for a shortest-path search whose steps
+/// cost at least a bucket's width.
 #[derive(Clone, Debug)]
 pub(crate) struct BucketQueue {
     width: u32,
@@ -21,7 +22,7 @@ pub(crate) struct BucketQueue {
 }
 
 impl BucketQueue {
-    /// Room for `capacity` entries of costs below `width · buckets`.
+    /// An empty queue with room for `capacity` entries of costs below `width · buckets`.
     pub(crate) fn new(width: u32, buckets: usize, capacity: usize) -> Self {
         Self { width, heads: vec![NONE; buckets], entries: Vec::with_capacity(capacity), current: 0 }
     }
@@ -32,19 +33,20 @@ impl BucketQueue {
         self.current = 0;
     }
 
-    /// Whether a cost is within the range that is searched.
+    /// Whether a cost is within the queue's range.
     pub(crate) fn takes(&self, cost: u32) -> bool {
         ((cost / self.width) as usize) < self.heads.len()
     }
 
-    /// Adds an entry whose cost [`takes`](Self::takes) accepts and which is not below the last one given back.
+    /// Adds an entry. Its cost must be accepted by [`takes`](Self::takes) and not be below the last one
+    /// popped.
     pub(crate) fn push(&mut self, state: u32, cost: u32) {
         let head = &mut self.heads[(cost / self.width) as usize];
         self.entries.push(Entry { state, cost, next: *head });
         *head = self.entries.len() as u32 - 1;
     }
 
-    /// An entry of the lowest bucket: state and cost.
+    /// Removes an entry of the lowest bucket: state and cost.
     pub(crate) fn pop(&mut self) -> Option<(u32, u32)> {
         while let Some(head) = self.heads.get_mut(self.current) {
             if *head == NONE {

@@ -1,10 +1,11 @@
-//! Paths over the ground that the last scans saw: from where the robot stands to every place around it that it can reach
-//! within its tilt limits.
+//! The state lattice: paths over the elevation window from the robot to every place that it can reach within
+//! its tilt limits.
 //!
-//! Safety is the paper's: |roll| and |pitch| inside the robot's limits. The paper judges a subgoal by its height at
-//! r_oc alone; this looks at the way there. Places half a metre apart and sixteen headings make a graph; a step is a drive
-//! along a heading, forward or in reverse, or a turn to the next, each a margin inside the limits with what is uncertain. Its cost is
-//! its length and the tilt along it.
+//! Safety is the paper's: |roll| and |pitch| inside the robot's limits. The paper judges a subgoal by its
+//! height at r_oc alone; this judges the whole path to it. The states are places half a metre apart with
+//! sixteen headings. A step is a drive along a heading, forward or in reverse, or a turn to the next heading.
+//! Each step keeps a margin inside the limits for the uncertainty of the slope. Its cost is its length, plus
+//! terms for the tilt and the climb along it.
 
 mod backward_search;
 mod begin;
@@ -29,38 +30,42 @@ use crate::terrain::headings::{HEADINGS, STEPS};
 use crate::terrain::traversability::{Caution, TraversabilityMap};
 pub(crate) use path::length_m;
 
-/// Directions in which the way begins.
+/// Directions in which a path may begin.
 const FIRST_DIRECTIONS: usize = 64;
-/// A way joins the lattice at the places within this distance.
+/// A path joins the lattice at places within this distance.
 const JOIN_M: f64 = 1.6;
-/// Ground is calm up to this share of the slope that a way may use at most, and steep from this one.
+/// Attitudes are calm below the first tilt utilisation and steep above the second, as shares of the largest
+/// admissible slope.
 const CALM_SHARE: f64 = 0.8;
 const STEEP_SHARE: f64 = 0.6;
-/// A robot stands still within this time at the slow speed of steep ground; up to this share of the limits it is within them.
+/// The robot stops within this time at the reduced speed of steep ground. It backtracks when the attitude
+/// extrapolated over that time exceeds this tilt utilisation.
 const BRAKING_TIME: Duration = Duration::from_millis(300);
-const MOST_SHARE: f64 = 0.98;
-/// Turning back on steep ground says that what lies this far ahead is steeper than it had looked.
-const MISTRUSTED_AHEAD_M: f64 = 0.5;
-/// Each change within this distance makes the next one dearer, up to so many: where a way is refused and allowed by turns, the robot
-/// would drive to and fro.
+const BRAKING_UTILISATION: f64 = 0.98;
+/// Turning back on steep ground inflates the slope variance this far ahead.
+const INFLATED_AHEAD_M: f64 = 0.5;
+/// Each change of the first direction within this distance doubles the cost of the next, up to this many
+/// times: otherwise the robot would oscillate where a path is refused and allowed by turns.
 const SAME_PLACE_M: f64 = 1.0;
 const MOST_CHANGES: i32 = 5;
-/// The robot means to drive this far at most before it changes its mind; with this much left it has.
+/// The robot finishes a leg of this length before it changes direction; with this much left it counts as
+/// finished.
 const LEG_M: f64 = 1.0;
 const LEG_DONE_M: f64 = 0.15;
-/// A way begins at a place at least this far from the robot; nearer ones are where it stands.
+/// A path begins at a place at least this far from the robot; nearer places count as its own.
 const FIRST_STEP_M: f64 = 0.3;
 /// Costs are whole millimetres of level ground.
 const MILLIMETRES: f64 = 1000.0;
-/// Longest way that is looked for, in metres of level ground.
+/// Largest cost that is searched, in metres of level ground.
 const FARTHEST_M: usize = 60;
-/// No step of the search costs less.
+/// Lower bound on the cost of a step.
 const LEAST_COST_MM: u32 = 100;
 const UNREACHED: u32 = u32::MAX;
-/// From here on stand the first directions in which a state was reached straight from where the robot stands.
+/// Predecessors from here on encode the first direction of a state that was reached directly from the robot's
+/// pose.
 const BEGIN: u32 = u32::MAX - FIRST_DIRECTIONS as u32;
 
-/// Every place within reach, and how to get there.
+/// The cheapest paths to all reachable states.
 #[derive(Clone, Debug)]
 pub(crate) struct StateLattice {
     config: StateLatticeConfig,
@@ -74,20 +79,22 @@ pub(crate) struct StateLattice {
     here_m: DVec2,
     attitude: AttitudeEstimate,
     caution: Caution,
-    /// How the way that was last driven began, and what the robot headed for on it.
+    /// First direction of the last driven path, and the target of the current leg.
     last: Option<First>,
     leg: Option<PathPoint>,
-    /// Where it last began to change its mind, and how often it did so there.
+    /// Where the first direction last changed for the first time, and how often it has changed nearby.
     changed_at_m: DVec2,
     changes: i32,
-    /// Whether it last drove with less caution, to get away.
-    escapes: bool,
-    /// The first direction that the robot faces, and how many it may turn to the left and to the right.
+    /// Whether the last drive was in recovery, with the smaller margin.
+    recovers: bool,
+    /// Index of the direction that the robot faces, and how many directions it may turn to the left and to
+    /// the right.
     facing: i32,
     turns: [i32; 2],
 }
 
-/// What a metre of a way costs beyond itself: at the tilt limit, and for each metre up or down; and what one in reverse costs.
+/// Cost of a metre beyond its length: at the tilt limit, and for each metre up or down; and the factor for
+/// reverse.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Prices {
     pub(crate) tilt: f64,
@@ -96,7 +103,7 @@ pub(crate) struct Prices {
 }
 
 impl Prices {
-    /// As configured, with `steepness_share` of what steep ground costs.
+    /// As configured, with the slope costs scaled by `steepness_share`.
     fn of(config: &StateLatticeConfig, steepness_share: f64) -> Self {
         Self {
             tilt: steepness_share * config.tilt_price,
@@ -106,33 +113,33 @@ impl Prices {
     }
 }
 
-/// How a way begins.
+/// The first direction of a path.
 #[derive(Clone, Copy, Debug)]
 struct First {
-    /// Unit vector along which the robot faces.
+    /// Unit vector along the robot's heading.
     facing: DVec2,
     reverse: bool,
 }
 
-/// A place on a way.
+/// A point on a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
-    /// Seen from above, in the world.
+    /// Position in the world frame, seen from above.
     pub position_m: DVec2,
-    /// What getting there costs, in metres of level ground.
+    /// Cost of the path up to here, in metres of level ground.
     pub cost_m: f64,
-    /// Whether the robot gets there in reverse.
+    /// Whether the robot drives here in reverse.
     pub reverse: bool,
 }
 
-/// A place that the robot can reach, by its state in the search.
+/// A place that the search reached, as its state with the cheapest heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ReachedState {
     state: u32,
 }
 
 impl StateLattice {
-    /// Paths within `radius_m`.
+    /// A lattice over the places within `radius_m` of the robot.
     pub(crate) fn new(config: StateLatticeConfig, limits: &RobotModel, radius_m: f64) -> Self {
         let traversability = TraversabilityMap::new(config, limits, radius_m);
         let states = traversability.count() * HEADINGS;
@@ -162,18 +169,18 @@ impl StateLattice {
             leg: None,
             changed_at_m: DVec2::ZERO,
             changes: 0,
-            escapes: false,
+            recovers: false,
             facing: 0,
             turns: [0; 2],
         }
     }
 
-    /// How many places there are.
+    /// Number of places.
     pub(crate) fn count(&self) -> usize {
         self.traversability.count()
     }
 
-    /// Finds the ways from `pose` over the ground that was seen.
+    /// Searches paths from `pose` over `ground`, `elapsed` after the last search.
     pub(crate) fn search(&mut self, ground: &dyn TerrainQuery, pose: &Pose, elapsed: Duration) {
         let moved_m = pose.plan_m() - self.here_m;
         self.here_m = pose.plan_m();
@@ -187,35 +194,36 @@ impl StateLattice {
         self.search_with(Caution::Usual);
     }
 
-    /// Whether the robot stands steeper than even an escape may lead it, or would exceed a limit before it stands still: what it was told
-    /// of the ground is not true.
+    /// Whether the attitude exceeds even the recovery margin, or, extrapolated over the braking time, a tilt
+    /// limit: the elevation window was wrong about the ground.
     pub(crate) fn is_too_steep(&self) -> bool {
         let stopped = self.attitude.slopes_within(BRAKING_TIME);
         !self.attitude.slopes().within(self.traversability.most(), 0.0)
-            || stopped.share_of(self.traversability.limits()) > MOST_SHARE
+            || stopped.share_of(self.traversability.limits()) > BRAKING_UTILISATION
     }
 
-    /// Whether it stands on ground that is a good part of that steep.
+    /// Whether the attitude is a large part of the largest admissible slope.
     pub(crate) fn is_on_steep_ground(&self) -> bool {
-        self.standing_share() > STEEP_SHARE
+        self.slope_share() > STEEP_SHARE
     }
 
-    /// Whether it stands where a way may begin, and the last search found its ways with the usual caution.
+    /// Whether the attitude is calm and the last search found its paths without recovery.
     pub(crate) fn is_calm(&self) -> bool {
-        self.standing_share() < CALM_SHARE && self.caution == Caution::Usual
+        self.slope_share() < CALM_SHARE && self.caution == Caution::Usual
     }
 
-    /// Ground ahead turned out steeper than it had looked, with the robot driving along the unit vector `travel`.
-    pub(crate) fn meet_steeper_ground(&mut self, travel: DVec2) {
-        self.traversability.surprise(self.here_m + travel * MISTRUSTED_AHEAD_M);
+    /// Inflates the slope variance ahead: the ground turned out steeper than predicted while the robot drove
+    /// along the unit vector `travel`.
+    pub(crate) fn inflate_variance_ahead(&mut self, travel: DVec2) {
+        self.traversability.surprise(self.here_m + travel * INFLATED_AHEAD_M);
     }
 
-    /// How much of the slope that a way may have at most the robot stands on.
-    fn standing_share(&self) -> f64 {
+    /// The attitude's share of the largest admissible slope.
+    fn slope_share(&self) -> f64 {
         self.attitude.slopes().share_of(self.traversability.most())
     }
 
-    /// Searches the same ground anew, with less caution near the robot.
+    /// Repeats the search in recovery: with the smallest margin near the robot.
     pub(crate) fn search_recovery(&mut self) {
         self.search_with(Caution::Escape);
     }
@@ -229,15 +237,17 @@ impl StateLattice {
         self.expand();
     }
 
-    /// Heads for the next point of a way or, where that leads elsewhere than the robot is about to drive, for what it headed for before as
-    /// long as that is ahead and safe: with each metre it changes its mind once at most. Gives what it heads for. Where it turns back on
-    /// steep ground, what lay ahead costs more from now on.
+    /// Commits to the next point of a path and returns the point to drive to.
+    ///
+    /// If the point needs a change of direction, the robot first finishes its current leg, as long as that is
+    /// ahead and safe: it changes direction at most once a metre. A reversal on steep ground inflates the
+    /// slope variance ahead.
     pub(crate) fn drive(&mut self, point: &PathPoint) -> PathPoint {
         let path = point.position_m - self.here_m;
         let facing = if point.reverse { -path } else { path };
         let next = First { facing: facing.normalize_or_zero(), reverse: point.reverse };
         if !self.continues(&next) {
-            if let Some(leg) = self.unfinished_leg() {
+            if let Some(leg) = self.current_leg() {
                 return leg;
             }
             if self.changes == 0 {
@@ -246,21 +256,21 @@ impl StateLattice {
             self.changes = MOST_CHANGES.min(self.changes + 1);
         }
         let turned_back = self.last.filter(|last| last.reverse != next.reverse);
-        let escapes = self.caution == Caution::Escape;
-        if escapes && !self.escapes {
+        let recovers = self.caution == Caution::Escape;
+        if recovers && !self.recovers {
             self.traversability.mistrust(self.here_m);
-        } else if !escapes && let Some(last) = turned_back.filter(|_| self.is_on_steep_ground()) {
+        } else if !recovers && let Some(last) = turned_back.filter(|_| self.is_on_steep_ground()) {
             let facing = self.first_direction(self.facing);
-            self.meet_steeper_ground(if last.reverse { -facing } else { facing });
+            self.inflate_variance_ahead(if last.reverse { -facing } else { facing });
         }
-        self.escapes = escapes;
+        self.recovers = recovers;
         self.last = Some(next);
         self.leg = Some(PathPoint { position_m: self.here_m + path.clamp_length_max(LEG_M), ..*point });
         *point
     }
 
-    /// What the robot headed for, if that is still ahead and the straight way there safe.
-    fn unfinished_leg(&self) -> Option<PathPoint> {
+    /// The target of the current leg, if it is still ahead and the straight line to it safe.
+    fn current_leg(&self) -> Option<PathPoint> {
         let (leg, last) = self.leg.zip(self.last)?;
         let travel = if last.reverse { -last.facing } else { last.facing };
         let path = leg.position_m - self.here_m;
@@ -268,13 +278,13 @@ impl StateLattice {
         (ahead && self.straight_cost_m(&leg, FIRST_STEP_M).is_finite()).then_some(leg)
     }
 
-    /// Forgets what was driven last.
-    pub(crate) fn stand(&mut self) {
+    /// Releases the committed direction and leg.
+    pub(crate) fn release(&mut self) {
         self.last = None;
         self.leg = None;
     }
 
-    /// Dijkstra's search from the states that [`begin`](Self::begin) reached.
+    /// Dijkstra's algorithm from the states that [`begin`](Self::begin) reached.
     fn expand(&mut self) {
         let prices = self.prices;
         while let Some((state, cost_mm)) = self.queue.pop() {
@@ -287,8 +297,8 @@ impl StateLattice {
         }
     }
 
-    /// The states that one step leads to, and what each costs: both turns, a drive forward and one in reverse, and one across unseen
-    /// ground ahead.
+    /// The successors of a state and the cost of each: two turns, a drive forward, one in reverse, and one
+    /// over a virtual surface ahead.
     fn steps(&self, state: u32, prices: &Prices) -> [Option<(usize, u32)>; 5] {
         let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
         let offset = self.traversability.offset(place);
@@ -327,34 +337,34 @@ impl StateLattice {
         }
     }
 
-    /// Minds steep ground by this share of what is configured; what is not safe stays so.
+    /// Scales the costs of slopes to this share of the configured ones; the limits stay.
     pub(crate) fn scale_slope_cost(&mut self, share: f64) {
         self.prices = Prices::of(&self.config, share);
     }
 
-    /// Keeps this margin inside the tilt limits where there is nothing better.
+    /// Sets the smallest margin inside the tilt limits, for tight ground and recovery.
     pub(crate) fn keep_margin(&mut self, least_margin_rad: f64) {
         self.traversability.keep_margin(least_margin_rad);
     }
 
-    /// As much of a turn on the spot, anticlockwise, as makes the robot no steeper than a way may lead it.
+    /// The largest part of a turn on the spot, anticlockwise, that keeps the attitude admissible.
     pub(crate) fn safe_turn_rad(&self, turn_rad: f64) -> f64 {
         self.attitude.safe_turn_rad(turn_rad, self.traversability.most())
     }
 
-    /// Moves what is remembered from one world frame to another.
+    /// Moves the remembered state from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         self.here_m = change.place_m(self.here_m);
         self.changed_at_m = change.place_m(self.changed_at_m);
         self.traversability.relocalise(change);
-        self.stand();
+        self.release();
     }
 
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
         self.attitude = AttitudeEstimate::default();
         self.traversability.clear();
-        self.stand();
-        self.escapes = false;
+        self.release();
+        self.recovers = false;
     }
 }

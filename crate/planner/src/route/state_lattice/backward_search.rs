@@ -1,16 +1,16 @@
-//! How far the goal is from every place that was reached, by what was seen and by what was learned of where that ends.
+//! The backward search: cost-to-go of every reached place, from the frontier and its learned cost-to-go.
 
 use glam::DVec2;
 
 use super::{MILLIMETRES, Prices, ReachedState, StateLattice, UNREACHED};
 use crate::terrain::headings::HEADINGS;
 
-/// What is unseen this near to the robot will not be seen from a place nearer by.
+/// The frontier begins this far from the robot: unseen ground nearer by stays unseen from any nearer place.
 const NEAR_M: f64 = 1.2;
 
 impl StateLattice {
-    /// Every place that was reached, and how far the goal is from there by the best of the ways on, back from the `ends` and what is
-    /// left from each. With the prices the same in both directions, steps back are steps.
+    /// Every reached place with its cost-to-go: Dijkstra's algorithm backward from `ends`, each with its own
+    /// cost-to-go. Reverse costs as much as forward here, so the steps of the lattice are their own inverses.
     pub(crate) fn backward_search(
         &mut self,
         ends: &[(ReachedState, f64)],
@@ -23,19 +23,19 @@ impl StateLattice {
         let least_m = ends.iter().map(|end| end.1).fold(f64::INFINITY, f64::min);
         for &(reached, left_m) in ends {
             let place = reached.state as usize / HEADINGS;
-            let cost_to_go_mm_ = ((left_m - least_m) * MILLIMETRES) as u32;
+            let cost_mm = ((left_m - least_m) * MILLIMETRES) as u32;
             for heading in 0..HEADINGS {
                 if self.traversability.risk(self.traversability.offset(place), heading).is_finite() {
-                    self.come_back(place * HEADINGS + heading, cost_to_go_mm_);
+                    self.relax_backward(place * HEADINGS + heading, cost_mm);
                 }
             }
         }
-        while let Some((state, cost_to_go_mm_)) = self.queue.pop() {
-            if self.cost_to_go_mm[state as usize] != cost_to_go_mm_ {
+        while let Some((state, cost_mm)) = self.queue.pop() {
+            if self.cost_to_go_mm[state as usize] != cost_mm {
                 continue;
             }
             for (next, price_mm) in self.steps(state, &prices).into_iter().flatten() {
-                self.come_back(next, cost_to_go_mm_.saturating_add(price_mm));
+                self.relax_backward(next, cost_mm.saturating_add(price_mm));
             }
         }
         let lattice = &*self;
@@ -47,14 +47,14 @@ impl StateLattice {
         })
     }
 
-    /// Every place that was reached by its cheapest way, and where it lies.
+    /// Every reached place, by its cheapest state and its position.
     pub(crate) fn reached(&self) -> impl Iterator<Item = (ReachedState, DVec2)> {
         (0..self.traversability.count()).filter_map(|place| {
             Some((self.cheapest(place)?, self.traversability.position_m(self.traversability.offset(place))))
         })
     }
 
-    /// Those of the places that were reached where what was seen ends.
+    /// The reached places that border on unseen ground.
     pub(crate) fn frontier(&self) -> impl Iterator<Item = (ReachedState, DVec2)> {
         self.reached().filter(|&(reached, position_m)| {
             let offset = self.traversability.offset(reached.state as usize / HEADINGS);
@@ -62,10 +62,10 @@ impl StateLattice {
         })
     }
 
-    fn come_back(&mut self, state: usize, cost_to_go_mm_: u32) {
-        if cost_to_go_mm_ < self.cost_to_go_mm[state] && self.queue.takes(cost_to_go_mm_) {
-            self.cost_to_go_mm[state] = cost_to_go_mm_;
-            self.queue.push(state as u32, cost_to_go_mm_);
+    fn relax_backward(&mut self, state: usize, cost_mm: u32) {
+        if cost_mm < self.cost_to_go_mm[state] && self.queue.takes(cost_mm) {
+            self.cost_to_go_mm[state] = cost_mm;
+            self.queue.push(state as u32, cost_mm);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! How ways begin: from where the robot stands, which is no place of the lattice.
+//! The first steps of paths: from the robot's pose, which lies off the lattice, to lattice states.
 
 use core::f64::consts::{FRAC_1_SQRT_2, TAU};
 
@@ -9,13 +9,13 @@ use super::{BEGIN, FIRST_DIRECTIONS, FIRST_STEP_M, First, JOIN_M, MILLIMETRES, S
 use crate::terrain::headings::{HEADINGS, nearest};
 use crate::terrain::slopes::Slopes;
 
-/// Ground known no farther than this from the robot may be that under its wheels alone.
+/// Ground seen no farther than this from the robot may be that under its wheels alone.
 const WHEELS_M: f64 = 1.25;
-/// Beginnings within an eighth of a circle of each other are the same.
+/// Directions within an eighth of a circle of each other count as the same.
 const SAME_COSINE: f64 = FRAC_1_SQRT_2;
 
 impl StateLattice {
-    /// From where the robot stands straight to the first known places in each direction that it may turn to.
+    /// Connects the robot's pose to the first known places in each direction that it may turn to.
     pub(super) fn begin(&mut self) {
         let count = FIRST_DIRECTIONS as i32;
         let standing = Slopes::facing(self.attitude.gradient, self.first_direction(self.facing));
@@ -25,7 +25,7 @@ impl StateLattice {
             for turn in 0..=count / 2 {
                 let facing = self.first_direction(self.facing + sign * turn);
                 let allowed = self.traversability.most();
-                // Where it stands on more than its limits allow, a turn may still not make the pitch worse.
+                // If the attitude already exceeds the limits, a turn may not increase the pitch further.
                 let slopes = Slopes::facing(self.attitude.gradient, facing);
                 let steeper =
                     slopes.across > allowed.across || slopes.along > allowed.along.max(standing.along);
@@ -46,15 +46,15 @@ impl StateLattice {
         }
     }
 
-    /// How many directions the robot turns to the left, or if negative to the right, until it faces one. The controller turns
-    /// the shorter way.
+    /// Directions to turn to the left (right if negative) to face direction `index`; the shorter side, as the
+    /// controller turns.
     fn turn_to(&self, index: i32) -> i32 {
         let count = FIRST_DIRECTIONS as i32;
         let left = (index - self.facing).rem_euclid(count);
         if left <= count / 2 { left } else { left - count }
     }
 
-    /// Whether a way that begins like this begins as the last one meant to.
+    /// Whether a path with this first direction continues the last one.
     pub(super) fn continues(&self, first: &First) -> bool {
         self.last
             .is_none_or(|last| last.reverse == first.reverse && last.facing.dot(first.facing) > SAME_COSINE)
@@ -64,7 +64,7 @@ impl StateLattice {
         self.first_directions[index.rem_euclid(FIRST_DIRECTIONS as i32) as usize]
     }
 
-    /// At the place nearest to the robot, when that is too near to drive to.
+    /// Starts at the place nearest to the robot, if that is too near to drive to.
     fn begin_here(&mut self, index: i32, first: &First, cost_m: f64) {
         let Some(offset) = self.traversability.nearest(self.here_m) else { return };
         let away_m = (self.traversability.position_m(offset) - self.here_m).length();
@@ -74,15 +74,15 @@ impl StateLattice {
         }
     }
 
-    /// With a first state, in which the robot is once it faces the direction with an index.
+    /// Reaches a state as the first of a path, in the robot's own place after turning to direction `index`.
     fn begin_with(&mut self, offset: IVec2, heading: usize, index: i32, cost_m: f64) {
         let state = self.traversability.index(offset) * HEADINGS + heading;
         let from = BEGIN + index.rem_euclid(FIRST_DIRECTIONS as i32) as u32;
         self.reach(state, from, (cost_m * MILLIMETRES) as u32);
     }
 
-    /// Straight ahead or in reverse to the next known place and, where no beam reaches the ground at the wheels, to the first
-    /// one beyond; `index` is that of the facing.
+    /// Starts straight ahead or in reverse to the next known place and, where no beam reaches the ground at
+    /// the wheels, to the first known place beyond the blind zone. `index` is that of the facing.
     fn begin_along(&mut self, index: i32, first: &First, cost_m: f64) {
         let travel = if first.reverse { -first.facing } else { first.facing };
         let heading = nearest(first.facing);
@@ -101,14 +101,14 @@ impl StateLattice {
                 }
                 continue;
             }
-            // From the ground at the wheels the search itself goes on.
+            // Further places on the ground at the wheels are reached by the search itself.
             let beyond_blind = along_m - seen_m > 1.5 * self.config.step_m;
             seen_m = along_m;
             if !beyond_blind && along_m > JOIN_M {
                 return;
             }
             let safe = self.begin_at(offset, index, first, cost_m, passed_risk);
-            // The place nearest to the robot may miss by rounding what it already stands on.
+            // By rounding, the nearest place may be one that the robot already covers.
             if beyond_blind && along_m > JOIN_M || !safe && step > 1 {
                 return;
             }
@@ -119,7 +119,7 @@ impl StateLattice {
         }
     }
 
-    /// Straight to a place, over what has `passed_risk`, unless that is not safe.
+    /// Starts straight to a place, at no less than `passed_risk`; false if that is not safe.
     fn begin_at(&mut self, offset: IVec2, index: i32, first: &First, cost_m: f64, passed_risk: f64) -> bool {
         let Some(plane) = self.traversability.plane(offset) else { return false };
         let path = self.traversability.position_m(offset) - self.here_m;
@@ -144,19 +144,19 @@ impl StateLattice {
         true
     }
 
-    /// Whether the robot may turn on the spot until it faces a direction.
+    /// Whether the robot may turn on the spot to a facing.
     pub(super) fn may_turn_to(&self, facing: DVec2) -> bool {
         let [most_left, most_right] = self.turns;
         (-most_right..=most_left).contains(&self.turn_to(index_of(facing)))
     }
 
-    /// Whether the robot may turn all around where it stands.
+    /// Whether the robot may turn all around on the spot.
     pub(crate) fn may_turn_around(&self) -> bool {
         self.turns.iter().all(|&turns| turns == FIRST_DIRECTIONS as i32 / 2)
     }
 }
 
-/// The first direction nearest to a facing.
+/// Index of the direction nearest to a facing.
 fn index_of(facing: DVec2) -> i32 {
     let bearing_rad = libm::atan2(facing.y, facing.x);
     (bearing_rad / TAU * FIRST_DIRECTIONS as f64).round() as i32

@@ -1,18 +1,18 @@
-//! Ground that was not seen, between ground that was.
+//! Steps over a virtual surface: ground that was not seen, between ground that was.
 
 use glam::{DVec2, IVec2};
 
 use super::{Prices, StateLattice};
 use crate::terrain::slopes::Slopes;
 
-/// Unseen ground that is driven over between two places, what a metre of it costs, and the standard deviation of its slope with each
-/// metre of it: behind a crest may be a step.
+/// Longest virtual surface, cost factor of a metre on it, and standard deviation of its slope per metre: a
+/// step may hide behind a crest.
 const GAP_M: f64 = 2.5;
 const GAP_PRICE: f64 = 1.5;
 const GAP_DEVIATION_PER_M: f64 = 0.1;
 
 impl StateLattice {
-    /// The place beyond unseen ground that a drive along a heading leads to, and what that costs.
+    /// The first known place beyond unseen ground along a heading, and the cost of driving there.
     pub(super) fn cross_gap(&self, from: IVec2, heading: usize, prices: &Prices) -> Option<(IVec2, f64)> {
         let to = self.traversability.beyond_gap(from, heading, GAP_M)?;
         let (begin, end) = (self.traversability.plane(from)?, self.traversability.plane(to)?);
@@ -29,8 +29,8 @@ impl StateLattice {
         risk.is_finite().then_some((to, price_m + prices.climb * climb_m))
     }
 
-    /// Mean risk along a straight line over ground that was not seen, a cubic through both heights and slopes; infinite where
-    /// it is not safe with what is `uncertain` of its slopes.
+    /// Mean risk along a straight line over the virtual surface, a cubic through the heights and slopes at
+    /// both ends. Infinite if it is not safe with `uncertain` added to its slopes.
     pub(super) fn risk_between(&self, from: &Station, to: &Station, direction: DVec2, uncertain: f64) -> f64 {
         let count = (to.distance_m / self.config.step_m).ceil().max(1.0) as usize;
         let risk_at = |k: usize| {
@@ -41,7 +41,7 @@ impl StateLattice {
     }
 }
 
-/// Ground under a place on a straight line.
+/// Distance, height and gradient at a place on a straight line.
 pub(super) struct Station {
     pub(super) distance_m: f64,
     pub(super) height_m: f64,
@@ -49,7 +49,8 @@ pub(super) struct Station {
 }
 
 impl Station {
-    /// Slopes at a share of the way to another station, on the cubic Hermite polynomial through both heights and slopes.
+    /// Slopes at `share` of the distance to another station, on the cubic Hermite polynomial through both
+    /// heights and slopes.
     fn slopes_towards(&self, to: &Self, direction: DVec2, share: f64) -> Slopes {
         let t = share;
         let length_m = to.distance_m - self.distance_m;

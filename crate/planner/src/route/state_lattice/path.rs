@@ -1,4 +1,4 @@
-//! What was found: how far the ways reach, where each leads, and what to head for on it.
+//! Queries of the searched lattice: reach along a direction, the path to a place, and the lookahead point.
 
 use core::time::Duration;
 
@@ -9,31 +9,32 @@ use crate::route::forecast::{Forecast, ReachEnd};
 use crate::terrain::headings::{DIRECTIONS, HEADINGS, STEPS, nearest};
 use crate::terrain::slopes::Slopes;
 
-/// The robot minds what lies this far ahead; ground that was not seen, or is not safe, counts as this share of the tilt limits.
+/// Tilt utilisation is predicted this far ahead. Ground that is unseen or unsafe counts as this utilisation.
 const AHEAD_M: f64 = 1.0;
-const BLIND_SHARE: f64 = 0.75;
-/// For how long the robot is ready for its attitude to go on changing as it does.
-const GETS_STEEPER_TIME: Duration = Duration::from_millis(500);
+const BLIND_UTILISATION: f64 = 0.75;
+/// The attitude's rate of change is extrapolated over this time.
+const EXTRAPOLATION_TIME: Duration = Duration::from_millis(500);
 
-/// How long a way is.
+/// Length of a path.
 pub(crate) fn length_m(path: &[PathPoint]) -> f64 {
     path.windows(2).map(|leg| (leg[1].position_m - leg[0].position_m).length()).sum()
 }
 
 impl StateLattice {
-    /// The cheapest way to the place nearest to a point; `None` when there is none.
+    /// The cheapest path to the place nearest to a point; `None` if there is none.
     pub(crate) fn to(&self, point_m: DVec2) -> Option<ReachedState> {
         self.cheapest(self.traversability.index(self.traversability.nearest(point_m)?))
     }
 
-    /// The cheapest way to a place; `None` when there is none.
+    /// The cheapest path to a place; `None` if there is none.
     pub(super) fn cheapest(&self, place: usize) -> Option<ReachedState> {
         let states = place * HEADINGS..(place + 1) * HEADINGS;
         let state = states.min_by_key(|&state| self.costs_mm[state])?;
         (self.costs_mm[state] != UNREACHED).then_some(ReachedState { state: state as u32 })
     }
 
-    /// The cheapest way to a point or, where none leads there, to the place next to it within a distance; and where that is.
+    /// The cheapest path to a point or else to the nearest reached place within `distance_m`, and the
+    /// position of its end.
     pub(crate) fn to_within(&self, point_m: DVec2, distance_m: f64) -> Option<(ReachedState, DVec2)> {
         let around = || {
             let places =
@@ -44,7 +45,8 @@ impl StateLattice {
         self.to(point_m).map(|reached| (reached, point_m)).or_else(around)
     }
 
-    /// How far one can get along the straight line from the robot in a direction, up to `length_m`, whatever the way there.
+    /// Distance that the robot can get along the straight line in a direction, up to `length_m`, by whatever
+    /// path.
     pub(crate) fn reach_along(&self, direction: DVec2, length_m: f64) -> (f64, ReachEnd) {
         let steps = (length_m / self.config.step_m).ceil() as usize;
         let distance_m = |step: usize| (self.config.step_m * step as f64).min(length_m);
@@ -58,13 +60,13 @@ impl StateLattice {
             .nearest(at(last + 1))
             .is_some_and(|place| self.traversability.plane(place).is_some());
         let end = if known { ReachEnd::Tilt } else { ReachEnd::Unseen };
-        // Stop short of what is steep or unseen: the body reaches further than its centre.
+        // Stop short of steep or unseen ground: the body reaches further than its centre.
         let most_m = distance_m(last) - self.config.clearance_m;
         let reach = (1..last).rev().find(|&step| distance_m(step) <= most_m && self.to(at(step)).is_some());
         (reach.map_or(0.0, distance_m), end)
     }
 
-    /// Writes the places on the way to a place, the robot's own first, to `way`, and gives what the way promises.
+    /// Writes the path to a reached place, from the robot's position on, to `path`, and returns its forecast.
     pub(crate) fn follow(&self, reached: ReachedState, path: &mut Vec<PathPoint>) -> Forecast {
         path.clear();
         let (mut across, mut along) = (0.0_f64, 0.0_f64);
@@ -100,8 +102,8 @@ impl StateLattice {
         }
         path.push(PathPoint { position_m: self.here_m, cost_m: 0.0, reverse: false });
         path.reverse();
-        let stands_there = |point: &PathPoint| (point.position_m - self.here_m).length() < FIRST_STEP_M;
-        if path.len() > 2 && stands_there(&path[1]) {
+        let is_own_place = |point: &PathPoint| (point.position_m - self.here_m).length() < FIRST_STEP_M;
+        if path.len() > 2 && is_own_place(&path[1]) {
             path.remove(1);
         }
         Forecast {
@@ -114,19 +116,19 @@ impl StateLattice {
         }
     }
 
-    /// What the way to a place costs.
+    /// Cost of the path to a reached place.
     pub(crate) fn cost_m(&self, reached: ReachedState) -> f64 {
         f64::from(self.costs_mm[reached.state as usize]) / MILLIMETRES
     }
 
-    /// Height of the ground at a place that was reached.
+    /// Height of the ground at a reached place.
     pub(crate) fn height_m(&self, reached: ReachedState) -> f64 {
         let offset = self.traversability.offset(reached.state as usize / HEADINGS);
         self.traversability.plane(offset).map_or(self.attitude.height_m, |plane| plane.height_m)
     }
 
-    /// Where to head for on a way: the farthest place before it changes between forward and reverse that costs no more to drive
-    /// to straight.
+    /// The lookahead point on a path: the farthest point before a change between forward and reverse to which
+    /// the straight line costs no more than the path.
     pub(crate) fn lookahead(&self, path: &[PathPoint]) -> PathPoint {
         let stay = PathPoint { position_m: self.here_m, cost_m: 0.0, reverse: false };
         let Some(&first) = path.get(1) else { return stay };
@@ -136,8 +138,8 @@ impl StateLattice {
         *leg.filter(straight).last().unwrap_or(&first)
     }
 
-    /// What the straight line to a place on a way costs, given that its first part is fine; infinite where the robot may not turn
-    /// to it.
+    /// Cost of the straight line to a point of a path, whose first `blind_m` is taken as safe; infinite if
+    /// the robot may not turn to it.
     pub(super) fn straight_cost_m(&self, point: &PathPoint, blind_m: f64) -> f64 {
         let path = point.position_m - self.here_m;
         let facing = if point.reverse { -path } else { path };
@@ -165,14 +167,14 @@ impl StateLattice {
         price * length_m * (1.0 + self.prices.tilt * risk / count) + self.prices.climb * climb_m
     }
 
-    /// The share of the tilt limits that the robot takes up or soon will where it is, in slope: ground that gets steeper fast may go on to
-    /// do so.
+    /// Tilt utilisation here, in slope: the larger of the attitude's and of the attitude extrapolated at its
+    /// present rate.
     pub(crate) fn utilisation_here(&self) -> f64 {
-        self.attitude.slopes_within(GETS_STEEPER_TIME).share_of(self.traversability.limits())
+        self.attitude.slopes_within(EXTRAPOLATION_TIME).share_of(self.traversability.limits())
     }
 
-    /// The share of the tilt limits that the robot takes up or soon will, in slope: on a way, and straight to what it heads for, which may lie
-    /// elsewhere.
+    /// Tilt utilisation here and ahead, in slope: along the path, and on the straight line to the point that
+    /// the robot drives to, which may lie off it.
     pub(crate) fn utilisation_ahead(&self, path: &[PathPoint], ahead: &PathPoint) -> f64 {
         let here = PathPoint { position_m: self.here_m, ..*ahead };
         self.utilisation_here().max(self.utilisation_along(path)).max(self.utilisation_along(&[here, *ahead]))
@@ -191,7 +193,7 @@ impl StateLattice {
                 let place = self.traversability.nearest(at_m);
                 let risk =
                     place.map_or(f64::INFINITY, |place| self.traversability.risk(place, nearest(path_m)));
-                share = share.max(if risk.is_finite() { risk.sqrt() } else { BLIND_SHARE });
+                share = share.max(if risk.is_finite() { risk.sqrt() } else { BLIND_UTILISATION });
             }
         }
         share

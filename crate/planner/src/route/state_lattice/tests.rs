@@ -27,13 +27,13 @@ fn level(place_m: DVec2) -> Option<Plane> {
     plane(place_m, DVec2::ZERO)
 }
 
-/// Level ground with a bank across the way, two metres ahead and four metres wide.
+/// Level ground with a bank across the path, two metres ahead and four metres wide.
 fn bank(place_m: DVec2) -> Option<Plane> {
     let on_bank = (1.9..3.1).contains(&place_m.x) && place_m.y.abs() < 2.0;
     plane(place_m, if on_bank { DVec2::new(1.5, 0.0) } else { DVec2::ZERO })
 }
 
-/// Sets out for a place; gives what the robot heads for.
+/// Commits to a path to a place; returns the point that the robot drives to.
 fn set_out(lattice: &mut StateLattice, goal_m: DVec2, path: &mut Vec<PathPoint>) -> PathPoint {
     let reached = lattice.to(goal_m).unwrap();
     lattice.follow(reached, path);
@@ -67,7 +67,7 @@ fn a_way_leads_around_what_is_too_steep() {
     for point in &path {
         assert!(bank(point.position_m).unwrap().gradient.length() < 1e-12, "{point:?}");
     }
-    // Not straight through the bank either.
+    // The straight line through the bank is refused too.
     assert!(lattice.lookahead(&path).position_m.y.abs() > 1.0);
     assert!(lattice.to(DVec2::new(2.5, 0.0)).is_none());
 }
@@ -216,7 +216,7 @@ fn what_remains_leads_out_of_a_pocket_and_grows_towards_its_end() {
     let ends: Vec<_> = lattice.frontier().map(|(end, place_m)| (end, (goal_m - place_m).length())).collect();
     let remaining: Vec<(DVec2, f64)> = lattice.backward_search(&ends, 2.0, 1.0).collect();
     let left_m = |place_m: DVec2| remaining.iter().find(|(other_m, _)| *other_m == place_m).unwrap().1;
-    // Out, along a side, and on: 2.5 m back, some 4 m aside, and then as far as from there.
+    // Out, along a side, and on: 2.5 m back, some 4 m aside, and then the straight distance from there.
     let out_m = (DVec2::new(-2.5, 3.5) - goal_m).length() + 2.5 + 3.5;
     assert!(left_m(DVec2::ZERO) > out_m && left_m(DVec2::ZERO) < out_m + 6.0, "{}", left_m(DVec2::ZERO));
     assert!(left_m(DVec2::new(2.0, 0.0)) > left_m(DVec2::ZERO) + 1.5);
@@ -231,12 +231,12 @@ fn what_turned_out_steeper_than_told_is_left_aside() {
     let mut lattice = lattice();
     let mut path = Vec::new();
     let goal_m = DVec2::new(4.0, 0.0);
-    // The map says level, the robot feels 43.5°.
+    // The window says level, the attitude is 43.5°.
     lattice.search(&level, &pose(0.0, 0.76), STEP);
     assert!(lattice.is_too_steep());
-    lattice.meet_steeper_ground(DVec2::X);
+    lattice.inflate_variance_ahead(DVec2::X);
     let back = Pose { position_m: DVec3::new(-1.0, 0.0, 0.0), ..pose(0.0, 0.0) };
-    // Once it is there and stays.
+    // Twice: the attitude's rate must settle.
     for _ in 0..2 {
         lattice.search(&level, &back, STEP);
     }
@@ -248,7 +248,8 @@ fn what_turned_out_steeper_than_told_is_left_aside() {
 
 #[test]
 fn ground_that_looks_alike_is_left_aside_near_a_surprise_and_for_a_while() {
-    // Ground that keeps its margin with its deviation, and not with twice that; a way on it costs more where it is doubted.
+    // Ground that keeps its margin with one deviation, and not with two; a path on it costs more where the
+    // variance is inflated.
     let rough = |_: DVec2| Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.25 });
     let risk = |lattice: &mut StateLattice, y_m: f64| {
         lattice.search(&rough, &Pose { position_m: DVec3::new(0.0, y_m, 0.0), ..pose(0.0, 0.0) }, STEP);
@@ -259,7 +260,7 @@ fn ground_that_looks_alike_is_left_aside_near_a_surprise_and_for_a_while() {
     let mut lattice = lattice();
     assert!(!doubted(&mut lattice, 0.0));
     for _ in 0..2 {
-        lattice.meet_steeper_ground(DVec2::X);
+        lattice.inflate_variance_ahead(DVec2::X);
     }
     assert!(doubted(&mut lattice, 0.0));
     assert!(!doubted(&mut lattice, 8.0), "far from there nothing is doubted");
@@ -344,7 +345,8 @@ fn each_change_of_mind_nearby_makes_the_next_one_dearer() {
     let mut lattice = lattice();
     let mut path = Vec::new();
     let (ahead_m, behind_m) = (DVec2::X, -DVec2::X);
-    // What it costs to begin straight to a place, before a search finds that it may go on a little and turn there.
+    // Cost of a first step straight to a place, before the search finds a cheaper path with a short drive and
+    // a turn.
     let mut begin_to = |place_m: DVec2, here_m: DVec3| {
         lattice.search(&level, &Pose { position_m: here_m, ..pose(0.0, 0.0) }, STEP);
         lattice.costs_mm.fill(UNREACHED);
@@ -356,7 +358,7 @@ fn each_change_of_mind_nearby_makes_the_next_one_dearer() {
         cost_m
     };
     let settled_m = begin_to(ahead_m, DVec3::ZERO);
-    // Each time it has driven the metre it meant to. Behind it in reverse, at twice the price of ahead.
+    // After each finished leg. The place behind costs twice as much, being driven to in reverse.
     for (change, price_m) in [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 32.0].into_iter().enumerate() {
         let (place_m, here_m, times) =
             if change % 2 == 0 { (behind_m, DVec3::X, 2.0) } else { (ahead_m, DVec3::ZERO, 1.0) };
@@ -384,7 +386,7 @@ fn it_finishes_the_metre_it_set_out_on_unless_that_is_not_safe_any_more() {
     assert!(heads_for(&level, 0.9, -4.0) < 0.0, "it has driven the metre");
     assert!(heads_for(&level, -0.2, 4.0) > 0.0);
     assert!(heads_for(&level, 0.1, -4.0) > 0.0);
-    // Steep from 0.7 m on: seen too late for the metre.
+    // Steep from 0.7 m on: seen after the leg was begun.
     let brink = |place_m: DVec2| plane(place_m, DVec2::X * if place_m.x > 0.7 { 2.0 } else { 0.0 });
     let mut lattice = super::tests::lattice();
     lattice.search(&level, &at(0.0), STEP);
@@ -409,7 +411,7 @@ fn a_place_too_near_to_drive_to_is_where_it_stands() {
 
 #[test]
 fn what_is_guessed_to_be_steep_is_bridged_as_what_is_not_seen() {
-    // From a knoll, with ground that was seen from four metres on and guessed before that.
+    // From a knoll: ground seen from four metres on, and extrapolated up to there.
     let flank = |deviation: f64| {
         move |place_m: DVec2| {
             let guessed = (1.2..4.0).contains(&place_m.length());
@@ -428,7 +430,7 @@ fn what_is_guessed_to_be_steep_is_bridged_as_what_is_not_seen() {
 #[test]
 fn a_smaller_margin_opens_what_is_a_little_steeper() {
     let mut lattice = lattice();
-    // Obliquely, at 26.6 degrees, the robot climbs 42.7 of them and rolls 24.7.
+    // Obliquely, at 26.6 degrees, the robot climbs 42.7 degrees and rolls 24.7.
     let bank =
         |place_m: DVec2| plane(place_m, DVec2::X * if (1.9..3.1).contains(&place_m.x) { 1.03 } else { 0.0 });
     let mut reaches = |margin_rad: f64| {
@@ -442,7 +444,7 @@ fn a_smaller_margin_opens_what_is_a_little_steeper() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
-    /// Whatever the ground, no way leads over a place or along a heading that is not safe.
+    /// On any ground, no path leads over an unsafe place or along an unsafe heading.
     #[test]
     fn every_way_keeps_its_margin(
         waves in prop::collection::vec((-0.9..0.9_f64, -0.9..0.9_f64, 0.0..6.3_f64), 3),
