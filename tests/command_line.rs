@@ -159,7 +159,7 @@ fn truth_stands_in_for_perception() {
     assert_eq!(folder.json(&["--truth", "none"])["digest"], perceived["digest"]);
     refused(
         &folder.run("meadow-drive.toml", &["--planner", "putn", "--truth", "ground"]),
-        "error: meadow-drive.toml: planner putn perceives nothing",
+        "error: meadow-drive.toml: planner putn has no perception to override",
         &["default"],
     );
 }

@@ -1,26 +1,26 @@
-//! The map that planners with a map get: points on the ground, evenly spaced as seen from above.
+//! The map of the planners with a map: points on the ground, evenly spaced as seen from above.
 
 use glam::DVec2;
 use mapless_world::HeightField;
 
 /// Spacing of the points.
 pub(crate) const SPACING_M: f64 = 0.1;
-/// The most points a map may have: 400 × 400 m.
+/// The most points of a map: 400 × 400 m.
 const MOST_POINTS: f64 = 16e6;
 
-/// Why there is no map of a terrain.
+/// Why a terrain has no map.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MapError {
     /// The terrain is too large to keep as points.
     #[error("a terrain of {:.1} × {:.1} m: expected at most {MOST_POINTS} points on the map, {SPACING_M} m apart", extent_m.x, extent_m.y)]
     TooLarge {
-        /// Size of the terrain.
+        /// Size of the terrain, metres.
         extent_m: DVec2,
     },
 }
 
-/// Heights of the ground, [`Cloud::columns`] × [`Cloud::rows`] points 0.1 m apart, row by row from the south-west
-/// corner.
+/// Heights of the ground, [`Cloud::columns`] × [`Cloud::rows`] points 0.1 m apart, row by row from the
+/// south-west corner.
 #[derive(Clone, Debug)]
 pub struct Cloud {
     columns: usize,

@@ -1,4 +1,4 @@
-//! Driving along a path with the paper's PID controller.
+//! A path follower with the paper's PID controller.
 
 use core::time::Duration;
 
@@ -7,30 +7,30 @@ use mapless::config::ControllerConfig;
 use mapless::control::controller::Controller;
 use mapless::{Command, Pose};
 
-/// How far before the robot along the path the point lies that it steers to, metres. Half of it is about how much a
-/// corner is cut.
+/// Lookahead distance along the path, metres. A corner is cut by about half of it.
 const LOOK_AHEAD_M: f64 = 0.6;
-/// How far along the path the nearest point may move in one step, back and on, metres. It keeps the robot on its own
-/// branch where a path passes by itself.
+/// Bounds on how far the nearest point moves along the path in one step, back and on, metres. They keep the
+/// robot on its branch of a path that passes by itself.
 const BACK_M: f64 = 1.0;
 const ON_M: f64 = 2.0;
-/// Nearer to the end than this the bearing means nothing, metres.
+/// Nearer to the end than this the bearing is undefined, metres.
 const AT_END_M: f64 = 0.01;
 
-/// Steers along a polyline: the yaw loop turns to a point 0.6 m ahead on it, the distance loop sees the way left.
+/// Steers along a polyline: the yaw loop turns to a lookahead point 0.6 m ahead on it, the distance loop
+/// regulates the path length left.
 ///
 /// Points are seen from above in the world frame, in metres.
 #[derive(Clone, Debug)]
 pub struct PathFollower {
     controller: Controller,
     points_m: Vec<DVec2>,
-    /// Way along the path of the point nearest to the robot; `None` before the first step on this path.
-    way_m: Option<f64>,
+    /// Arc length of the path's point nearest to the robot; `None` before the first step on this path.
+    along_m: Option<f64>,
 }
 
 /// The point of a path nearest to a place.
 struct Nearest {
-    way_m: f64,
+    along_m: f64,
     distance_m: f64,
 }
 
@@ -38,15 +38,15 @@ impl PathFollower {
     /// A follower without a path. The configuration must have been validated.
     #[must_use]
     pub fn new(controller: ControllerConfig) -> Self {
-        Self { controller: Controller::new(controller), points_m: Vec::new(), way_m: None }
+        Self { controller: Controller::new(controller), points_m: Vec::new(), along_m: None }
     }
 
-    /// Takes a path, from the robot onwards, in place of the last. The controller drives on as it was, so that a planner
-    /// may give a new path at every step.
+    /// Replaces the path, which begins at the robot. The controller keeps its state, so that a planner may
+    /// give a new path at every step.
     pub fn set_path(&mut self, points_m: impl IntoIterator<Item = DVec2>) {
         self.points_m.clear();
         self.points_m.extend(points_m);
-        self.way_m = None;
+        self.along_m = None;
     }
 
     /// The path.
@@ -55,27 +55,29 @@ impl PathFollower {
         &self.points_m
     }
 
-    /// The command for a robot at `pose`, `elapsed` after the one before. Where the path ends within 0.6 m of `goal_m`, the robot goes on to the goal;
-    /// otherwise it stops at the end. Without a path, or with a pose or path that is not finite, it stands still.
+    /// The command for a robot at `pose`, `elapsed` after the last. If the path ends within 0.6 m of
+    /// `goal_m`, the robot goes on to the goal; otherwise it stops at the end. Without a path, or with a pose
+    /// or path that is not finite, it stops.
     pub fn step(&mut self, pose: &Pose, goal_m: DVec2, elapsed: Duration) -> Command {
         let here_m = pose.plan_m();
         let finite = pose.is_finite() && self.points_m.iter().all(|point| point.is_finite());
         let Some(&end_m) = self.points_m.last().filter(|_| finite) else { return self.stop() };
         let nearest = self.nearest(here_m);
-        self.way_m = Some(nearest.way_m);
+        self.along_m = Some(nearest.along_m);
 
-        let to_end_m = length_m(&self.points_m) - nearest.way_m;
+        let to_end_m = length_m(&self.points_m) - nearest.along_m;
         let (last_m, beyond_m) = match end_m.distance(goal_m) {
             beyond_m if beyond_m <= LOOK_AHEAD_M => (goal_m, beyond_m),
             _ => (end_m, 0.0),
         };
-        let aim_m = if to_end_m <= LOOK_AHEAD_M { last_m } else { self.point(nearest.way_m + LOOK_AHEAD_M) };
-        let way_m = aim_m - here_m;
-        if way_m.length() < AT_END_M {
+        let aim_m =
+            if to_end_m <= LOOK_AHEAD_M { last_m } else { self.point(nearest.along_m + LOOK_AHEAD_M) };
+        let to_aim_m = aim_m - here_m;
+        if to_aim_m.length() < AT_END_M {
             return self.stop();
         }
         let left_m = nearest.distance_m + to_end_m + beyond_m;
-        self.controller.drive(left_m, libm::atan2(way_m.y, way_m.x) - pose.yaw_rad, elapsed)
+        self.controller.drive(left_m, libm::atan2(to_aim_m.y, to_aim_m.x) - pose.yaw_rad, elapsed)
     }
 
     fn stop(&mut self) -> Command {
@@ -83,11 +85,12 @@ impl PathFollower {
         Command::STOP
     }
 
-    /// The nearest point of the path, on the first step of all of it, then of the part about the last one.
+    /// The nearest point of the path: of all of it on the first step, then of the part around the last one.
     fn nearest(&self, here_m: DVec2) -> Nearest {
-        let (from_m, to_m) =
-            self.way_m.map_or((0.0, f64::INFINITY), |way_m| ((way_m - BACK_M).max(0.0), way_m + ON_M));
-        let mut best = Nearest { way_m: 0.0, distance_m: f64::INFINITY };
+        let (from_m, to_m) = self
+            .along_m
+            .map_or((0.0, f64::INFINITY), |along_m| ((along_m - BACK_M).max(0.0), along_m + ON_M));
+        let mut best = Nearest { along_m: 0.0, distance_m: f64::INFINITY };
         let mut begin_m = 0.0;
         for pair in self.points_m.windows(2) {
             let along = pair[1] - pair[0];
@@ -100,21 +103,21 @@ impl PathFollower {
                 let share = share.clamp(low.min(high), high);
                 let distance_m = (pair[0] + along * share).distance(here_m);
                 if distance_m < best.distance_m {
-                    best = Nearest { way_m: begin_m + length_m * share, distance_m };
+                    best = Nearest { along_m: begin_m + length_m * share, distance_m };
                 }
             }
             begin_m = end_m;
         }
         if best.distance_m.is_infinite() {
-            // All points are one.
+            // All points coincide.
             best.distance_m = self.points_m.first().map_or(0.0, |point| point.distance(here_m));
         }
         best
     }
 
-    /// The point at a way along the path, which is not longer than the path.
-    fn point(&self, way_m: f64) -> DVec2 {
-        let mut left_m = way_m;
+    /// The point at an arc length, which is not longer than the path.
+    fn point(&self, along_m: f64) -> DVec2 {
+        let mut left_m = along_m;
         let mut at_m = DVec2::ZERO;
         for pair in self.points_m.windows(2) {
             let length_m = pair[0].distance(pair[1]);

@@ -1,4 +1,4 @@
-//! The mapless planner with the truth in place of what it perceives, to tell where a failure comes from.
+//! The mapless planner with ground truth in place of perception, to tell where a failure comes from.
 
 use core::time::Duration;
 use core::{array, fmt};
@@ -13,18 +13,18 @@ use mapless_world::{Caster, HeightField, SensorPose, Skyline, true_skyline};
 
 use crate::unknown_name::UnknownName;
 
-/// What is true in place of perceived.
+/// The ground truth that replaces perception.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Truth {
-    /// Nothing: the planner as it is.
+    /// None: the unchanged planner.
     #[default]
     None,
     /// The elevation profile, in place of the Gaussian process's.
     Profile,
-    /// The ground of the forecast, in place of remembered returns.
+    /// The ground, in place of the elevation window.
     Ground,
     /// Both.
     Both,
@@ -65,13 +65,13 @@ impl fmt::Display for Truth {
     }
 }
 
-/// Ground within this distance of a place carries the robot there; samples of it this far apart.
+/// Radius of the footprint around a place, and spacing of the samples in it.
 const FOOTPRINT_RADIUS_M: f64 = 0.5;
 const SAMPLE_M: f64 = 0.2;
-/// Samples on a side of the square about a footprint.
+/// Samples on a side of the square around a footprint.
 const SIDE: usize = 5;
 
-/// The planner with the truth told; see [`Truth`].
+/// The planner with ground truth in place of perception; see [`Truth`].
 #[derive(Clone, Debug)]
 pub struct GroundTruthPlanner {
     planner: Planner,
@@ -88,14 +88,14 @@ impl GroundTruthPlanner {
         Ok(Self { planner: Planner::new(config)?, truth, caster: Caster::new(field) })
     }
 
-    /// The planner, with all that its last step decided.
+    /// The planner, with the result of its last step.
     #[must_use]
     pub fn planner(&self) -> &Planner {
         &self.planner
     }
 }
 
-/// The true plane around a place, by the same least squares over the same footprint as that of remembered returns;
+/// The true plane around a place, by the least squares of the elevation window over the same footprint;
 /// `None` near the border.
 fn true_plane(field: &HeightField, place_m: DVec2) -> Option<Plane> {
     let offsets: [DVec2; SIDE * SIDE] = array::from_fn(|index| {
@@ -210,7 +210,7 @@ mod tests {
         assert!((plane.height_m - ground(place)).abs() < 1e-5);
         assert_eq!(true_plane(&field, DVec2::new(0.1, 5.0)), None);
 
-        // One return is too little for the forecast of any subgoal, unless the ground is told.
+        // One return is too little for a forecast of any subgoal, unless the ground is overridden.
         let pose = standing(&field, DVec2::splat(15.0), 0.0);
         let reach_m = |truth| {
             let mut navigator =

@@ -32,7 +32,7 @@ pub enum NavigatorKind {
     Oracle,
 }
 
-/// Why a navigator cannot be made.
+/// Why a navigator cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BuildError {
     /// The scenario's `[planner]` section does not fit.
@@ -41,7 +41,7 @@ pub enum BuildError {
     /// A configuration value makes no sense.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// There is no map of the terrain.
+    /// The terrain has no map.
     #[error("planner {kind}: {error}")]
     Map {
         /// Which navigator.
@@ -49,10 +49,8 @@ pub enum BuildError {
         /// Why.
         error: MapError,
     },
-    /// Truth for a navigator that perceives nothing.
-    #[error(
-        "planner {0} perceives nothing that truth could stand in for: expected one of default, paper, flat"
-    )]
+    /// Ground truth for a navigator without perception.
+    #[error("planner {0} has no perception to override: expected one of default, paper, flat")]
     PerceivesNothing(NavigatorKind),
 }
 
@@ -107,8 +105,8 @@ impl NavigatorKind {
         self.build_with(self.planner_config(scenario)?, Truth::None, field, scenario, seed)
     }
 
-    /// As [`NavigatorKind::build`], with a configuration of one's own and, for a mapless planner, the truth in place of
-    /// what it perceives.
+    /// As [`NavigatorKind::build`], with another configuration and, for a mapless planner, ground truth in
+    /// place of perception.
     ///
     /// # Errors
     /// [`BuildError`].

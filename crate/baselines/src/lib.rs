@@ -1,8 +1,10 @@
-//! What the mapless planner is compared with.
+//! The planners that the mapless planner is compared with.
 //!
-//! [`NavigatorKind`] names every planner and builds it: this project's own in its configurations, and planners that have
-//! the whole map: the paper's baseline ([`vgf`]), plane-fitting RRT* ([`putn`]), driving straight at the goal
-//! ([`Straight`]) and the shortest safe path ([`Oracle`]). Generated tasks ([`Task`]) are those that the last one can solve. [`GroundTruthPlanner`] gives the mapless planner the truth in place of what it perceives.
+//! [`NavigatorKind`] names every planner and builds it: this project's own in its configurations, and
+//! planners that have the whole map: the paper's baseline ([`vgf`]), plane-fitting RRT* ([`putn`]), driving
+//! straight at the goal ([`Straight`]) and the shortest safe path ([`Oracle`]). Generated tasks ([`Task`])
+//! are those that the oracle can solve. [`GroundTruthPlanner`] is the mapless planner with ground truth in
+//! place of perception.
 //!
 //! Everything here is a pure function of its arguments and gives the same bits natively and on wasm.
 

@@ -1,12 +1,14 @@
-//! The oracle: the shortest path for a planner that knows the whole ground.
+//! The oracle: the shortest safe path for a planner that knows the whole ground.
 //!
-//! It searches a lattice over position and heading with A*. Sixteen headings leave each place of a square grid; a robot goes
-//! straight along one, bends into one of the next two to either side, or turns in place to the next. Along every motion the
-//! Husky is stood on the true ground every 0.125 m and 0.1 rad, and its roll and pitch must stay inside the limits less a
-//! margin. The grid's first axis runs from start to goal, so that both are among its places and the straight way is too.
+//! It is A* on a lattice of positions and headings: places of a square grid with sixteen headings each. A
+//! motion goes straight along a heading, bends into one of the next two to either side, or turns on the spot
+//! to the next. Along every motion the Husky's attitude on the true ground is checked every 0.125 m and 0.1
+//! rad: roll and pitch must stay a margin inside the limits. The grid's first axis runs from start to goal,
+//! so that both are places of it and the straight line is one of its paths.
 //!
-//! The cost is the length seen from above, and 0.1 m for each heading turned in place, so that the path does not turn
-//! without need. Between its headings the lattice goes in zigzags: up to 2.8 % longer than a path over all headings.
+//! The cost is the length seen from above, plus 0.1 m for each heading turned on the spot, which avoids
+//! needless turns. Between its headings the lattice path zigzags: up to 2.8 % longer than a path over all
+//! headings.
 
 mod lattice;
 mod motions;
@@ -23,10 +25,10 @@ use glam::DVec2;
 use mapless_world::{ConfigError, HeightField, HuskyConfig};
 use pathfinding::directed::astar::astar;
 
-/// What the oracle allows itself.
+/// Parameters of the oracle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OracleConfig {
-    /// Spacing of the places, metres; changed by a few per cent so that the goal is one of them.
+    /// Spacing of the places, metres; adjusted by a few per cent so that the goal is one of them.
     pub cell_m: f64,
     /// Roll and pitch stay this much inside the robot's limits, radians.
     pub margin_rad: f64,
@@ -38,7 +40,7 @@ impl Default for OracleConfig {
     }
 }
 
-/// Where a robot stands, seen from above.
+/// A pose seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanPose {
     /// Position of the middle of the wheelbase in the world frame, metres.
@@ -47,7 +49,7 @@ pub struct PlanPose {
     pub yaw_rad: f64,
 }
 
-/// A path whose poses are all safe.
+/// A path on which every pose is safe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OraclePath {
     /// From the start to the goal, at most 0.125 m and 0.1 rad apart.
@@ -57,7 +59,7 @@ pub struct OraclePath {
 }
 
 impl OraclePath {
-    /// The positions, once each where the robot turns in place.
+    /// The positions, each once where the robot turns on the spot.
     pub fn points_m(&self) -> impl Iterator<Item = DVec2> {
         let mut last = None;
         self.poses.iter().map(|pose| pose.position_m).filter(move |&point| last.replace(point) != Some(point))
@@ -67,10 +69,10 @@ impl OraclePath {
 /// Why there is no path.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OracleError {
-    /// A value of the configuration makes no sense.
+    /// A configuration value is outside its range.
     #[error("oracle.{0}")]
     Config(#[from] ConfigError),
-    /// Start or goal is not a place on the terrain, with all wheels for the start.
+    /// Start or goal is off the terrain; the start needs all wheels on it.
     #[error("{what} = ({:.3}, {:.3}) m: expected a place on the terrain, which spans (0, 0) to ({:.3}, {:.3}) m", place_m.x, place_m.y, extent_m.x, extent_m.y)]
     OffTerrain {
         /// `start` or `goal`.
@@ -80,7 +82,7 @@ pub enum OracleError {
         /// North-east corner of the terrain.
         extent_m: DVec2,
     },
-    /// The robot would be tilted too far at the start, or with every heading at the goal.
+    /// The tilt exceeds what is allowed at the start, or with every heading at the goal.
     #[error("{what} = ({:.3}, {:.3}) m is too steep: expected at most {roll_rad:.3} rad of roll and {pitch_rad:.3} rad of pitch", place_m.x, place_m.y)]
     NotStandable {
         /// `start` or `goal`.
@@ -102,7 +104,7 @@ pub enum OracleError {
         /// The most allowed.
         most: usize,
     },
-    /// Every way leads over ground that is too steep or off the terrain.
+    /// Every path leads over ground that is too steep or off the terrain.
     #[error("no safe path from ({:.3}, {:.3}) to ({:.3}, {:.3}) m", start_m.x, start_m.y, goal_m.x, goal_m.y)]
     NoPath {
         /// The start.
@@ -112,7 +114,8 @@ pub enum OracleError {
     },
 }
 
-/// The shortest safe path over `field` from a pose to a place. A goal nearer than half a cell counts as reached.
+/// The shortest safe path over `field` from a pose to a place. A goal nearer than half a cell counts as
+/// reached.
 ///
 /// # Errors
 /// [`OracleError`]: no path, start or goal off the terrain or too steep, or a bad configuration.

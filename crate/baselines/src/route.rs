@@ -1,4 +1,4 @@
-//! Planners that plan a whole route, and what drives along it.
+//! Route planners, and the navigator that drives along their routes.
 
 use core::time::Duration;
 
@@ -10,11 +10,11 @@ use crate::follower::PathFollower;
 
 /// Finds a whole route on a map.
 pub trait RoutePlanner {
-    /// A way from a pose to a place, seen from above, in metres; `None` where the map has none.
+    /// A path from a pose to a place, seen from above, in metres; `None` if the map has none.
     fn route(&self, from: &Pose, to_m: DVec2) -> Option<Vec<DVec2>>;
 }
 
-/// The straight way to the goal, whatever the ground.
+/// The straight line to the goal, whatever the ground.
 #[derive(Clone, Copy, Debug)]
 pub struct Straight;
 
@@ -24,8 +24,8 @@ impl RoutePlanner for Straight {
     }
 }
 
-/// Drives along a planned route with the paper's PID controller. It plans when it gets a new goal, and on the first step
-/// after a reset; it does not look at the scans.
+/// Drives along a planned route with the paper's PID controller. It plans for each new goal, and on the first
+/// step after a reset; it does not use the scans.
 #[derive(Clone, Debug)]
 pub struct RouteNavigator<R> {
     planner: R,
@@ -48,7 +48,7 @@ impl<R: RoutePlanner> RouteNavigator<R> {
         }
     }
 
-    /// The route being driven, seen from above, in metres; empty where there is none.
+    /// The current route, seen from above, in metres; empty if there is none.
     #[must_use]
     pub fn route_m(&self) -> &[DVec2] {
         self.follower.path_m()

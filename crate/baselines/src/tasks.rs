@@ -1,8 +1,8 @@
-//! Generated tasks: a terrain, a start and a goal by seed, which the oracle has solved.
+//! Generated tasks: a terrain, a start and a goal by seed, solved by the oracle.
 //!
-//! Start and goal lie 35 to 75 m apart on ground where the robot may stand with every heading. Half of the starts look about
-//! towards the goal, the others anywhere. What the oracle cannot solve is drawn anew, so every task has a safe path. Task K of
-//! a seed is the same however many tasks there are.
+//! Start and goal lie 35 to 75 m apart on ground that is safe with every heading. Half of the starts face the
+//! goal roughly, the others any direction. Tasks that the oracle cannot solve are drawn again, so every task
+//! has a safe path. Task K of a seed is the same however many tasks there are.
 
 use crate::oracle::{OracleConfig, OracleError, OraclePath, PlanPose, Standing};
 use glam::DVec2;
@@ -24,7 +24,7 @@ const PLACES: u32 = 1000;
 /// Terrains tried before a task is given up.
 const MOST_DRAWN: u32 = 100;
 
-/// Which task: `hard-1-0007` is task 7 of seed 1.
+/// The name of a task: `hard-1-0007` is task 7 of seed 1.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct TaskName {
     /// How hard its terrain is to cross.
@@ -63,7 +63,7 @@ impl FromStr for TaskName {
             let seed = parts.next()?.parse().ok()?;
             Some(Self { difficulty, seed, index: parts.next()?.parse().ok()? })
         };
-        // Every task has one name: a plus sign or further zeros make another.
+        // Every task has one name: a plus sign or further zeros are refused.
         let named = read().filter(|name| (1..=Self::MOST).contains(&name.index) && name.to_string() == text);
         named.ok_or_else(|| NoTaskName { text: text.to_owned() })
     }
@@ -72,7 +72,7 @@ impl FromStr for TaskName {
 /// A task that the oracle has solved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Task {
-    /// Which it is.
+    /// Its name.
     pub name: TaskName,
     /// Its recipe, as text.
     pub recipe: String,
@@ -80,7 +80,7 @@ pub struct Task {
     pub terrain: Terrain,
     /// Where the robot starts.
     pub start: PlanPose,
-    /// Where it should go, metres.
+    /// The goal, metres.
     pub goal_m: DVec2,
     /// Seed of the sensor's noise: the number of the task.
     pub seed: u32,
@@ -104,7 +104,7 @@ pub enum TaskError {
     /// A generated recipe that makes no terrain.
     #[error(transparent)]
     Terrain(#[from] TerrainError),
-    /// A configuration of robot or oracle that makes no sense.
+    /// A robot or oracle configuration outside its range.
     #[error(transparent)]
     Oracle(#[from] OracleError),
 }
@@ -170,7 +170,7 @@ impl Task {
     }
 }
 
-/// Numbers as a scenario file has them: two decimals of a metre, three of a radian.
+/// Draws start and goal, rounded as a scenario file has them: two decimals of a metre, three of a radian.
 fn start_and_goal(standing: &Standing, draw: &mut Sequence) -> Option<(PlanPose, DVec2)> {
     let inside_m = standing.extent_m() - DVec2::splat(2.0 * BORDER_M);
     let place = |draw: &mut Sequence| {

@@ -113,7 +113,7 @@ pub(crate) fn parquet(rows: &[TrialRow]) -> Result<Vec<u8>, ParquetError> {
     Ok(bytes)
 }
 
-/// 1 where there is a value.
+/// Definition levels: 1 where there is a value.
 fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
     values.iter().map(|value| i16::from(value.is_some())).collect()
 }

@@ -1,4 +1,4 @@
-//! What can go wrong around trials. What goes wrong in one is a row of the results.
+//! Errors of campaigns. What goes wrong in a single trial is a row of the results.
 
 use std::path::Path;
 

@@ -4,8 +4,8 @@
 //! planners = ["default", "paper"]
 //! routes = ["../scenarios/*.toml"]        # scenario files, relative to this one
 //! seeds = { from = 1, to = 100 }          # or a list
-//! fewer_seeds = { paper = 30 }            # a planner that drives with so many of them alone, the first ones
-//! truth = ["none", "profile"]             # told to the planners; "none" when absent
+//! fewer_seeds = { paper = 30 }            # this planner drives with the first 30 seeds only
+//! truth = ["none", "profile"]             # ground truth in place of perception; "none" when absent
 //! trajectories = true                     # keep those of the first seed; false when absent
 //! combine = "one_at_a_time"               # or "grid", of the parameters
 //!
@@ -39,9 +39,9 @@ pub struct Campaign {
     pub routes: Vec<PathBuf>,
     /// Seeds of the sensor's noise, in the file's order.
     pub seeds: Vec<u64>,
-    /// How many of the seeds, from the first on, a planner drives with that is not to drive with all.
+    /// Planners that drive with fewer seeds than the others: how many, from the first on.
     pub fewer_seeds: BTreeMap<String, usize>,
-    /// What the planners are told.
+    /// Ground truth in place of perception, one of these for each trial.
     pub truths: Vec<Truth>,
     /// Whether the first seed's trajectories are kept.
     pub trajectories: bool,
@@ -55,7 +55,8 @@ pub struct Campaign {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Combine {
-    /// The planner as it is, and with each value of each parameter alone. A value that the planner has anyway is left out.
+    /// The base configuration, and each value of each parameter alone. A value that the base has anyway is
+    /// left out.
     #[default]
     OneAtATime,
     /// Every value of every parameter with every value of all others.
@@ -201,7 +202,7 @@ impl Place<'_> {
         Ok(values.as_ref())
     }
 
-    /// The files of all patterns, each once; the name of a route is that of its file, so no two may have the same.
+    /// The files of all patterns, each once. A route has its file's name, so no two files may have the same.
     fn routes(&self, patterns: &Spanned<Vec<Spanned<String>>>) -> Result<Vec<PathBuf>, CampaignError> {
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let escaped = PathBuf::from(glob::Pattern::escape(&folder.to_string_lossy()));

@@ -1,4 +1,4 @@
-//! Files that are there whole or not at all, and paths as people write them.
+//! Atomic writes of files, and tidy paths.
 
 use std::fs;
 use std::io::Write as _;
@@ -6,10 +6,11 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::error::CampaignError;
 
-/// How the names of unfinished files begin.
+/// Prefix of unfinished files.
 const PART: &str = ".part-";
 
-/// Removes what killed processes left unfinished in `folder`, if that exists. Nobody may be writing there.
+/// Removes the unfinished files of killed processes in `folder`, if that exists. No other process may be
+/// writing there.
 pub(crate) fn remove_unfinished(folder: &Path) -> Result<(), CampaignError> {
     let Ok(files) = fs::read_dir(folder) else { return Ok(()) };
     for file in files {
@@ -21,14 +22,16 @@ pub(crate) fn remove_unfinished(folder: &Path) -> Result<(), CampaignError> {
     Ok(())
 }
 
-/// Writes `bytes` to `path` at once: whoever reads it sees the old file or the new one, also after a power failure.
+/// Writes `bytes` to `path` atomically: a reader sees the old file or the new one, also after a power
+/// failure.
 pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), CampaignError> {
     let fail = |error: std::io::Error| CampaignError::write(path, error);
     let folder = path.parent().unwrap_or(Path::new("."));
     let mut file = tempfile::Builder::new().prefix(PART).tempfile_in(folder).map_err(fail)?;
     file.write_all(bytes).map_err(fail)?;
     file.as_file().sync_all().map_err(fail)?;
-    // Temporary files are for their owner alone; results are for everyone the folder is for.
+    // Temporary files are readable by their owner alone; results are readable as the folder's permissions
+    // say.
     let written = file.into_temp_path().keep().map_err(|error| fail(error.error))?;
     #[cfg(unix)]
     {
@@ -38,7 +41,7 @@ pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Campaign
     fs::rename(&written, path).map_err(fail)
 }
 
-/// The path without `.` and without `folder/..`, where that needs no look at the disk.
+/// The path without `.` and without `folder/..`, as far as that needs no access to the disk.
 pub(crate) fn tidy(path: &Path) -> PathBuf {
     let mut tidy = PathBuf::new();
     for part in path.components() {

@@ -2,7 +2,7 @@
 
 use sha2::{Digest as _, Sha256};
 
-/// Collects parts; each is set apart from the next, so that "ab", "c" is not "a", "bc".
+/// A sum of parts with separators, so that "ab", "c" is not "a", "bc".
 #[derive(Default)]
 pub(crate) struct Hash(Sha256);
 

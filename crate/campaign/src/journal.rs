@@ -1,7 +1,8 @@
-//! The journal: what has run, one line of JSON a trial, on disk before the next trial of the same worker begins.
+//! The journal: one line of JSON for each trial that has run, on disk before the same worker begins the next.
 //!
-//! Every process of a campaign appends to a journal of its own, under a lock, and reads those of all others. A process that
-//! is killed while it writes leaves at most one line without an end, which the next one removes.
+//! Every process of a campaign appends to a journal of its own, under a lock, and reads those of all others.
+//! A process that is killed while it writes leaves at most one line without an end, which the next process
+//! removes.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -16,7 +17,7 @@ use serde::{Deserialize as _, Deserializer};
 use crate::error::{CampaignError, CampaignFault};
 use crate::plan::Shard;
 
-/// What came of a trial; the same whenever and wherever it runs.
+/// The result of a trial; the same whenever and wherever it runs.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrialResult {
@@ -24,7 +25,7 @@ pub struct TrialResult {
     pub id: String,
     /// How it ended; `None` for an error.
     pub outcome: Option<Outcome>,
-    /// Why the planner stopped, where it did.
+    /// Why the planner stopped, if it did.
     pub stop_reason: Option<String>,
     /// Why there is no outcome.
     pub error: Option<String>,
@@ -62,7 +63,7 @@ impl Timing {
     }
 }
 
-/// No trial takes thirty years; the time left is counted from this.
+/// Bound on a trial's time, some thirty years, so that the time left can be computed.
 const LONGEST_WALL_S: f64 = 1e9;
 
 fn read_wall_s<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
@@ -79,9 +80,9 @@ fn read_wall_s<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Err
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Entry {
-    /// What came of the trial.
+    /// The result of the trial.
     pub result: TrialResult,
-    /// How long it took.
+    /// Its wall-clock times.
     pub timing: Timing,
 }
 
@@ -91,7 +92,7 @@ pub struct Entry {
 pub(crate) struct Header {
     /// The campaign's identity.
     pub(crate) campaign: String,
-    /// Identity of the program: other code may drive otherwise.
+    /// Identity of the program: another build may drive differently.
     pub(crate) build: String,
 }
 
@@ -106,7 +107,8 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal of this shard in `folder`. Waits, after a word by `tell`, while another process has it.
+    /// Opens the journal of this shard in `folder`. While another process has it, says so through `tell` and
+    /// waits.
     pub(crate) fn open(
         folder: &Path,
         shard: Option<Shard>,
@@ -142,7 +144,7 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Adds a trial and waits until it is on disk.
+    /// Appends a trial and waits until it is on disk.
     pub(crate) fn append(&mut self, entry: &Entry) -> Result<(), CampaignError> {
         self.line(entry)
     }
@@ -156,7 +158,7 @@ impl Journal {
     }
 }
 
-/// Everything that the journals in `folder` hold of the campaign and build of `header`.
+/// All entries of the campaign and build of `header` in the journals of `folder`.
 pub(crate) fn read_all(folder: &Path, header: &Header) -> Result<Entries, CampaignError> {
     let mut entries = Entries::new();
     let files = fs::read_dir(folder).map_err(|error| CampaignError::read(folder, error))?;
@@ -178,7 +180,7 @@ pub(crate) fn read_all(folder: &Path, header: &Header) -> Result<Entries, Campai
 fn read(path: &Path, header: &Header, entries: &mut Entries) -> Result<(), CampaignError> {
     let bytes = fs::read(path).map_err(|error| CampaignError::read(path, error))?;
     let text = String::from_utf8_lossy(&bytes);
-    // What has no end yet is being written.
+    // A line without an end is still being written.
     let mut lines = text.split_inclusive('\n').filter(|line| line.ends_with('\n')).enumerate();
     let bad = |line: usize, error: serde_json::Error| {
         CampaignError::content(

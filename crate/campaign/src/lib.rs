@@ -1,7 +1,7 @@
 //! Campaigns: many trials, planners × routes × seeds × parameter values, run on every core.
 //!
-//! A campaign is a TOML file ([`Campaign`]). [`Plan::read`] expands it into trials, [`run`] runs those that no journal in
-//! the results' folder has yet, and once all have run the folder holds
+//! A campaign is a TOML file ([`Campaign`]). [`Plan::read`] expands it into trials, [`run`] runs those that
+//! no journal in the results' folder has yet, and once all have run the folder holds
 //!
 //! | file | what |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! The planners a campaign can name, and how each is made.
+//! The planners that a campaign can name, and how each is built.
 
 use mapless::PlannerConfig;
 use mapless_baselines::{NavigatorKind, Truth};
@@ -15,13 +15,13 @@ pub(crate) fn configuration(planner: &str, scenario: &Scenario) -> Result<Planne
     kind(planner)?.planner_config(scenario).map_err(|fault| fault.to_string())
 }
 
-/// Whether a planner perceives anything that the truth could stand in for.
+/// Whether a planner perceives anything that ground truth could replace.
 pub(crate) fn perceives(planner: &str) -> bool {
     matches!(kind(planner), Ok(NavigatorKind::Mapless(_)))
 }
 
-/// Makes `planner` with `config` for one trial. A planner with a map takes it from `field`, a planner that draws random
-/// numbers begins them with `seed`.
+/// Builds `planner` with `config` for one trial. A planner with a map takes it from `field`; a planner that
+/// draws random numbers is seeded with `seed`.
 pub(crate) fn navigator(
     planner: &str,
     truth: Truth,

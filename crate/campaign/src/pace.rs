@@ -1,4 +1,4 @@
-//! The time left of a campaign: a planner's trials may take a hundred times as long as another's.
+//! Estimate of a campaign's time left. One planner's trials may take a hundred times as long as another's.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -11,31 +11,32 @@ struct Tally {
     left: usize,
 }
 
-/// What trials have taken and which are left, by planner.
+/// Trials that have run and trials that are left, by planner.
 #[derive(Debug, Default)]
 pub(crate) struct Pace<'a>(BTreeMap<&'a str, Tally>);
 
 impl<'a> Pace<'a> {
-    /// A trial of `planner` that is to run.
+    /// Adds a trial of `planner` that is still to run.
     pub(crate) fn expect(&mut self, planner: &'a str) {
         self.0.entry(planner).or_default().left += 1;
     }
 
-    /// A trial of `planner` that took `wall_s` before this run.
+    /// Adds a trial of `planner` that took `wall_s` before this run.
     pub(crate) fn know(&mut self, planner: &'a str, wall_s: f64) {
         let tally = self.0.entry(planner).or_default();
         tally.run += 1;
         tally.wall_s += wall_s;
     }
 
-    /// An expected trial of `planner` has run and took `wall_s`.
+    /// Moves a trial of `planner` from those to run to those that have run, in `wall_s`.
     pub(crate) fn finish(&mut self, planner: &'a str, wall_s: f64) {
         self.know(planner, wall_s);
         let tally = self.0.entry(planner).or_default();
         tally.left = tally.left.saturating_sub(1);
     }
 
-    /// Time left with `jobs` trials at a time, each as long as its planner's in the mean, or as the mean of all where its planner has not run yet.
+    /// Time left with `jobs` trials at a time: the mean of each planner's trials so far, or the mean of all
+    /// for a planner that has not run yet.
     pub(crate) fn left(&self, jobs: usize) -> Duration {
         let mean_s = |run: usize, wall_s: f64| wall_s / run.max(1) as f64;
         let all =
@@ -62,7 +63,7 @@ mod tests {
         assert_eq!(pace.left(2), Duration::ZERO, "nothing is known yet");
         pace.finish("fast", 2.0);
         pace.finish("fast", 4.0);
-        // Eight of three seconds, and ten of which nothing is known but that the mean of all is three.
+        // Eight of three seconds, and ten at the mean of all, three seconds.
         assert_eq!(pace.left(1), Duration::from_secs(24 + 30));
         pace.finish("slow", 60.0);
         assert_eq!(pace.left(2), Duration::from_secs((24 + 9 * 60) / 2));

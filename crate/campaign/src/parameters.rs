@@ -3,17 +3,18 @@
 use mapless::PlannerConfig;
 use toml::{Table, Value};
 
-/// The parameter `path` and its values, each written as the planner's own type has it.
+/// The parameter `path` and its values, each in the form of the planner's own type.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Parameter {
     pub(crate) path: String,
     pub(crate) values: Vec<Value>,
 }
 
-/// Which parameters have which values; none in the base variation.
+/// Values of some parameters; none in the base variation.
 pub(crate) type Variation = Vec<(String, Value)>;
 
-/// The variation as rows name it: `path=value`, separated by spaces; empty for the base. A value has no spaces: an array is written as JSON does.
+/// The variation as rows name it: `path=value`, separated by spaces; empty for the base. A value has no
+/// spaces: an array is written as JSON does.
 pub(crate) fn name(variation: &Variation) -> String {
     let word = |(path, value): &(String, Value)| format!("{path}={}", value.to_string().replace(", ", ","));
     let words: Vec<String> = variation.iter().map(word).collect();
@@ -52,14 +53,14 @@ pub(crate) fn apply(config: &PlannerConfig, variation: &Variation) -> Result<Pla
     table.try_into().map_err(|error: toml::de::Error| error.message().to_owned())
 }
 
-/// The value as the planner's own type has it, so that 1 and 1.0 are one value of a length.
+/// The value in the form of the planner's own type, so that 1 and 1.0 are one value of a length.
 pub(crate) fn normalised(path: &str, value: &Value) -> Result<Value, String> {
     let config = apply(&PlannerConfig::default(), &vec![(path.to_owned(), value.clone())])?;
     let mut table = Table::try_from(&config).map_err(|error| error.to_string())?;
     slot(&mut table, path).cloned()
 }
 
-/// Where the parameter `path` stands in a planner's configuration.
+/// The entry of the parameter `path` in a planner's configuration.
 fn slot<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> {
     let unknown = || {
         format!("\"{path}\": expected a parameter of the planner, as \"planner.decision.steepness_weight\"")

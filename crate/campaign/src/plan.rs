@@ -14,14 +14,15 @@ use crate::hash::{self, Hash};
 use crate::navigators;
 use crate::parameters;
 
-/// Everything that will run.
+/// All trials of a campaign.
 #[derive(Debug)]
 pub struct Plan {
     /// The campaign.
     pub campaign: Campaign,
     /// Its file, as named.
     pub file: String,
-    /// Identity of all that decides the results: scenarios, terrains, planners' configurations, seeds.
+    /// Identity of everything that the results depend on: scenarios, terrains, planners' configurations,
+    /// seeds.
     pub hash: String,
     /// The routes, by name.
     pub routes: Vec<Route>,
@@ -34,14 +35,14 @@ pub struct Plan {
 pub struct Route {
     /// Name of the scenario file, without extension.
     pub name: String,
-    /// The scenario file, as the campaign file and the path to it name it.
+    /// The scenario file, as named relative to the campaign file.
     pub file: String,
     /// Scenario and terrain.
     pub loaded: LoadedScenario,
 }
 
 impl Route {
-    /// From the start over the waypoints to the goal as the crow flies, seen from above, metres.
+    /// Straight distance from the start over the waypoints to the goal, seen from above, metres.
     pub(crate) fn straight_m(&self) -> f64 {
         let Scenario { start, waypoints_m, goal_m, .. } = &self.loaded.scenario;
         let ends = waypoints_m.iter().chain([goal_m]);
@@ -49,7 +50,8 @@ impl Route {
         begins.zip(ends).map(|(begin, end)| (*end - begin).length()).sum()
     }
 
-    /// Length of the shortest safe path; none where the oracle has none, or where the way leads over waypoints, which it does not know. It takes a while.
+    /// Length of the shortest safe path; `None` if the oracle finds none, or if there are waypoints, which it
+    /// does not support. Slow.
     pub(crate) fn oracle_length_m(&self) -> Option<f64> {
         let LoadedScenario { scenario: Scenario { start, waypoints_m, goal_m, robot, .. }, terrain } =
             &self.loaded;
@@ -71,7 +73,7 @@ pub struct TrialSpec {
     pub planner: String,
     /// Index of the route.
     pub route: usize,
-    /// What the planner is told.
+    /// Ground truth in place of perception.
     pub truth: Truth,
     /// `path=value` of every parameter that the campaign sets, separated by spaces.
     pub parameters: String,
@@ -152,7 +154,7 @@ fn expand(campaign: &Campaign, routes: &[Route]) -> Vec<TrialSpec> {
         seeds.sort_unstable();
         for (index, route) in routes.iter().enumerate() {
             let base = navigators::configuration(planner, &route.loaded.scenario);
-            // The others know the truth anyway.
+            // The others know the ground anyway.
             let applies = |truth: &&Truth| **truth == Truth::None || navigators::perceives(planner);
             for &truth in truths.iter().filter(applies) {
                 for variation in &campaign.variations {
@@ -197,7 +199,7 @@ fn identity(campaign: &Campaign, routes: &[Route], trials: &[TrialSpec]) -> Stri
     hash.add(campaign.name.as_bytes());
     for Route { name, loaded, .. } in routes {
         hash.add(name.as_bytes());
-        // Numbers print with all their digits.
+        // All digits of every number are printed.
         hash.add(format!("{:?}", loaded.scenario).as_bytes());
         let field = &loaded.terrain.field;
         hash.add(format!("{} {} {}", field.columns(), field.rows(), field.cell_m()).as_bytes());

@@ -12,7 +12,7 @@ use crate::journal::{Entries, Timing, TrialResult};
 use crate::plan::{Plan, Route, TrialSpec};
 use crate::row::TrialRow;
 
-/// `campaign.json`: what a campaign consists of, for its report.
+/// `campaign.json`: the parts of a campaign, for its report.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
@@ -30,7 +30,7 @@ pub struct Manifest {
     pub seeds: Vec<u64>,
 }
 
-/// A route and where it comes from.
+/// A route and its file.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ManifestRoute {
@@ -50,7 +50,8 @@ struct TimingRow<'a> {
     planner_max_ms: f64,
 }
 
-/// Writes the final files; `entries` must hold every trial of the plan. The oracle looks for `jobs` paths at a time.
+/// Writes the final files; `entries` must hold every trial of the plan. The oracle searches `jobs` paths at a
+/// time.
 pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path, jobs: usize) -> Result<(), CampaignError> {
     let done = plan.trials.iter().filter_map(|spec| Some((spec, entries.get(&spec.id)?)));
     let threads = jobs.min(plan.routes.len());
@@ -62,7 +63,7 @@ pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path, jobs: usize) 
         .map(|(spec, entry)| row(plan, spec, oracle_lengths_m[spec.route], &entry.result))
         .collect();
     let timings: Vec<TimingRow<'_>> = done.map(|(spec, entry)| timing_row(&spec.id, entry.timing)).collect();
-    // Every trial has run, so nobody writes trajectories any more.
+    // Every trial has run, so no process writes trajectories any more.
     remove_unfinished(&folder.join("trajectories"))?;
     let path = |name: &str| folder.join(name);
     let manifest = Manifest {
@@ -83,7 +84,7 @@ pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path, jobs: usize) 
     let parquet = columns::parquet(&rows).map_err(|e| CampaignError::write(&path("trials.parquet"), e))?;
     write_atomically(&path("trials.parquet"), &parquet)?;
     write_atomically(&path("timing.csv"), &csv(&path("timing.csv"), &timings)?)?;
-    // The last, since what reads a campaign begins with it.
+    // The last file, because readers of a campaign begin with it.
     write_atomically(&path("trials.csv"), &csv(&path("trials.csv"), &rows)?)
 }
 
@@ -130,7 +131,7 @@ fn timing_row(id: &str, timing: Timing) -> TimingRow<'_> {
     TimingRow { id, wall_s, planner_p50_ms, planner_p99_ms, planner_max_ms }
 }
 
-/// Where the trajectory of the trial `id` is, if it is kept.
+/// The file of trial `id`'s trajectory.
 pub(crate) fn trajectory_path(folder: &Path, id: &str) -> PathBuf {
     folder.join("trajectories").join(format!("{id}.csv"))
 }

@@ -1,4 +1,4 @@
-//! What a campaign keeps of one trial.
+//! The row of one trial.
 
 /// One row of `trials.csv` and `trials.parquet`.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -12,7 +12,7 @@ pub struct TrialRow {
     pub planner: String,
     /// Name of the route.
     pub route: String,
-    /// What the planner was told.
+    /// Ground truth in place of perception: `none`, `profile`, `ground` or `both`.
     pub truth: String,
     /// `path=value` of every parameter that was set, separated by spaces.
     pub parameters: String,
@@ -20,7 +20,7 @@ pub struct TrialRow {
     pub seed: u64,
     /// How it ended, or `error`.
     pub outcome: String,
-    /// Why the planner stopped, where it did.
+    /// Why the planner stopped, if it did.
     pub stop_reason: Option<String>,
     /// Why there is no outcome.
     pub error: Option<String>,
@@ -40,12 +40,12 @@ pub struct TrialRow {
     pub sim_time_s: Option<f64>,
     /// Planning periods.
     pub ticks: Option<u64>,
-    /// From the start over the waypoints to the goal as the crow flies, seen from above.
+    /// Straight distance from the start over the waypoints to the goal, seen from above.
     pub straight_m: f64,
-    /// Length of the shortest safe path, where it is known.
+    /// Length of the shortest safe path, if it is known.
     pub oracle_length_m: Option<f64>,
     /// Digest of the trajectory.
     pub digest: Option<String>,
-    /// The planner's whole configuration as JSON; empty where it was no valid one.
+    /// The planner's whole configuration as JSON; empty if it was invalid.
     pub configuration: String,
 }

@@ -1,4 +1,4 @@
-//! Runs what is left of a campaign on several cores.
+//! Runs the remaining trials of a campaign on several cores.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -24,36 +24,38 @@ pub struct Options {
     pub shard: Option<Shard>,
 }
 
-/// How far it has come, told after every trial.
+/// Progress of a run, reported after every trial.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress<'a> {
     /// Trials to run in this process, those that had run before included.
     pub trials: usize,
     /// How many of them have run.
     pub done: usize,
-    /// Time left, by what each planner's trials have taken so far.
+    /// Time left, estimated from each planner's trials so far.
     pub left: Duration,
-    /// What came of the last one.
+    /// The last trial's entry.
     pub last: &'a Entry,
 }
 
-/// What a run leaves.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Done {
     /// Trials of the whole campaign.
     pub trials: usize,
-    /// Trials that have run, in this process or another. The final files are there once it is all of them.
+    /// Trials that have run, in this process or another. Once all have, the final files are there.
     pub done: usize,
     /// Trials that ended in an error.
     pub errors: usize,
 }
 
-/// Runs the trials of `plan` that no journal has yet, and writes the final files when that makes the campaign complete.
+/// Runs the trials of `plan` that no journal has yet, and writes the final files when that makes the campaign
+/// complete.
 ///
 /// `show` is told of every trial, `tell` of what people should know besides.
 ///
 /// # Errors
-/// [`CampaignError`] when the folder holds something else or cannot be written. What went wrong in a trial is in its row.
+/// [`CampaignError`] when the folder holds something else or cannot be written. What went wrong in a trial is
+/// in its row.
 pub fn run(
     plan: &Plan,
     options: &Options,
@@ -63,7 +65,7 @@ pub fn run(
     let folder = &options.folder;
     std::fs::create_dir_all(folder).map_err(|error| CampaignError::write(folder, error))?;
     let header = Header { campaign: plan.hash.clone(), build: this_build()? };
-    // What is there must fit before anything is added to it.
+    // Existing journals must match before anything is added to them.
     journal::read_all(folder, &header)?;
     let journal = Journal::open(folder, options.shard, &header, &tell)?;
     let before = journal::read_all(folder, &header)?;
@@ -115,7 +117,7 @@ pub fn run(
     Ok(Done { trials: plan.trials.len(), done: entries.len(), errors })
 }
 
-/// Runs the trial `id` alone; gives what came of it and its trajectory as CSV. No journal is read or written.
+/// Runs the trial `id` alone; returns its entry and its trajectory as CSV. No journal is read or written.
 ///
 /// # Errors
 /// A text when the plan has no such trial.
@@ -128,7 +130,7 @@ pub fn run_one(plan: &Plan, id: &str) -> Result<(Entry, String), String> {
     Ok((entry, trajectory.unwrap_or_default()))
 }
 
-/// What the workers share.
+/// State shared by the workers.
 struct Queue<'a, I> {
     plan: &'a Plan,
     options: &'a Options,
@@ -137,7 +139,7 @@ struct Queue<'a, I> {
     trials: usize,
 }
 
-/// Where a worker hands in what it has done.
+/// Results of the workers, behind one lock.
 struct Desk<'a> {
     journal: Journal,
     /// Trials that have run, those before this process included.
@@ -146,7 +148,7 @@ struct Desk<'a> {
 }
 
 impl<'a, I: Iterator<Item = &'a TrialSpec>> Queue<'a, I> {
-    /// Takes trials until there are none left, or nothing can be written any more.
+    /// Takes trials until none are left, or nothing can be written any more.
     fn work(&self, show: &impl Fn(Progress<'_>)) -> Result<(), CampaignError> {
         while let Some(spec) = self.next() {
             let finished = trial::run(spec, &self.plan.routes[spec.route]);
@@ -170,7 +172,7 @@ impl<'a, I: Iterator<Item = &'a TrialSpec>> Queue<'a, I> {
         show: &impl Fn(Progress<'_>),
     ) -> Result<(), CampaignError> {
         let (Finished { entry, trajectory }, Options { folder, jobs, .. }) = (finished, self.options);
-        // Before the journal's line, which says that all of the trial is there.
+        // Before the journal's line, which says that the whole trial is on disk.
         if let Some(trajectory) = trajectory {
             results::write_trajectory(folder, &entry.result.id, trajectory)?;
         }

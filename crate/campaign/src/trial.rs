@@ -1,4 +1,4 @@
-//! One trial of a campaign, whatever happens in it.
+//! Runs one trial of a campaign; every failure becomes its result.
 
 use std::any::Any;
 use std::fmt::Write as _;
@@ -11,13 +11,13 @@ use crate::journal::{Entry, Timing, TrialResult};
 use crate::navigators;
 use crate::plan::{Route, TrialSpec};
 
-/// Heads the columns of a trajectory: one row each planning period, and one where the robot ended.
+/// Columns of a trajectory: one row for each planning period, and one for the final state.
 const TRAJECTORY_HEADER: &str = "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,speed_m_s,turn_rate_rad_s\n";
 
-/// What came of a trial.
+/// The outcome of a run.
 pub(crate) struct Finished {
     pub(crate) entry: Entry,
-    /// As CSV, where it is kept.
+    /// As CSV, if it is kept.
     pub(crate) trajectory: Option<String>,
 }
 
@@ -35,7 +35,7 @@ pub(crate) fn run(spec: &TrialSpec, route: &Route) -> Finished {
     Finished { entry: Entry { result, timing }, trajectory }
 }
 
-/// What `work` gives, with a panic as an error.
+/// The result of `work`, with a panic as an error.
 fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(format!("panic: {}", message(&*panic))))
 }
@@ -87,11 +87,11 @@ fn drive(
 
 fn write_state<N: mapless_trials::Navigator>(text: &mut String, trial: &Trial<N>) {
     let values: String = trial.motion().iter().map(|value| format!(",{value:.6}")).collect();
-    // A String takes whatever is written to it.
+    // Writing to a String cannot fail.
     let _ = writeln!(text, "{:.3}{values}", trial.time_s());
 }
 
-/// A journal has no word for what is no number.
+/// JSON has no word for a value that is not finite.
 fn finite(metrics: &Metrics) -> Result<(), String> {
     if metrics.values().iter().all(|value| value.is_finite()) {
         Ok(())

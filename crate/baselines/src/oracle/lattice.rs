@@ -6,10 +6,10 @@ use super::{OracleError, PlanPose};
 use glam::DVec2;
 use mapless::math::angle::difference_rad;
 
-/// The robot is stood on the ground this often along a motion.
+/// Attitudes are checked at this spacing along a motion.
 const CHECK_M: f64 = 0.125;
 const CHECK_RAD: f64 = 0.1;
-/// Cost of turning in place to the next heading, metres. An angle costs in proportion.
+/// Cost of turning on the spot to the next heading, metres; other angles in proportion.
 const TURN_COST_M: f64 = 0.1;
 /// Costs are whole micrometres, because the search needs an exact order.
 const MICROMETRES: f64 = 1e6;
@@ -24,7 +24,7 @@ pub(super) struct Node {
     heading: u8,
 }
 
-/// The heading of a robot that stands at the start as it was put there.
+/// The robot's own heading at the start.
 const AS_PUT: u8 = HEADINGS.len() as u8;
 
 impl Node {
@@ -54,7 +54,7 @@ impl Goal {
     }
 }
 
-/// Whether a robot may stand at a place with a heading, as far as known.
+/// Whether a place with a heading is safe, as far as known.
 #[derive(Clone, Copy)]
 enum Verdict {
     Unknown,
@@ -86,9 +86,9 @@ impl<'a> Lattice<'a> {
         goal_m: DVec2,
         cell_m: f64,
     ) -> Result<Self, OracleError> {
-        let way = goal_m - start.position_m;
-        let count = (way.length() / cell_m).round().max(1.0);
-        let cell = way / count;
+        let path = goal_m - start.position_m;
+        let count = (path.length() / cell_m).round().max(1.0);
+        let cell = path / count;
         let cell_m = cell.length();
         let extent_m = standing.extent_m();
         let corners =
@@ -122,7 +122,7 @@ impl<'a> Lattice<'a> {
         self.goal
     }
 
-    /// Where one safe motion leads from a node, and at what cost.
+    /// The successors of a node by one safe motion, and their costs.
     pub(super) fn successors(&mut self, node: Node) -> Vec<(Node, u64)> {
         let mut found = Vec::with_capacity(HEADINGS.len());
         let count = HEADINGS.len() as u8;
@@ -142,7 +142,7 @@ impl<'a> Lattice<'a> {
         let motion = &self.drives[from][index];
         let (columns, rows) = motion.step;
         let end = Node { column: node.column + columns, row: node.row + rows, heading: motion.heading };
-        // Most unsafe motions end on ground that is known to be so.
+        // Most unsafe motions end on ground that is already known to be unsafe.
         if !self.is_safe(end) {
             return None;
         }
@@ -164,7 +164,7 @@ impl<'a> Lattice<'a> {
         safe.then_some((end, (TURN_COST_M * share * MICROMETRES).ceil() as u64))
     }
 
-    /// The headings on the shorter way from one to another, the last one included.
+    /// The headings on the shorter turn from one to another, the last one included.
     fn turn_rad(&self, from: Node, to: Node) -> impl Iterator<Item = f64> + use<> {
         let begin_rad = self.yaw_rad(from);
         let angle_rad = difference_rad(self.yaw_rad(to), begin_rad);

@@ -1,4 +1,4 @@
-//! What a robot may do from one place of the lattice to another, in units of its cells.
+//! The motions from a place of the lattice to another, in units of its cells.
 
 use glam::DVec2;
 
@@ -28,7 +28,7 @@ pub(super) struct Motion {
     pub(super) step: (i32, i32),
     /// Heading there.
     pub(super) heading: u8,
-    /// Positions and headings on the way, the last one at its end.
+    /// Positions and headings along the motion, the last one at its end.
     pub(super) poses: Vec<(DVec2, f64)>,
 }
 
@@ -67,8 +67,8 @@ fn drive(from: usize, to: usize, step: f64) -> Motion {
         let poses = shares(begin.length() / step).map(|share| (begin * share, angle(begin))).collect();
         return Motion { step: HEADINGS[from], heading: to as u8, poses };
     }
-    // The parabola that leaves along the first heading and arrives along the second; nowhere faster than twice the
-    // longer of both.
+    // The parabola that leaves along the first heading and arrives along the second; its speed never exceeds
+    // twice the longer of both.
     let poses = shares(2.0 * begin.length().max(end.length()) / step)
         .map(|t| (begin * (2.0 * t - t * t) + end * (t * t), angle(begin * (1.0 - t) + end * t)))
         .collect();
@@ -88,11 +88,11 @@ mod tests {
             for motion in motions {
                 let mut last = (DVec2::ZERO, heading_rad(from as u8));
                 for &(place, yaw_rad) in &motion.poses {
-                    let way = place - last.0;
-                    assert!(way.length() <= 0.25 + 1e-12 && way.length() > 0.01);
+                    let path = place - last.0;
+                    assert!(path.length() <= 0.25 + 1e-12 && path.length() > 0.01);
                     let turn = |a: f64, b: f64| libm::remainder(a - b, TAU).abs();
                     assert!(turn(yaw_rad, last.1) < 0.2, "{yaw_rad} {}", last.1);
-                    assert!(turn(libm::atan2(way.y, way.x), yaw_rad) < 0.2, "drives where it looks");
+                    assert!(turn(libm::atan2(path.y, path.x), yaw_rad) < 0.2, "drives where it looks");
                     last = (place, yaw_rad);
                 }
                 let end = DVec2::new(f64::from(motion.step.0), f64::from(motion.step.1));

@@ -1,4 +1,4 @@
-//! The oracle as a planner of routes.
+//! The oracle as a route planner.
 
 use super::{OracleConfig, PlanPose, shortest_path};
 use crate::RoutePlanner;
@@ -11,9 +11,9 @@ use mapless_world::{HeightField, HuskyConfig};
 pub struct Oracle {
     /// The ground.
     pub field: HeightField,
-    /// The robot that has to stand on it.
+    /// The robot whose attitudes are checked.
     pub robot: HuskyConfig,
-    /// How the search goes.
+    /// Parameters of the search.
     pub config: OracleConfig,
 }
 

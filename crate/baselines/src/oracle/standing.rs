@@ -1,23 +1,23 @@
-//! Where a Husky may stand.
+//! Safe poses of a Husky on known ground.
 
 use super::{OracleConfig, OracleError, PlanPose};
 use glam::DVec2;
 use mapless_world::{ConfigError, HeightField, HuskyConfig, attitude_on};
 use std::f64::consts::TAU;
 
-/// Headings tried before a place is called too steep, or safe for every heading.
+/// Headings checked before a place counts as too steep, or as safe with every heading.
 const HEADINGS: u32 = 16;
-/// The robot is stood on the ground this often along the straight way, metres.
+/// Attitudes are checked at this spacing along the straight line, metres.
 const STRAIGHT_STEP_M: f64 = 0.125;
 
-/// The ground, and how far the robot may tilt on it.
+/// The ground, and the tilt allowed on it.
 pub(crate) struct Standing<'a> {
     field: &'a HeightField,
     robot: &'a HuskyConfig,
     max_roll_rad: f64,
     max_pitch_rad: f64,
-    /// For each cell of the ground whether a robot may stand anywhere in it with every heading, because no ground within
-    /// reach of its wheels is steep. It spares most of the attitudes.
+    /// For each cell of the ground whether the robot is safe anywhere in it with every heading, because no
+    /// ground within reach of its wheels is steep. It spares most of the attitudes.
     gentle: Vec<bool>,
 }
 
@@ -47,7 +47,7 @@ impl<'a> Standing<'a> {
         self.field.extent_m()
     }
 
-    /// Whether the robot may stand here: wheels on the terrain, roll and pitch within what is allowed.
+    /// Whether the robot is safe at a pose: wheels on the terrain, roll and pitch within the allowed.
     pub(super) fn is_safe(&self, position_m: DVec2, yaw_rad: f64) -> bool {
         if self.is_gentle(position_m) {
             return true;
@@ -86,17 +86,17 @@ impl<'a> Standing<'a> {
         }
     }
 
-    /// Whether the robot may stand here and turn.
+    /// Whether the robot is safe at a place with every heading.
     pub(crate) fn every_heading_is_safe(&self, position_m: DVec2) -> bool {
         headings_rad().all(|yaw_rad| self.is_safe(position_m, yaw_rad))
     }
 
-    /// Whether the straight way is safe for a robot that looks along it.
+    /// Whether the straight line is safe for a robot that faces along it.
     pub(crate) fn straight_is_safe(&self, start_m: DVec2, goal_m: DVec2) -> bool {
-        let way = goal_m - start_m;
-        let yaw_rad = libm::atan2(way.y, way.x);
-        let pieces = (way.length() / STRAIGHT_STEP_M).ceil().max(1.0);
-        (0..=pieces as u32).all(|i| self.is_safe(start_m + way * (f64::from(i) / pieces), yaw_rad))
+        let path = goal_m - start_m;
+        let yaw_rad = libm::atan2(path.y, path.x);
+        let pieces = (path.length() / STRAIGHT_STEP_M).ceil().max(1.0);
+        (0..=pieces as u32).all(|i| self.is_safe(start_m + path * (f64::from(i) / pieces), yaw_rad))
     }
 
     fn off_terrain(&self, what: &'static str, place_m: DVec2) -> OracleError {
@@ -115,8 +115,9 @@ fn headings_rad() -> impl Iterator<Item = f64> {
 
 /// A gradient g such that a robot on ground nowhere steeper stays within the limits with every heading.
 ///
-/// In [`attitude_on`] two wheels on one side are `2 ahead` apart and two on one axle `2 aside`, so that the slope ahead is at
-/// most g and the slope aside at most g (√(1 + (g r)²) + g r) for tan(roll) ≤ r. That is at most r for the g found here.
+/// In [`attitude_on`] two wheels on one side are `2 ahead` apart and two on one axle `2 aside`, so that the
+/// slope ahead is at most g and the slope aside at most g (√(1 + (g r)²) + g r) for tan(roll) ≤ r. That is at
+/// most r for the g found here.
 fn safe_gradient(max_roll_rad: f64, max_pitch_rad: f64) -> f64 {
     let r = libm::tan(max_roll_rad);
     let holds = |g: f64| g * ((1.0 + g * g * r * r).sqrt() + g * r) <= r;
@@ -128,7 +129,8 @@ fn safe_gradient(max_roll_rad: f64, max_pitch_rad: f64) -> f64 {
     low
 }
 
-/// For each cell whether the ground is at most as steep as `gradient` wherever a wheel of a robot in the cell may be.
+/// For each cell whether the ground is at most as steep as `gradient` wherever a wheel of a robot in the cell
+/// may be.
 fn gentle_cells(field: &HeightField, robot: &HuskyConfig, gradient: f64) -> Vec<bool> {
     let (columns, rows) = (field.columns() - 1, field.rows() - 1);
     let heights_m = field.heights_m();
@@ -155,7 +157,7 @@ fn gentle_cells(field: &HeightField, robot: &HuskyConfig, gradient: f64) -> Vec<
     gentle
 }
 
-/// Leaves along one line of cells those at least `reach` cells from both ends and from every one that is not gentle.
+/// Keeps, along one line of cells, those at least `reach` cells from both ends and from every steep one.
 fn shrink(gentle: &mut [bool], first: usize, stride: usize, count: usize, reach: usize) {
     let at = |index: usize| first + index * stride;
     let was: Vec<bool> = (0..count).map(|index| gentle[at(index)]).collect();

@@ -38,7 +38,7 @@ fn within_limits(field: &HeightField, path: &OraclePath) -> bool {
     })
 }
 
-/// Drives the path with the kinematic Husky; gives the place where it ended and the most of a limit that a tilt took.
+/// Drives the path with the kinematic Husky; returns where it ended and its largest tilt utilisation.
 fn drive(field: &HeightField, start: PlanPose, goal_m: DVec2) -> (DVec2, f64) {
     let robot = HuskyConfig::default();
     let oracle = Oracle { field: field.clone(), robot: robot.clone(), config: OracleConfig::default() };
@@ -119,8 +119,8 @@ fn a_steep_ridge_is_gone_around_and_a_gentle_one_crossed() {
 
 #[test]
 fn a_slope_too_steep_to_roll_on_is_climbed_more_steeply() {
-    // A bank of 31°, which the straight way would cross at 65° from its fall line: too much roll, while the pitch of a
-    // straight climb is allowed.
+    // A bank of 31°, which the straight line would cross at 65° from its fall line: too much roll, while the
+    // pitch of a straight climb is allowed.
     let (sin, cos) = libm::sincos(1.13);
     let field = ground(|x, y| 0.6 * (x * cos + y * sin).clamp(24.0, 29.0));
     let path = path(&field).unwrap();
@@ -229,7 +229,7 @@ proptest! {
         }
     }
 
-    /// The shortcut for gentle ground never says more than the wheels do.
+    /// The shortcut for gentle ground is never more permissive than the attitudes.
     #[test]
     fn gentle_ground_is_safe_for_every_heading(
         hills in prop::collection::vec(hill(), 5..15),

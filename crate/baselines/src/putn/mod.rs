@@ -1,9 +1,10 @@
-//! PUTN's global planner: plane-fitting RRT* (Jian et al., "PUTN: A Plane-fitting based Uneven Terrain Navigation
-//! Framework", IROS 2022).
+//! PUTN's global planner: plane-fitting RRT* (Jian et al., "PUTN: A Plane-fitting based Uneven Terrain
+//! Navigation Framework", IROS 2022).
 //!
-//! A node of the tree is a place with the plane through the ground around it ([`plane`]); the price of a way between two
-//! nodes is its length and more where the planes are hard to drive on ([`tree`]). [`PutnConfig::default`] has the values
-//! of the authors' release; DESIGN.md has what was decided beyond them.
+//! A node of the tree is a place with the plane through the ground around it ([`plane`]); the cost of a path
+//! between two nodes is its length plus a term for planes that are hard to traverse ([`tree`]).
+//! [`PutnConfig::default`] has the values of the authors' release; docs/design/baselines.md has the decisions
+//! beyond them.
 
 pub mod plane;
 pub mod tree;
@@ -22,19 +23,19 @@ use tree::{Place, Tree};
 /// Every parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PutnConfig {
-    /// How planes are fitted and judged.
+    /// How planes are fitted and rated.
     pub plane: PlaneConfig,
-    /// The tree grows by at most this, metres.
+    /// Largest distance by which the tree grows, metres.
     pub step_m: f64,
     /// Nodes are joined to others within this distance, metres.
     pub neighbour_radius_m: f64,
-    /// A node this near to the goal may end the way, metres.
+    /// A node this near to the goal may end the path, metres.
     pub goal_radius_m: f64,
-    /// Share of the samples that are the goal itself, until there is a way.
+    /// Share of the samples that are the goal itself, until there is a path.
     pub goal_bias: f64,
     /// Samples drawn per square metre of the map.
     pub samples_per_m2: f64,
-    /// But no fewer and no more than these.
+    /// Bounds on the number of samples.
     pub samples: [f64; 2],
 }
 
@@ -75,23 +76,23 @@ impl Putn {
         Ok(Self { cloud: Cloud::new(field)?, config, limits, seed })
     }
 
-    /// The node at a place; `None` where the plane would roll the robot over, and off the map.
+    /// The node at a place; `None` off the map and if the plane exceeds the roll limit.
     fn place(&self, plan_m: DVec2) -> Option<Place> {
         let plane = fit_plane(&self.cloud, plan_m, &self.config.plane)?;
         (plane.slope_rad <= self.limits.roll_limit_rad).then(|| Place::on(&plane, &self.config.plane))
     }
 
-    /// The `iteration`-th sample: anywhere, or the goal; once there is a way, within the ellipse about start and goal that
-    /// the way would fit into.
-    fn sample(&self, iteration: u64, from_m: DVec2, to_m: DVec2, way_m: Option<f64>) -> DVec2 {
+    /// The `iteration`-th sample: anywhere, or the goal; once there is a path, within the ellipse of shorter
+    /// paths from start to goal.
+    fn sample(&self, iteration: u64, from_m: DVec2, to_m: DVec2, length_m: Option<f64>) -> DVec2 {
         let draw = |number: u64| uniform(key(key(self.seed, iteration), number));
-        let Some(way_m) = way_m else {
+        let Some(length_m) = length_m else {
             let anywhere = self.cloud.extent_m() * DVec2::new(draw(1), draw(2));
             return if draw(0) <= self.config.goal_bias { to_m } else { anywhere };
         };
         let along = (to_m - from_m) / 2.0;
-        // The release, too, gives the ellipse a metre more than the way.
-        let half_long_m = (way_m + 1.0) / 2.0;
+        // The release, too, makes the ellipse a metre longer than the path.
+        let half_long_m = (length_m + 1.0) / 2.0;
         let half_short_m = (half_long_m * half_long_m - along.length_squared()).max(0.0).sqrt();
         let (sin, cos) = libm::sincos(core::f64::consts::TAU * draw(1));
         let radius = draw(2).sqrt();
@@ -112,14 +113,14 @@ impl RoutePlanner for Putn {
         let [fewest, most] = config.samples;
         let samples = (config.samples_per_m2 * extent_m.x * extent_m.y).clamp(fewest, most);
         for iteration in 0..samples as u64 {
-            let sample_m = self.sample(iteration, from_m, to_m, tree.way_m());
+            let sample_m = self.sample(iteration, from_m, to_m, tree.length_m());
             let step_m = sample_m - tree.nearest_m(sample_m);
             let new_m = sample_m - step_m + step_m.clamp_length_max(config.step_m);
             if let Some(place) = self.place(new_m) {
                 tree.grow(place, config.neighbour_radius_m, |a, b| a.is_joined_to(b, &self.cloud, steepest));
             }
         }
-        let mut route_m = tree.way()?;
+        let mut route_m = tree.path()?;
         route_m[0] = from_m;
         route_m.push(to_m);
         Some(route_m)
@@ -159,7 +160,7 @@ mod tests {
 
     #[test]
     fn flat_ground_is_preferred_to_a_hill() {
-        // A hill of 15° to 20° in the way, level ground beside it.
+        // A hill of 15° to 20° on the straight line, level ground beside it.
         let hill = |place: DVec2| {
             let off = place - DVec2::new(10.0, 10.5);
             1.2 * libm::exp(-off.length_squared() / 12.0)

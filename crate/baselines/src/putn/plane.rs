@@ -1,11 +1,11 @@
-//! The plane through the ground around a place, and how hard it is to drive on.
+//! The plane through the ground around a place, and its traversability.
 
 use glam::{DVec2, DVec3};
 use nalgebra::Matrix3;
 
 use crate::cloud::{Cloud, SPACING_M};
 
-/// How planes are fitted and judged.
+/// How planes are fitted and rated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneConfig {
     /// Half the side of the square of ground that a plane is fitted to, metres.
@@ -49,7 +49,7 @@ pub struct FittedPlane {
     pub flatness_m4: f64,
     /// Inclination of the plane.
     pub slope_rad: f64,
-    /// 0 where there is ground everywhere, 1 where much is missing.
+    /// 0 if there is ground everywhere, 1 if much is missing.
     pub sparsity: f64,
 }
 
@@ -64,7 +64,7 @@ impl FittedPlane {
     }
 }
 
-/// Fits the plane around a place seen from above; `None` off the map and where there is next to no ground.
+/// Fits the plane around a place seen from above; `None` off the map and if there is next to no ground.
 #[must_use]
 pub fn fit_plane(cloud: &Cloud, plan_m: DVec2, config: &PlaneConfig) -> Option<FittedPlane> {
     let (column, row) = cloud.nearest(plan_m);
@@ -136,7 +136,7 @@ mod tests {
         // 1000 · 0.0001 + 0.1 · 4 + 0.3 = 0.8.
         assert!((of(1e-4, 4.0, 0.3) - 0.8).abs() < 1e-12);
         assert_eq!(of(0.0, 0.0, 0.0), 0.0);
-        // Ten degrees are as hard as it gets.
+        // Ten degrees have the largest cost.
         assert!((of(0.0, 9.0, 0.0) - 0.9).abs() < 1e-12);
         assert_eq!(of(0.0, 11.0, 0.0), 1.0);
     }

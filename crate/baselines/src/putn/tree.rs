@@ -16,10 +16,10 @@ pub struct Place {
     traversability: f64,
 }
 
-/// The body keeps this far to either side and below the centre's way free of ground.
+/// The body must be free of ground this far to either side of the centre's path and below it.
 const HALF_WIDTH_M: f64 = 0.3;
 const HALF_HEIGHT_M: f64 = 0.2;
-/// Spacing of the places along a way where that is looked at.
+/// Spacing of the places that are checked along a path.
 const CHECK_M: f64 = 0.1;
 
 impl Place {
@@ -32,18 +32,18 @@ impl Place {
         }
     }
 
-    /// The price of a straight way: its length, and more where traversability is near 1.
+    /// The cost of a straight path: its length, and more if traversability is near 1.
     #[must_use]
     pub fn price_to(&self, other: &Self) -> f64 {
         let hard = |place: &Self| 1.0 / (1.0001 - place.traversability);
         self.centre_m.distance(other.centre_m) * (1.0 + 0.1 * (hard(self) + hard(other)))
     }
 
-    /// Whether the straight way is free of ground and no steeper than the gradient `steepest`.
+    /// Whether the straight path is free of ground and no steeper than the gradient `steepest`.
     #[must_use]
     pub fn is_joined_to(&self, other: &Self, cloud: &Cloud, steepest: f64) -> bool {
-        let way_m = other.ground_m - self.ground_m;
-        if way_m.z.abs() > steepest * way_m.truncate().length() {
+        let rise_m = other.ground_m - self.ground_m;
+        if rise_m.z.abs() > steepest * rise_m.truncate().length() {
             return false;
         }
         let along = other.centre_m - self.centre_m;
@@ -79,10 +79,10 @@ pub struct Tree {
     index: RTree<GeomWithData<[f64; 2], usize>>,
     goal: Place,
     goal_radius_m: f64,
-    /// Nodes from which the goal can be reached straight on, and the price of that.
+    /// Nodes from which the goal can be reached straight, and the cost of that.
     last: Vec<(usize, f64)>,
-    /// Length of the best way when its price was last bettered.
-    way_m: Option<f64>,
+    /// Length of the best path when its cost was last improved.
+    length_m: Option<f64>,
     best_price: f64,
 }
 
@@ -96,7 +96,7 @@ impl Tree {
             goal,
             goal_radius_m,
             last: Vec::new(),
-            way_m: None,
+            length_m: None,
             best_price: f64::INFINITY,
         };
         tree.add(Node { place: start, parent: None, children: Vec::new(), price: 0.0 });
@@ -110,14 +110,14 @@ impl Tree {
         nearest.map_or(plan_m, |found| DVec2::from(*found.geom()))
     }
 
-    /// Length of the best way found; `None` while there is none.
+    /// Length of the best path found; `None` while there is none.
     #[must_use]
-    pub fn way_m(&self) -> Option<f64> {
-        self.way_m
+    pub fn length_m(&self) -> Option<f64> {
+        self.length_m
     }
 
-    /// Adds a place below the neighbour that makes it cheapest, and takes it as parent of neighbours that become cheaper
-    /// by that. A place that is joined to no neighbour is left out.
+    /// Adds a place below the neighbour that makes it cheapest, and makes it the parent of neighbours that
+    /// become cheaper by that. A place that can be joined to no neighbour is left out.
     pub fn grow(&mut self, place: Place, radius_m: f64, joined: impl Fn(&Place, &Place) -> bool) {
         let around =
             self.index.locate_within_distance(place.centre_m.truncate().to_array(), radius_m * radius_m);
@@ -127,7 +127,7 @@ impl Tree {
             .filter(near)
             .map(|node| (node, self.nodes[node].place.price_to(&place)))
             .collect();
-        // Cheapest first: what lies between is looked at only where that decides something.
+        // Cheapest first, so that the ground between is checked only if it decides something.
         let through = |&(node, step): &(usize, f64)| self.nodes[node].price + step;
         neighbours.sort_unstable_by(|a, b| through(a).total_cmp(&through(b)).then(a.0.cmp(&b.0)));
         let parent = neighbours.iter().find(|(node, _)| joined(&self.nodes[*node].place, &place));
@@ -146,17 +146,17 @@ impl Tree {
         self.better();
     }
 
-    /// The places of the cheapest way found, seen from above, without the goal.
+    /// The places of the cheapest path found, seen from above, without the goal.
     #[must_use]
-    pub fn way(&self) -> Option<Vec<DVec2>> {
+    pub fn path(&self) -> Option<Vec<DVec2>> {
         let mut node = Some(self.best()?.0);
-        let mut way_m = Vec::new();
+        let mut path_m = Vec::new();
         while let Some(here) = node {
-            way_m.push(self.nodes[here].place.ground_m.truncate());
+            path_m.push(self.nodes[here].place.ground_m.truncate());
             node = self.nodes[here].parent;
         }
-        way_m.reverse();
-        Some(way_m)
+        path_m.reverse();
+        Some(path_m)
     }
 
     fn add(&mut self, node: Node) -> usize {
@@ -188,12 +188,13 @@ impl Tree {
         let Some((node, price)) = self.best() else { return };
         if price < self.best_price {
             self.best_price = price;
-            let (mut here, mut way_m) = (node, self.nodes[node].place.centre_m.distance(self.goal.centre_m));
+            let (mut here, mut length_m) =
+                (node, self.nodes[node].place.centre_m.distance(self.goal.centre_m));
             while let Some(parent) = self.nodes[here].parent {
-                way_m += self.nodes[here].place.centre_m.distance(self.nodes[parent].place.centre_m);
+                length_m += self.nodes[here].place.centre_m.distance(self.nodes[parent].place.centre_m);
                 here = parent;
             }
-            self.way_m = Some(way_m);
+            self.length_m = Some(length_m);
         }
     }
 }
@@ -237,7 +238,7 @@ mod tests {
     fn the_tree_takes_the_cheaper_parent_and_rewires() {
         let mut tree = Tree::new(place(0.0, 0.0, 0.0), place(4.0, 0.0, 0.0), 1.0);
         let free = |_: &Place, _: &Place| true;
-        // A detour first, whose far end then gets a straight way.
+        // A detour first, whose far end is then joined straight.
         tree.grow(place(0.0, 0.9, 0.0), 1.0, free);
         tree.grow(place(0.6, 0.7, 0.0), 1.0, free);
         tree.grow(place(1.2, 0.3, 0.0), 1.0, free);
@@ -247,16 +248,16 @@ mod tests {
         assert!(tree.nodes[3].price < before);
         let expected = tree.nodes[4].price + tree.nodes[4].place.price_to(&tree.nodes[3].place);
         assert!((tree.nodes[3].price - expected).abs() < 1e-12);
-        // Too far from everything, and kept apart.
+        // Too far from everything, and refused.
         tree.grow(place(9.0, 9.0, 0.0), 1.0, free);
         tree.grow(place(1.0, 0.0, 0.0), 1.0, |_, _| false);
         assert_eq!(tree.nodes.len(), 5);
-        assert_eq!((tree.way(), tree.way_m()), (None, None));
+        assert_eq!((tree.path(), tree.length_m()), (None, None));
         tree.grow(place(2.1, 0.2, 0.0), 1.0, free);
         tree.grow(place(3.05, 0.2, 0.0), 1.0, free);
-        let way = tree.way().unwrap();
-        assert_eq!((way[0], way[way.len() - 1]), (DVec2::ZERO, DVec2::new(3.05, 0.2)));
-        assert!((tree.way_m().unwrap() - 4.1).abs() < 0.3);
+        let path = tree.path().unwrap();
+        assert_eq!((path[0], path[path.len() - 1]), (DVec2::ZERO, DVec2::new(3.05, 0.2)));
+        assert!((tree.length_m().unwrap() - 4.1).abs() < 0.3);
     }
 
     #[test]

@@ -2,10 +2,11 @@
 
 use crate::cloud::{Cloud, SPACING_M};
 
-/// Whether each point of the map stays: none of its neighbours within `radius_m` stands above it at more than `slope_rad`.
+/// Whether each point of the map is valid: no neighbour within `radius_m` stands above it at more than
+/// `slope_rad`.
 ///
-/// Neighbours are those within the radius as seen from above. On steep ground they lie further away in space, but
-/// the ground between is as steep.
+/// Neighbours are those within the radius as seen from above. On steep ground they are further away in space,
+/// but the ground between is as steep.
 #[must_use]
 pub fn valid_ground(cloud: &Cloud, radius_m: f64, slope_rad: f64) -> Vec<bool> {
     let steepest = libm::tan(slope_rad);
@@ -47,7 +48,7 @@ mod tests {
         let kept = kept(|place| if place.x < 2.1 { 0.0 } else { 0.5 });
         let row = &kept[20 * 41..21 * 41];
         for (column, &kept) in row.iter().enumerate() {
-            // The face spans columns 20 to 22; up to 0.3 m before it the ground looks up at it steeply.
+            // The face spans columns 20 to 22; points up to 0.3 m before it have steep neighbours.
             assert_eq!(kept, !(18..22).contains(&column), "column {column}");
         }
     }

@@ -1,12 +1,13 @@
-//! The paper's baseline: the global planner of Wang et al., "Towards Efficient Trajectory Generation for Ground Robots
-//! beyond 2D Environment" (ICRA 2023), called VGF there after its *valid ground filter*.
+//! The paper's baseline: the global planner of Wang et al., "Towards Efficient Trajectory Generation for
+//! Ground Robots beyond 2D Environment" (ICRA 2023), called VGF there after its *valid ground filter*.
 //!
 //! 1. [`filter`]: the map's points from which the ground rises too steeply are dropped.
 //! 2. [`voxels`]: free voxels over occupied ones are the search space.
 //! 3. [`travel`]: a travel cost from the second differences of the surface, spread in the plane.
 //! 4. [`mod@search`]: A* over 26 neighbours.
 //!
-//! [`VgfConfig::published`] has the values of the authors' release. DESIGN.md has what was decided beyond them.
+//! [`VgfConfig::published`] has the values of the authors' release. docs/design/baselines.md has the
+//! decisions beyond them.
 
 pub mod filter;
 pub mod search;
@@ -28,7 +29,7 @@ use voxels::VoxelMap;
 pub struct VgfConfig {
     /// Side of a voxel, metres.
     pub voxel_m: f64,
-    /// The filter looks at neighbours within this distance, metres.
+    /// Radius of the filter's neighbourhood, metres.
     pub filter_radius_m: f64,
     /// A point is dropped when a neighbour stands above it at more than this.
     pub filter_slope_rad: f64,
@@ -38,16 +39,17 @@ pub struct VgfConfig {
     pub travel_priority: f64,
     /// Weight of the height in a voxel's place in the queue, per metre.
     pub height_priority: f64,
-    /// What travel adds to the price of a way, as a share of its length and per unit of travel cost.
+    /// Cost of a path per unit of travel cost, as a share of its length.
     pub travel_price: f64,
-    /// What a slope adds to the price of a way, as a share of its length and per squared gradient.
+    /// Cost of a path per squared gradient, as a share of its length.
     pub slope_price: f64,
     /// Length of the path over which its points are averaged, metres.
     pub smoothing_m: f64,
 }
 
 impl VgfConfig {
-    /// The values of the authors' release: the penalty only orders the queue, slopes cost nothing, the path is not smoothed.
+    /// The values of the authors' release: the travel cost only orders the queue, slopes cost nothing, the
+    /// path is not smoothed.
     #[must_use]
     pub fn published() -> Self {
         Self {
@@ -63,8 +65,8 @@ impl VgfConfig {
         }
     }
 
-    /// The same map with the best search found for it: the penalty is part of the way's price, slopes count, ground that
-    /// the filter refused is kept away from, and the path is smoothed.
+    /// The same map with the best search found for it: the travel cost is part of the path's cost, slopes
+    /// count, ground that the filter refused is kept away from, and the path is smoothed.
     #[must_use]
     pub fn tuned() -> Self {
         let published = Self::published();
@@ -88,7 +90,7 @@ pub struct Vgf {
     smoothing_m: f64,
 }
 
-/// Start and goal are taken to the nearest voxel of the search space within this distance.
+/// Start and goal are moved to the nearest voxel of the search space within this distance.
 const NEAR_M: f64 = 1.0;
 
 impl Vgf {
@@ -168,7 +170,7 @@ mod tests {
 
     #[test]
     fn the_published_search_goes_low_and_the_tuned_one_keeps_off_slopes() {
-        // A hill in the way; the ground falls to the north.
+        // A hill on the straight line; the ground falls to the north.
         let hill = |place: DVec2| {
             let off = place - DVec2::new(10.0, 10.0);
             1.2 * libm::exp(-off.length_squared() / 6.0) - 0.02 * place.y

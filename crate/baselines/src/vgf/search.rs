@@ -5,12 +5,12 @@ use std::collections::BinaryHeap;
 
 use super::voxels::VoxelMap;
 
-/// What nodes cost.
+/// Costs of the nodes.
 #[derive(Clone, Debug)]
 pub struct Prices {
-    /// Added to a neighbour's place in the queue by the node it is reached from, not to the way's price.
+    /// Added to a neighbour's place in the queue by the node it is reached from, not to the path's cost.
     pub priority: Vec<f64>,
-    /// Price of a way of one voxel, at least 1; that between two nodes is the mean of theirs.
+    /// Cost of a path of one voxel, at least 1; between two nodes it is the mean of theirs.
     pub price: Vec<f64>,
 }
 
@@ -40,10 +40,10 @@ impl PartialOrd for Queued {
     }
 }
 
-/// The nodes of a way from `start` to `goal`, both included; `None` where there is none.
+/// The nodes of a path from `start` to `goal`, both included; `None` if there is none.
 ///
-/// The queue is ordered by f = g + h + the priority of the parent, as in the release, with g the way's price and h the
-/// octile distance in voxels. Without priorities the way is the cheapest, to a thousandth.
+/// The queue is ordered by f = g + h + the priority of the parent, as in the release, with g the path's cost
+/// and h the octile distance in voxels. Without priorities the path is the cheapest, to a thousandth.
 #[must_use]
 pub fn search(map: &VoxelMap, prices: &Prices, start: usize, goal: usize) -> Option<Vec<usize>> {
     let count = map.nodes().len();
@@ -73,7 +73,7 @@ pub fn search(map: &VoxelMap, prices: &Prices, start: usize, goal: usize) -> Opt
             way_price[there] = price;
             parent[there] = node;
             let estimate = price + octile(map, there, goal) + prices.priority[here];
-            // One that waits moves up only; one that was taken before waits again.
+            // A queued node is only moved up; one that was taken before is queued again.
             if estimate < queued_at[there] || queued_at[there] == f64::NEG_INFINITY {
                 queued_at[there] = estimate;
                 age += 1;
@@ -110,7 +110,7 @@ fn neighbours(map: &VoxelMap, node: usize) -> impl Iterator<Item = (usize, f64)>
         })
 }
 
-/// The shortest way over 26 neighbours, in voxels.
+/// Length of the shortest path over 26 neighbours, in voxels.
 fn octile(map: &VoxelMap, from: usize, to: usize) -> f64 {
     let (from, to) = (map.nodes()[from], map.nodes()[to]);
     let mut steps =
@@ -146,25 +146,25 @@ mod tests {
         Prices { priority: vec![0.0; count], price: vec![1.0; count] }
     }
 
-    fn length(map: &VoxelMap, way: &[usize]) -> f64 {
+    fn length(map: &VoxelMap, path: &[usize]) -> f64 {
         let step = |pair: &[usize]| map.centre_m(pair[0]).distance(map.centre_m(pair[1])) / map.voxel_m();
-        way.windows(2).map(step).sum()
+        path.windows(2).map(step).sum()
     }
 
     #[test]
     fn the_way_on_level_ground_is_the_octile_one() {
         let map = level(&[]);
-        let way = search(&map, &even(&map), at(&map, 0, 0), at(&map, 9, 4)).unwrap();
-        assert_eq!((way[0], way[way.len() - 1]), (at(&map, 0, 0), at(&map, 9, 4)));
-        assert!((length(&map, &way) - (5.0 + 4.0 * 2f64.sqrt())).abs() < 1e-9);
+        let path = search(&map, &even(&map), at(&map, 0, 0), at(&map, 9, 4)).unwrap();
+        assert_eq!((path[0], path[path.len() - 1]), (at(&map, 0, 0), at(&map, 9, 4)));
+        assert!((length(&map, &path) - (5.0 + 4.0 * 2f64.sqrt())).abs() < 1e-9);
     }
 
     #[test]
     fn it_goes_around_a_bar_and_not_through_a_whole_one() {
         let bar: Vec<(usize, usize)> = (0..9).map(|row| (5, row)).collect();
         let map = level(&bar);
-        let way = search(&map, &even(&map), at(&map, 2, 0), at(&map, 8, 0)).unwrap();
-        assert!(way.contains(&at(&map, 5, 9)));
+        let path = search(&map, &even(&map), at(&map, 2, 0), at(&map, 8, 0)).unwrap();
+        assert!(path.contains(&at(&map, 5, 9)));
         let whole: Vec<(usize, usize)> = (0..10).map(|row| (5, row)).collect();
         let map = level(&whole);
         assert_eq!(search(&map, &even(&map), at(&map, 2, 0), at(&map, 8, 0)), None);
@@ -181,17 +181,17 @@ mod tests {
             dear.price[node] = 100.0;
             late.priority[node] = 100.0;
         }
-        let north = |way: &[usize]| way.iter().any(|&node| map.nodes()[node].row >= 8);
+        let north = |path: &[usize]| path.iter().any(|&node| map.nodes()[node].row >= 8);
         let paid = search(&map, &dear, start, goal).unwrap();
-        assert!(north(&paid), "the cheapest way goes around");
-        // The priority sends the search around first, and the first way found is taken.
+        assert!(north(&paid), "the cheapest path goes around");
+        // The priority sends the search around first, and the first path found is taken.
         let first = search(&map, &late, start, goal).unwrap();
         assert!(north(&first) && length(&map, &first) > 9.5);
-        // Where there is no other way, a priority changes nothing about the way's length.
+        // If there is no other path, a priority does not change its length.
         let mut all_late = even(&map);
         all_late.priority.fill(1e5);
-        let way = search(&map, &all_late, start, goal).unwrap();
-        assert!((length(&map, &way) - 9.0).abs() < 1e-9);
+        let path = search(&map, &all_late, start, goal).unwrap();
+        assert!((length(&map, &path) - 9.0).abs() < 1e-9);
     }
 
     #[test]
@@ -202,7 +202,7 @@ mod tests {
             let valid: Vec<bool> =
                 cloud.heights_m().iter().map(|&height| height < 0.01 || height > step_m - 0.01).collect();
             let map = VoxelMap::new(&cloud, &valid, 0.3);
-            search(&map, &even(&map), at(&map, 0, 5), at(&map, 9, 5)).map(|way| way.len())
+            search(&map, &even(&map), at(&map, 0, 5), at(&map, 9, 5)).map(|path| path.len())
         };
         assert_eq!(stairs(0.35), Some(10));
         assert_eq!(stairs(0.7), None);
@@ -215,12 +215,12 @@ mod tests {
         ) {
             let map = level(&[]);
             let prices = Prices { priority: vec![0.0; 100], price: dear };
-            let way = search(&map, &prices, start, goal).unwrap();
+            let path = search(&map, &prices, start, goal).unwrap();
             let step = |pair: &[usize]| {
                 let length = map.centre_m(pair[0]).distance(map.centre_m(pair[1])) / map.voxel_m();
                 length * 0.5 * (prices.price[pair[0]] + prices.price[pair[1]])
             };
-            let found: f64 = way.windows(2).map(step).sum();
+            let found: f64 = path.windows(2).map(step).sum();
             // Relaxing every edge as often as there are nodes.
             let mut least = [f64::INFINITY; 100];
             least[start] = 0.0;

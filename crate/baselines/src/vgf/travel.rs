@@ -1,4 +1,4 @@
-//! The travel cost: how much the surface bends, spread in the plane.
+//! The travel cost: curvature of the surface, spread in the plane.
 
 use super::voxels::{Node, VoxelMap};
 
@@ -7,9 +7,9 @@ use super::voxels::{Node, VoxelMap};
 pub struct TravelCost {
     /// Per metre of second difference beyond one voxel.
     pub gain_per_m: f64,
-    /// Less than this counts as nothing.
+    /// Smaller costs count as 0.
     pub least: f64,
-    /// The cost is no greater than this.
+    /// Upper bound of the cost.
     pub most: f64,
     /// A voxel's cost falls linearly to nothing over this distance, metres.
     pub spread_m: f64,
@@ -26,9 +26,9 @@ impl TravelCost {
         if cost < self.least { 0.0 } else { cost.min(self.most) }
     }
 
-    /// The cost of every node: the greatest that its own column or one around it lends it. A column lends to what is level
-    /// with the air above it, so the top of a cliff does not warn those at its foot; with refused ground in the cost, which
-    /// has no level, it does.
+    /// The cost of every node: the greatest that its own column or one around it spreads to it. A column
+    /// spreads to nodes level with the air above it, so the top of a cliff does not warn those at its foot;
+    /// refused ground in the cost, which has no level, does.
     pub(crate) fn of_nodes(&self, map: &VoxelMap) -> Vec<f64> {
         let mut costs = vec![0.0_f64; map.nodes().len()];
         let reach = (self.spread_m / map.voxel_m()).ceil() as i64;

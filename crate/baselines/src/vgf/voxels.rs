@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::cloud::{Cloud, SPACING_M};
 
-/// A free voxel over an occupied one, where the robot may be.
+/// A free voxel over an occupied one, which the robot may occupy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Node {
     /// From the west.
@@ -32,7 +32,8 @@ pub struct VoxelMap {
 }
 
 impl VoxelMap {
-    /// Sorts the points into voxels; one point makes a voxel occupied. Only `valid` points carry the search space.
+    /// Sorts the points into voxels; one point makes a voxel occupied. Only `valid` points carry the search
+    /// space.
     #[must_use]
     pub fn new(cloud: &Cloud, valid: &[bool], voxel_m: f64) -> Self {
         let count = (cloud.extent_m() / voxel_m - 1e-9).ceil().max(DVec2::ONE);

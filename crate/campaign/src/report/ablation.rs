@@ -1,4 +1,4 @@
-//! What each value of a parameter buys.
+//! The effect of each value of a parameter on the metrics.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
@@ -11,7 +11,7 @@ use super::figures::Figures;
 use super::{METRICS, Metric, Results, failures, rate, stats, tables};
 use crate::row::TrialRow;
 
-/// What the paper calls a parameter.
+/// The paper's names of parameters.
 const SYMBOLS: [(&str, &str); 6] = [
     ("planner.decision.direction_weight", "k_dir"),
     ("planner.decision.distance_weight", "k_dst"),
@@ -20,15 +20,16 @@ const SYMBOLS: [(&str, &str); 6] = [
     ("planner.perception.surface_radius_m", "r_oc"),
     ("planner.segments.safety_margin_m", "δ"),
 ];
-/// A change of a metric is named where chance alone would bring trials to one side as often as this.
+/// Significance level of the changes that sentences name.
 const CHANCE: f64 = 0.05;
-/// Said where a route has one trial with each value.
+/// Note for routes with one trial for each value.
 const ONE_SEED: &str =
     " Each value has one trial a route, so one odd drive shifts a mean: the counts say more.";
-/// Of the metrics, distance, roll, pitch and vibration are drawn.
+/// The first four metrics are drawn: distance, roll, pitch and vibration.
 const DRAWN: usize = 4;
 
-/// What each parameter that was set alone buys, in a sentence for each value, then its tables and figures, and a table of the combinations.
+/// The effect of each parameter that was set alone: a sentence for each value, then tables and figures; and a
+/// table of the combinations.
 pub(super) fn section(text: &mut String, results: &Results, figures: &mut Figures) -> fmt::Result {
     let varied: Vec<&TrialRow> =
         results.rows.iter().filter(|row| row.truth == "none" && !row.parameters.is_empty()).collect();
@@ -65,13 +66,13 @@ pub(super) fn section(text: &mut String, results: &Results, figures: &mut Figure
     if combined.is_empty() { Ok(()) } else { combinations(text, &combined) }
 }
 
-/// The name that the paper gives a parameter, or its path.
+/// The paper's name of a parameter, or its path.
 fn name(path: &str) -> String {
     let symbol = SYMBOLS.iter().find(|(known, _)| *known == path);
     symbol.map_or_else(|| format!("`{path}`"), |(_, symbol)| format!("{symbol} (`{path}`)"))
 }
 
-/// What a parameter does, from the table that describes all of them.
+/// The description of a parameter, from the table of all parameters.
 fn purpose(path: &str) -> Option<&'static str> {
     let (table, name) = path.rsplit_once('.')?;
     let group = GROUPS.iter().flat_map(|groups| groups.iter()).find(|group| group.table == table)?;
@@ -143,7 +144,7 @@ fn cells(rows: &[&TrialRow], changes: Option<&[Contest]>) -> String {
     METRICS.iter().map(cell).collect()
 }
 
-/// The metrics of a value's trials and of the own value's, for each trial that reached with both.
+/// The metrics with a value and with the planner's own value, for each trial that reached with both.
 fn pairs<'a>(
     rows: &'a [&TrialRow],
     own: &'a [&TrialRow],
@@ -156,7 +157,8 @@ fn pairs<'a>(
     })
 }
 
-/// How often each value reaches, and the metrics over the trials that reach with both, in per cent of the planner's own value.
+/// How often each value reaches, and the metrics over the trials that reach with both, in per cent of those
+/// with the planner's own value.
 fn lines(values: &[(Value, Vec<&TrialRow>)]) -> Vec<Line> {
     let Some((_, own)) = values.iter().find(|(value, _)| value.own) else { return Vec::new() };
     let reached = |rows: &[&TrialRow]| rows.iter().filter(|row| row.has_reached()).count() as f64;
@@ -182,7 +184,7 @@ fn lines(values: &[(Value, Vec<&TrialRow>)]) -> Vec<Line> {
     lines
 }
 
-/// What a parameter buys: what becomes worse or better with each other value.
+/// A sentence about a parameter: which metrics change with each other value.
 fn sentence(text: &mut String, planner: &str, path: &str, values: &[(Value, Vec<&TrialRow>)]) -> fmt::Result {
     let Some((own_value, own)) = values.iter().find(|(value, _)| value.own) else { return Ok(()) };
     write!(text, "- **{}** of `{planner}`, {}.", name(path), own_value.text)?;
@@ -208,7 +210,7 @@ fn sentence(text: &mut String, planner: &str, path: &str, values: &[(Value, Vec<
     writeln!(text)
 }
 
-/// How often a value reaches beside the planner's own.
+/// Successes with a value beside those with the planner's own.
 fn success(rows: &[&TrialRow], own: &[&TrialRow]) -> String {
     let reached = |rows: &[&TrialRow]| rows.iter().filter(|row| row.has_reached()).count();
     let (count, own_count) = (reached(rows), reached(own));
@@ -231,7 +233,7 @@ fn success(rows: &[&TrialRow], own: &[&TrialRow]) -> String {
 #[derive(PartialEq)]
 struct Value {
     text: String,
-    /// Whether the planner has it anyway.
+    /// Whether it is the planner's own.
     own: bool,
 }
 
@@ -287,7 +289,8 @@ mod tests {
     use super::*;
     use crate::testing::{results, row};
 
-    /// Ten seeds with a weight of one, its own, and as many without it, of which one fails and the others roll by half more.
+    /// Ten seeds with the own weight of one, and ten without it, of which one fails and the others roll by
+    /// half more.
     fn rows() -> Vec<TrialRow> {
         let configuration = "{\"decision\":{\"steepness_weight\":1.0}}".to_owned();
         let metrics = |row: TrialRow, roll_rad: f64| TrialRow {

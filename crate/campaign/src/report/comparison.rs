@@ -1,4 +1,4 @@
-//! Where a planner wins and loses, in sentences that the numbers write.
+//! Comparison of planners: sentences generated from the numbers.
 
 use std::collections::HashSet;
 use std::fmt::{self, Write as _};
@@ -11,13 +11,13 @@ use crate::row::TrialRow;
 /// Means that differ by less than this share are even.
 pub(super) const EVEN: f64 = 0.005;
 
-/// So many routes at most are named as those with the most failures.
+/// At most this many routes are named as those with the most failures.
 const MOST_NAMED: usize = 3;
 
-/// Those of [`METRICS`] that measure safety, and the last of them.
+/// The safety metrics of [`METRICS`].
 const SAFETY: Range<usize> = 1..5;
 const ELEVATION_RATE: usize = 4;
-/// All the height gained and lost, which the elevation rate spreads over the time.
+/// Height gained plus height lost: the elevation rate times the time.
 const UP_AND_DOWN: Metric = Metric {
     heading: "up and down, m",
     decimals: 1,
@@ -27,7 +27,7 @@ const UP_AND_DOWN: Metric = Metric {
 /// One metric of two methods over several routes.
 pub(super) struct Contest {
     pub(super) metric: &'static str,
-    /// Routes on which the first is lower, and on which it is higher; on the others they are even.
+    /// Routes on which the first is lower, and on which it is higher; the others are even.
     pub(super) lower: usize,
     pub(super) higher: usize,
     pub(super) routes: usize,
@@ -36,12 +36,12 @@ pub(super) struct Contest {
 }
 
 impl Contest {
-    /// On how many routes it is on the side where more are, and which that is.
+    /// The number of routes on the majority side, and that side.
     pub(super) fn side(&self) -> (usize, &'static str) {
         if self.higher > self.lower { (self.higher, "higher") } else { (self.lower, "lower") }
     }
 
-    /// The change as people write it.
+    /// The change in words.
     pub(super) fn percent(&self) -> String {
         format!("{:+.0} %", 100.0 * self.change)
     }
@@ -108,8 +108,8 @@ fn all_of<'a>(results: &'a Results, planner: &str) -> Vec<&'a TrialRow> {
     results.plain().filter(|row| row.planner == planner).collect()
 }
 
-/// The trials of both planners on those routes of a group that both reached: a mean over other routes is one of other ground, and a planner that
-/// reaches the hard ones, too, would seem the worse for it.
+/// The trials of both planners on those routes of a group that both reached. Other routes would compare
+/// different ground, to the disadvantage of a planner that reaches the hard ones.
 fn shared<'a>(results: &'a Results, planners: [&str; 2], group: &str) -> [Vec<&'a TrialRow>; 2] {
     let of_both = planners.map(|planner| results.of(planner, group));
     let reached = of_both.each_ref().map(|rows| -> HashSet<&str> {
@@ -144,7 +144,8 @@ pub(super) fn contests(pairs: impl Iterator<Item = ([Option<f64>; 6], [Option<f6
     METRICS.iter().enumerate().filter_map(contest).collect()
 }
 
-/// A sentence of what is lower on most routes, and one of the rest; nothing where there is nothing to compare.
+/// A sentence about the metrics that are lower on most routes, and one about the rest; `None` if there is
+/// nothing to compare.
 fn against(planner: &str, other: &str, contests: &[Contest]) -> String {
     let Some(first) = contests.first() else {
         return format!("- `{planner}` against {other}: no route to compare on.");
@@ -182,7 +183,8 @@ fn successes([one, other]: [&str; 2], [ones, others]: [&[&TrialRow]; 2]) -> Stri
     format!("- `{one}` {verdict}: {} against {} of `{other}`.", rate(ones), rate(others))
 }
 
-/// On which routes a planner is less safe than another by which metric, and how far up and down both go where it is by elevation rate.
+/// The routes on which a planner has a higher value of a safety metric than another; and, for the elevation
+/// rate, how far up and down both go there.
 fn where_higher(results: &Results, [one, other]: [&str; 2]) -> Option<String> {
     let means = |group: &str, metric: &Metric| {
         let [ours, theirs] =
@@ -210,16 +212,16 @@ fn where_higher(results: &Results, [one, other]: [&str; 2]) -> Option<String> {
         stats::mean(&ours).zip(stats::mean(&theirs))
     };
     let both = over_all(&UP_AND_DOWN).zip(over_all(&METRICS[0]));
-    let climbs = both.map_or_else(String::new, |((up, their_up), (way, their_way))| {
+    let climbs = both.map_or_else(String::new, |((up, their_up), (path, their_path))| {
         format!(
-            " Where it is in elevation rate, it goes {up:.1} m up and down in the mean, on {way:.1} m of way; \
-             `{other}` goes {their_up:.1} m on {their_way:.1} m."
+            " On those with a higher elevation rate, it goes {up:.1} m up and down in the mean, on a path of \
+             {path:.1} m; `{other}` goes {their_up:.1} m on {their_path:.1} m."
         )
     });
     Some(format!("- `{one}` is higher than `{other}` {}.{climbs}", lists.join("; ")))
 }
 
-/// How the planner fails, and where most.
+/// How the planner fails, and on which routes most.
 fn failing(results: &Results, planner: &str) -> String {
     let rows = all_of(results, planner);
     let failed: Vec<&&TrialRow> = rows.iter().filter(|row| !row.has_reached()).collect();
@@ -235,7 +237,7 @@ fn failing(results: &Results, planner: &str) -> String {
         }
     }
     routes.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
-    // Where as many fail on the next route, the first three are not those with the most.
+    // If the next route has as many failures, the first three are not the only ones with the most.
     let next = routes.get(MOST_NAMED).map_or(0, |&(_, count)| count);
     let most = routes.iter().take(MOST_NAMED).filter(|&&(_, count)| count > next);
     let most: Vec<String> = most.map(|(route, count)| format!("{route} ({count})")).collect();
@@ -299,8 +301,9 @@ mod tests {
         let results = results(&["default", "vgf"], &["a", "b"], rows);
         assert_eq!(
             where_higher(&results, ["default", "vgf"]).unwrap(),
-            "- `default` is higher than `vgf` in max \\|pitch\\| on a, b; in elevation rate on a. Where it is in elevation rate, \
-             it goes 4.0 m up and down in the mean, on 50.0 m of way; `vgf` goes 2.0 m on 60.0 m."
+            "- `default` is higher than `vgf` in max \\|pitch\\| on a, b; in elevation rate on a. On those \
+             with a higher elevation rate, it goes 4.0 m up and down in the mean, on a path of 50.0 m; `vgf` goes \
+             2.0 m on 60.0 m."
         );
         assert!(where_higher(&results, ["vgf", "default"]).unwrap().contains("in elevation rate on b"));
         assert_eq!(where_higher(&results, ["default", "default"]), None);

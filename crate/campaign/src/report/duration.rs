@@ -1,4 +1,4 @@
-//! How soon trials reach: success is a matter of patience, too.
+//! Success rates by time limit.
 
 use std::fmt::{self, Write as _};
 
@@ -7,15 +7,15 @@ use mapless_trials::{BASE_TIME_LIMIT_S, MOST_STRAIGHT_TIMES};
 use super::{MANY_TRIALS, Results};
 use crate::row::TrialRow;
 
-/// Success is told within so many times the straight way at full speed, and at the end.
+/// Success is counted within these multiples of the straight-line time at full speed.
 const TIMES: [f64; 6] = [1.5, 3.0, 6.0, 12.0, 24.0, MOST_STRAIGHT_TIMES];
 
 /// The share of trials that reached in time, by planner, for each of several times.
 pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     writeln!(
         text,
-        "\n## How soon\n\nPer cent of the trials that reached within a minute and so many times what the straight way takes at full speed; \
-         after {MOST_STRAIGHT_TIMES} times that a trial ends, as `timeout`.\n"
+        "\n## How soon\n\nPer cent of the trials that reached within a minute plus so many times the straight-line time \
+         at full speed; after {MOST_STRAIGHT_TIMES} times the progress checker ends a trial, as `timeout`.\n"
     )?;
     let headings: Vec<String> = TIMES.iter().map(|times| format!(" {times} × |")).collect();
     writeln!(text, "| planner | routes |{}", headings.concat())?;
@@ -43,8 +43,8 @@ fn line(text: &mut String, planner: &str, routes: &str, rows: &[&TrialRow]) -> f
     writeln!(text, "| `{planner}` | {routes} |{}", shares.concat())
 }
 
-/// How many times as long as the straight way at full speed a trial took beyond a minute. No trial takes longer than the most; one of
-/// several legs may, as a whole, and one whose speed is not known counts so, too.
+/// A trial's time beyond a minute, as a multiple of the straight-line time at full speed. Trials of several
+/// legs may take longer than the largest multiple and count as it, as do trials whose speed is not known.
 fn times(row: &TrialRow) -> f64 {
     let times = || Some((row.sim_time_s? - BASE_TIME_LIMIT_S) * full_speed_m_s(row)? / row.straight_m);
     times().map_or(MOST_STRAIGHT_TIMES, |times| times.min(MOST_STRAIGHT_TIMES))
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn success_grows_with_time_and_ends_with_all_that_reached() {
-        // 8 m at 0.8 m/s are 10 s: a minute and 1.5, 6, 12 or 48 times that are 75, 120, 180 and 540 s.
+        // 8 m at 0.8 m/s are 10 s: a minute plus 1.5, 6, 12 or 48 times that are 75, 120, 180 and 540 s.
         let trial = |seed: u64, outcome: &str, took_s: f64| TrialRow {
             sim_time_s: Some(took_s),
             straight_m: 8.0,

@@ -18,9 +18,9 @@ use crate::error::CampaignError;
 use crate::results::{ManifestRoute, trajectory_path};
 use crate::row::TrialRow;
 
-/// Pixels of a map's relief for one of the page: sharp enough in a report, and a file of a quarter of the size.
+/// Map pixels per pixel on the page: sharp enough in a report, at a quarter of the file size.
 const DETAIL: f64 = 0.5;
-/// States of a trajectory from one point of a plot to the next: half a second.
+/// Stride between the states that a plot shows: half a second.
 const STRIDE: usize = 5;
 /// The route whose attitude the paper shows.
 const ATTITUDE_ROUTE: &str = "cht-ab";
@@ -42,14 +42,15 @@ struct Drive<'a> {
 }
 
 impl Figures {
-    /// Keeps a figure; gives the words that show it.
+    /// Adds a figure; returns the Markdown that shows it.
     pub(super) fn add(&mut self, file: String, title: &str, svg: String) -> String {
         let words = format!("![{title}]({file})");
         self.drawn.push((file, svg));
         words
     }
 
-    /// The paths of every route that has some, and the attitude along one; gives the words that show them.
+    /// Adds the paths of every route that has some, and the attitude along one; returns the Markdown that
+    /// shows them.
     pub(super) fn maps(&mut self, results: &Results) -> Result<String, CampaignError> {
         let mut text = String::new();
         if results.manifest.routes.len() > MOST_ROUTES {
@@ -114,7 +115,7 @@ impl Figures {
     }
 }
 
-/// The paper's figure of C_stp over pitch and height, with its file's name.
+/// The paper's figure of C_stp over pitch and height, with its file name.
 pub(super) fn steepness_cost() -> Result<(&'static str, String), FigureError> {
     const SIDE: u32 = 241;
     const MOST_PITCH_RAD: f64 = 0.785;
@@ -180,7 +181,7 @@ pub(super) fn steepness_cost() -> Result<(&'static str, String), FigureError> {
     Ok(("steepness-cost.svg", svg))
 }
 
-/// The kept trajectories of the planners as they are, in the campaign's order of planners.
+/// The kept trajectories of unchanged planners, in the campaign's order of planners.
 fn drives<'a>(results: &'a Results, route: &str) -> Result<Vec<Drive<'a>>, CampaignError> {
     let mut drives = Vec::new();
     for (planner, colour) in results.manifest.planners.iter().zip(COLOURS.iter().cycle()) {
@@ -231,7 +232,7 @@ fn paths(route: &str, loaded: &LoadedScenario, drives: &[Drive<'_>]) -> Result<S
     Ok(svg)
 }
 
-/// A perceptually even map from cold to warm.
+/// A perceptually uniform colour map from cold to warm.
 fn heat(share: f64) -> [u8; 3] {
     let (r, g, b) = colorous::VIRIDIS.eval_continuous(share.clamp(0.0, 1.0)).as_tuple();
     [r, g, b]

@@ -1,4 +1,5 @@
-//! The report of campaigns: a page for each with its figures and rows, and `RESULTS.md` that shows how every page begins. The same campaigns give the same bytes.
+//! The report of campaigns: a page for each with its figures and rows, and `RESULTS.md` with the beginning of
+//! every page. The same campaigns give the same bytes.
 
 mod ablation;
 mod comparison;
@@ -24,28 +25,33 @@ use comparison::EVEN;
 use mapless_trials::statistics as stats;
 use mapless_world::generate::Difficulty;
 
-/// Pages, figures and rows stand in a folder of this name beside `RESULTS.md`.
+/// Folder of pages, figures and rows beside `RESULTS.md`.
 const PAGES: &str = "results";
-/// A rate of at least so many trials has a decimal.
+/// Rates of at least this many trials have a decimal.
 const MANY_TRIALS: usize = 200;
 /// With more routes than this, a table has one row for all routes whose names begin alike.
 const MOST_ROUTES: usize = 12;
 
-/// How `RESULTS.md` begins.
+/// The introduction of `RESULTS.md`.
 fn introduction() -> String {
     format!(
-        "A trial counts as reached when the robot arrives with |roll| and |pitch| within their limits all the way, as in the paper. \
-    Rates have Wilson's 95 % interval. Metrics are the paper's, mean ± standard deviation over the trials that reached; lower is better in all of them. \
-    The paper's numbers come from its own terrains in Gazebo, of which ours are models: they say how a method does among its kind, not which of two \
-    methods on different ground is better. `vgf`, `vgf_tuned`, `putn` and `oracle` know the whole ground before they start and can go around what the others \
-    learn of when they see it. Two planners are compared over the routes that both reach, by their means there: \
-    those within {:.1} % of each other are even, and `on average` is the mean of the ratios, route by route, which a few routes can turn against the count. Seeds draw the noise of the sensor, not the ground: \
-    the interval of many seeds on few routes says nothing of other ground. `timeout` and `stuck` are how the trial itself ends what would go on for ever; a stop of the planner has its reason. Below stands, for each campaign, how many trials reached and where its first planner wins and loses; its page has the rest.",
+        "A trial counts as reached when the robot arrives with |roll| and |pitch| within their limits all the way, \
+         as in the paper. Rates have Wilson's 95 % interval. Metrics are the paper's, mean ± standard deviation \
+         over the trials that reached; lower is better in all of them. The paper's numbers come from its own \
+         terrains in Gazebo, of which ours are models: they compare methods by kind, and say little about \
+         differences between two grounds. `vgf`, `vgf_tuned`, `putn` and `oracle` know the whole ground before \
+         they start and can go around obstacles that the others discover on the way. Two planners are compared \
+         over the routes that both reach, by their means there. Means within {:.1} % of each other are even; \
+         `on average` is the mean of the ratios, route by route, and a few routes can turn it against the count. \
+         Seeds draw the noise of the sensor, not the ground: the interval of many seeds on few routes says \
+         nothing of other ground. `timeout` and `stuck` come from the progress checker of the trial; a stop of \
+         the planner has its reason. For each campaign, this page says how many trials reached and where its \
+         first planner wins and loses; the campaign's own page has the rest.",
         100.0 * EVEN
     )
 }
 
-/// A metric of the paper: what it is called, its decimals, and where it stands.
+/// A metric of the paper: heading, decimals, and value of a row.
 struct Metric {
     heading: &'static str,
     decimals: usize,
@@ -59,7 +65,7 @@ impl Metric {
     }
 }
 
-/// The paper's six, in its order.
+/// The paper's six metrics, in its order.
 const METRICS: [Metric; 6] = [
     Metric { heading: "distance, m", decimals: 1, of: |row| row.distance_m },
     Metric { heading: "max \\|roll\\|, rad", decimals: 3, of: |row| row.max_abs_roll_rad },
@@ -77,17 +83,17 @@ pub(crate) struct Results {
 }
 
 impl Results {
-    /// The trials of the planners as they are: no parameter set, nothing told.
+    /// The trials of unchanged planners: no parameter set, no perception override.
     fn plain(&self) -> impl Iterator<Item = &TrialRow> {
         self.rows.iter().filter(|row| row.parameters.is_empty() && row.truth == "none")
     }
 
-    /// The plain trials of one planner on the routes that `group` names.
+    /// The plain trials of one planner on the routes of `group`.
     fn of(&self, planner: &str, group: &str) -> Vec<&TrialRow> {
         self.plain().filter(|row| row.planner == planner && self.group(&row.route) == group).collect()
     }
 
-    /// The route itself, or what its name begins with where there are many routes.
+    /// The route itself or, with many routes, the part of its name that it shares with others.
     fn group<'a>(&self, route: &'a str) -> &'a str {
         if !self.has_groups() {
             return route;
@@ -106,7 +112,7 @@ impl Results {
         groups
     }
 
-    /// The plain trials of one planner: all of them, then those of each group where groups stand for several routes each.
+    /// The plain trials of one planner: all of them, then those of each group of several routes.
     fn all_and_groups(&self, planner: &str) -> Vec<(&str, Vec<&TrialRow>)> {
         let all = self.plain().filter(|row| row.planner == planner).collect();
         let groups = if self.has_groups() { self.groups() } else { Vec::new() };
@@ -138,7 +144,8 @@ impl Results {
         )
     }
 
-    /// What its trials are run again for: each parameter's worth, or the source of failures; nothing where every planner is as it is.
+    /// What a campaign of changed planners asks: the effect of each parameter, or the source of failures;
+    /// `None` if every planner is unchanged.
     fn question(&self) -> Option<&'static str> {
         let any = |of: fn(&TrialRow) -> bool| self.rows.iter().any(of);
         if any(|row| !row.parameters.is_empty()) {
@@ -155,12 +162,13 @@ impl TrialRow {
     }
 }
 
-/// Writes a page for each finished campaign in `folders` to the folder `results` in `out`, with its figures and its rows beside it, and renews
-/// `RESULTS.md` in `out`, which also shows the pages that were written before; gives the files written.
+/// Writes a page for each finished campaign in `folders` to the folder `results` in `out`, with its figures
+/// and its rows beside it, and renews `RESULTS.md` in `out`, which also shows the pages that were written
+/// before; gives the files written.
 ///
 /// # Errors
-/// [`CampaignError`] when a campaign has not finished, a scenario that a figure shows is no longer there, or `out` cannot be
-/// written.
+/// [`CampaignError`] when a campaign has not finished, a scenario that a figure shows is no longer there, or
+/// `out` cannot be written.
 pub fn write(folders: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, CampaignError> {
     let pages = out.join(PAGES);
     std::fs::create_dir_all(&pages).map_err(|error| CampaignError::write(&pages, error))?;
@@ -193,7 +201,7 @@ pub fn write(folders: &[PathBuf], out: &Path) -> Result<Vec<PathBuf>, CampaignEr
     Ok(written)
 }
 
-/// `RESULTS.md`: how every page in the folder begins, in the order of their names.
+/// `RESULTS.md`: the beginning of every page in the folder, in the order of their names.
 fn index(pages: &Path, figure: &str) -> Result<String, CampaignError> {
     let files = std::fs::read_dir(pages).map_err(|error| CampaignError::read(pages, error))?;
     let files = files.map(|file| Ok(file?.path())).collect::<std::io::Result<Vec<PathBuf>>>();
@@ -225,7 +233,7 @@ fn rows_file(name: &str) -> String {
     format!("{name}.parquet")
 }
 
-/// A campaign's page, which is to stand at `path`, and its figures by file name.
+/// A campaign's page for `path`, and its figures by file name.
 fn page(
     results: &Results,
     published: &[published::PublishedRow],
@@ -251,12 +259,15 @@ fn sections(
     writeln!(text, "# Campaign `{name}`\n")?;
     writeln!(text, "{} trials: {question}{}; identity `{hash}`.", results.rows.len(), results.size())?;
     let has_plain = results.plain().next().is_some();
-    // One planner that is run again with something changed is compared with itself.
+    // A campaign of one planner with changes compares that planner with itself.
     let compares = has_plain && (planners.len() > 1 || results.question().is_none());
     if has_plain {
         tables::success(text, results)?;
     } else {
-        writeln!(text, "\nNone of them has a planner as it is, with no parameter set and nothing told.")?;
+        writeln!(
+            text,
+            "\nNone of them runs a planner unchanged: each sets a parameter or overrides perception."
+        )?;
     }
     if compares {
         comparison::of_the_first(text, results, published)?;
@@ -282,7 +293,7 @@ fn sections(
     Ok(())
 }
 
-/// How many trials ended how, the most frequent first; those that reached are left out.
+/// Failures by outcome, the most frequent first.
 fn failures(rows: &[&TrialRow]) -> String {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for row in rows.iter().filter(|row| !row.has_reached()) {
@@ -362,7 +373,7 @@ mod tests {
         let (results, mut figures) =
             (results(&["default", "paper"], &["a"], rows), figures::Figures::default());
         sections(&mut text, &results, &[], &mut figures, "").unwrap();
-        assert!(text.contains("None of them has a planner as it is"), "{text}");
+        assert!(text.contains("None of them runs a planner unchanged"), "{text}");
         assert!(text.contains("| `default` | 0.5 | 0 of 1 "), "{text}");
         assert!(
             !text.contains("fails nowhere") && !text.contains("0 of 0") && !text.contains("How soon"),

@@ -1,11 +1,11 @@
-//! Driven paths against the shortest safe ones.
+//! Comparison of driven paths with the shortest safe ones.
 
 use std::fmt::{self, Write as _};
 
 use super::{Results, rate, stats};
 use crate::row::TrialRow;
 
-/// SPL and the median ratio of lengths by planner, where shortest paths are known.
+/// SPL and the median ratio of lengths by planner, over the trials whose shortest path is known.
 pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     writeln!(text, "\n## Against the shortest safe path\n")?;
     if results.plain().all(|row| row.oracle_length_m.is_none()) {
@@ -16,8 +16,10 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     }
     writeln!(
         text,
-        "SPL is success weighted by path length (Anderson et al. 2018) over the trials whose shortest path is known. A driven way is measured along the ground, to \
-         within the goal's tolerance; the shortest is measured as seen from above, to the goal itself, over a lattice of headings that makes it up to 2.8 % longer. So some ratios are a little below one.\n"
+        "SPL is success weighted by path length (Anderson et al. 2018) over the trials whose shortest path is known. \
+         A driven path is measured along the ground, to within the goal's tolerance. The shortest is measured in \
+         plan, to the goal itself, over a lattice of headings that makes it up to 2.8 % longer. So some ratios are \
+         a little below one.\n"
     )?;
     writeln!(
         text,
@@ -31,7 +33,7 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     Ok(())
 }
 
-/// A line of the table, of those trials whose shortest path is known.
+/// A line of the table, of the trials whose shortest path is known.
 fn line(text: &mut String, planner: &str, routes: &str, rows: &[&TrialRow]) -> fmt::Result {
     let known: Vec<&TrialRow> = rows.iter().copied().filter(|row| row.oracle_length_m.is_some()).collect();
     let lengths = known.iter().filter_map(|row| {

@@ -12,7 +12,7 @@ pub(super) struct PublishedRow {
     pub(super) method: String,
     /// In the order of [`super::METRICS`].
     pub(super) mean: [f64; 6],
-    /// Where the paper gives it.
+    /// Standard deviations, if the paper gives them.
     pub(super) deviation: Option<[f64; 6]>,
 }
 
@@ -21,7 +21,7 @@ struct File {
     rows: Vec<PublishedRow>,
 }
 
-/// The paper's Tables I and II, from the file that the page shows them from too.
+/// The paper's Tables I and II, from the file that the page reads too.
 pub(super) fn published() -> Result<Vec<PublishedRow>, CampaignError> {
     let file: Result<File, _> = serde_json::from_str(include_str!("../../../../terrains/published.json"));
     file.map(|file| file.rows)

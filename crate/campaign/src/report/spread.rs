@@ -1,4 +1,4 @@
-//! Means of ours beside the spread that the paper gives for its own.
+//! Our means against the spread of the paper's.
 
 use std::fmt::{self, Write as _};
 
@@ -9,7 +9,7 @@ use crate::row::TrialRow;
 /// A value within this many standard deviations of the paper's mean lies within its spread.
 const DEVIATIONS: f64 = 2.0;
 
-/// Which means lie within the paper's mean ± 2 sd and which do not, and what of the ground bears on that.
+/// The means within the paper's mean ± 2 sd and those outside, with what is known of the ground there.
 pub(super) fn section(text: &mut String, results: &Results, published: &[PublishedRow]) -> fmt::Result {
     let groups = results.groups();
     let rows: Vec<(&PublishedRow, [f64; 6])> = published

@@ -1,10 +1,10 @@
-//! Trajectories that a campaign has kept.
+//! Kept trajectories.
 
 use std::path::Path;
 
 use crate::error::CampaignError;
 
-/// The robot at one planning period, as far as figures show it.
+/// The robot's state at one planning period, as far as figures show it.
 #[derive(Clone, Copy, Debug, serde::Deserialize)]
 pub(super) struct State {
     pub(super) time_s: f64,
@@ -15,7 +15,7 @@ pub(super) struct State {
     pub(super) pitch_rad: f64,
 }
 
-/// Reads a trajectory; `None` where none was kept.
+/// Reads a trajectory; `None` if none was kept.
 pub(super) fn read(path: &Path) -> Result<Option<Vec<State>>, CampaignError> {
     if !path.exists() {
         return Ok(None);

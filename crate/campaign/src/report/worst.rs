@@ -8,30 +8,32 @@ use mapless_baselines::TaskName;
 use super::Results;
 use crate::row::TrialRow;
 
-/// At least so many are shown and, if that is more, every failure up to so many.
+/// Trials shown: every failure, but at least and at most so many.
 const LEAST_SHOWN: usize = 10;
 const MOST_SHOWN: usize = 100;
 
-/// Failures first, then what came nearest to a tilt limit.
+/// Failures first, then the largest tilt utilisation.
 pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
-    let mut rows: Vec<(&TrialRow, f64)> = results.rows.iter().map(|row| (row, limit_share(row))).collect();
-    rows.sort_by(|(a, a_share), (b, b_share)| {
+    let rows = results.rows.iter();
+    let mut rows: Vec<(&TrialRow, Option<f64>)> = rows.map(|row| (row, tilt_utilisation(row))).collect();
+    rows.sort_by(|(a, a_tilt), (b, b_tilt)| {
         (a.has_reached().cmp(&b.has_reached()))
-            .then(b_share.total_cmp(a_share))
+            .then(b_tilt.unwrap_or_default().total_cmp(&a_tilt.unwrap_or_default()))
             .then_with(|| (&a.planner, &a.route, a.seed, &a.id).cmp(&(&b.planner, &b.route, b.seed, &b.id)))
     });
     let failed = rows.iter().filter(|(row, _)| !row.has_reached()).count();
     writeln!(text, "\n## The worst trials\n")?;
     writeln!(
         text,
-        "Failures first, then by the largest share of a tilt limit. The command runs a trial again and prints its digest; the page \
-         shows it at the address that ends like this, where it has the route and drives that planner.\n"
+        "Failures first, then by the largest tilt utilisation. The command runs a trial again and prints its digest; \
+         the page shows it at an address that ends like this, if it has the route and drives that planner.\n"
     )?;
     if results.manifest.routes.iter().any(|route| route.name.parse::<TaskName>().is_ok()) {
         writeln!(
             text,
-            "The routes are generated tasks, which `mapless generate` writes again, with the seed and the difficulty that their names begin with. Of a campaign of \
-             this repository, `cargo xtask results {}` writes them to where the campaign file says before its trials begin, and may be interrupted then.\n",
+            "The routes are generated tasks; `mapless generate` writes them again, from the seed and difficulty in \
+             their names. `cargo xtask results {}` writes those of a campaign of this repository to the place that \
+             the campaign file names, before its trials begin; it may be interrupted then.\n",
             results.manifest.name
         )?;
     }
@@ -39,11 +41,11 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         text,
         "| planner | route | seed | outcome | of the tilt limit | command | page |\n|---|---|---:|---|---:|---|---|"
     )?;
-    for (row, share) in rows.into_iter().take(failed.clamp(LEAST_SHOWN, MOST_SHOWN)) {
+    for (row, tilt) in rows.into_iter().take(failed.clamp(LEAST_SHOWN, MOST_SHOWN)) {
         let TrialRow { planner, route, parameters, truth, seed, outcome, .. } = row;
         let mut planner = format!("`{planner}`");
         if truth != "none" {
-            write!(planner, ", told {truth}")?;
+            write!(planner, ", override {truth}")?;
         }
         if !parameters.is_empty() {
             write!(planner, ", {parameters}")?;
@@ -55,15 +57,16 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         });
         writeln!(
             text,
-            "| {planner} | {route} | {seed} | {outcome}{reason} | {:.0} % | `{command}` | {} |",
-            100.0 * share,
+            "| {planner} | {route} | {seed} | {outcome}{reason} | {} | `{command}` | {} |",
+            tilt.map_or_else(|| "–".to_owned(), |tilt| format!("{:.0} %", 100.0 * tilt)),
             address(results, row)
         )?;
     }
     Ok(())
 }
 
-/// How the page's address ends that shows a trial; nothing where the page has not its route, or does not drive its planner.
+/// The end of the page's address that shows a trial; empty if the page lacks its route or does not drive its
+/// planner.
 fn address(results: &Results, row: &TrialRow) -> String {
     let TrialRow { planner, route, parameters, truth, seed, .. } = row;
     let is_task = route.parse::<TaskName>().is_ok();
@@ -77,13 +80,16 @@ fn address(results: &Results, row: &TrialRow) -> String {
     format!("`?scenario={route}&seed={seed}&preset={planner}`")
 }
 
-/// The largest share of a tilt limit that the robot came to; nothing where the trial did not run.
-fn limit_share(row: &TrialRow) -> f64 {
-    let limits = serde_json::from_str::<serde_json::Value>(&row.configuration);
-    let limit = |name: &str| limits.as_ref().ok().and_then(|limits| limits["limits"][name].as_f64());
-    let share = |angle_rad: Option<f64>, name: &str| Some(angle_rad? / limit(name)?);
-    let roll = share(row.max_abs_roll_rad, "roll_rad").unwrap_or_default();
-    roll.max(share(row.max_abs_pitch_rad, "pitch_rad").unwrap_or_default())
+/// The largest tilt utilisation: |angle| / limit of roll or pitch. `None` if the trial did not run, or if its
+/// configuration names no limits.
+fn tilt_utilisation(row: &TrialRow) -> Option<f64> {
+    let configuration = serde_json::from_str::<serde_json::Value>(&row.configuration).ok()?;
+    // Rows of campaigns before the robot's model have the limits in a table of their own.
+    let limit = |key: &str, former: &str| {
+        configuration["robot"][key].as_f64().or_else(|| configuration["limits"][former].as_f64())
+    };
+    let roll = row.max_abs_roll_rad? / limit("roll_limit_rad", "roll_rad")?;
+    Some(roll.max(row.max_abs_pitch_rad? / limit("pitch_limit_rad", "pitch_rad")?))
 }
 
 #[cfg(test)]
@@ -110,6 +116,27 @@ mod tests {
         assert!(text.contains("| `?scenario=gsb&seed=7&preset=default` |"), "{text}");
         assert!(text.contains("| `?scenario=easy-1-0001&seed=10&preset=paper` |"), "{text}");
         assert_eq!(text.matches("?scenario=").count(), 2, "{text}");
+    }
+
+    #[test]
+    fn the_limits_of_new_and_of_former_configurations_are_read() {
+        let tilted = |configuration: &str| TrialRow {
+            max_abs_roll_rad: Some(0.2),
+            max_abs_pitch_rad: Some(0.3),
+            configuration: configuration.to_owned(),
+            ..row("default", "a", "none", 1, "reached")
+        };
+        for limits in [
+            r#"{"robot": {"roll_limit_rad": 0.4, "pitch_limit_rad": 0.5}}"#,
+            r#"{"limits": {"roll_rad": 0.4, "pitch_rad": 0.5}}"#,
+        ] {
+            assert_eq!(tilt_utilisation(&tilted(limits)), Some(0.6), "{limits}");
+        }
+        assert_eq!(tilt_utilisation(&tilted(r#"{"robot": {"roll_limit_rad": 0.4}}"#)), None);
+        let own = serde_json::to_string(&mapless::PlannerConfig::default()).unwrap();
+        let limits = mapless::PlannerConfig::default().robot;
+        let expected = (0.2 / limits.roll_limit_rad).max(0.3 / limits.pitch_limit_rad);
+        assert_eq!(tilt_utilisation(&tilted(&own)), Some(expected));
     }
 
     #[test]
