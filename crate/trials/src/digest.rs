@@ -1,4 +1,4 @@
-//! A digest of a whole trajectory: the same bits, the same digest.
+//! Digest of a whole trajectory: equal bits give equal digests.
 
 use sha2::{Digest, Sha256};
 
@@ -17,7 +17,7 @@ impl TrajectoryDigest {
         }
     }
 
-    /// SHA-256 over what was added and the outcome so far, its first 16 bytes in hexadecimal.
+    /// SHA-256 over the added values and the outcome so far; its first 16 bytes in hexadecimal.
     pub(crate) fn hex(&self, outcome: Option<Outcome>) -> String {
         let mut hash = self.0.clone();
         hash.update(outcome.map_or("running", Outcome::name));

@@ -1,7 +1,7 @@
-//! Where a trial has been: copies of it along the way, to go back to.
+//! The history of a trial: copies of its state, for going back.
 //!
-//! A trial repeats itself from any of them, so that every tick in between is reached by running forward. The copies are
-//! bounded in number: when there are too many, every other one goes.
+//! A trial is deterministic, so every tick after a copy is reached by running forward from it. The number of
+//! copies is bounded: when there are too many, every other one is dropped.
 
 /// Copies of a state `S` by tick.
 #[derive(Clone, Debug)]
@@ -16,35 +16,35 @@ pub struct History<S> {
 struct Kept<S> {
     tick: u64,
     state: S,
-    /// Somebody changed the state here: running forward from an earlier copy does not lead to it.
+    /// The state was changed from outside here: running forward from an earlier copy does not reach it.
     changed: bool,
 }
 
 impl<S: Clone> History<S> {
-    /// A history that begins with `state` at `tick`. It keeps a copy every `spacing_ticks`, farther apart once there are
-    /// more than `most`.
+    /// A history that begins with `state` at `tick`. It keeps a copy every `spacing_ticks`, farther apart
+    /// once there are more than `most`.
     pub fn new(spacing_ticks: u64, most: usize, tick: u64, state: &S) -> Self {
         let first = Kept { tick, state: state.clone(), changed: true };
         Self { spacing_ticks: spacing_ticks.max(1), most: most.max(2), copies: vec![first], end_tick: tick }
     }
 
-    /// The earliest tick there is a way back to.
+    /// The earliest tick that can be gone back to.
     pub fn first_tick(&self) -> u64 {
         self.copies.first().map_or(self.end_tick, |copy| copy.tick)
     }
 
-    /// The latest tick that was reached.
+    /// The latest tick reached.
     pub fn end_tick(&self) -> u64 {
         self.end_tick
     }
 
-    /// Ticks at which the state was changed, the first one apart.
+    /// Ticks at which the state was changed from outside, the first one apart.
     pub fn changes(&self) -> impl Iterator<Item = u64> {
         self.copies.iter().skip(1).filter(|copy| copy.changed).map(|copy| copy.tick)
     }
 
-    /// Tells that `state` was reached at `tick`. In the recorded past it gives the state that was changed there, if one was:
-    /// what is played again is what happened.
+    /// Records that `state` was reached at `tick`. If `tick` lies in the recorded past and the state was
+    /// changed there, returns the changed state, so that a replay repeats what happened.
     pub fn reached(&mut self, tick: u64, state: &S) -> Option<&S> {
         if tick <= self.end_tick {
             let found = self.copies.iter().find(|copy| copy.tick == tick && copy.changed);
@@ -57,7 +57,7 @@ impl<S: Clone> History<S> {
         None
     }
 
-    /// Tells that somebody changed the state at `tick`: what came after it is no more.
+    /// Records a change of the state from outside at `tick`, and drops everything after it.
     pub fn changed(&mut self, tick: u64, state: &S) {
         self.copies.retain(|copy| copy.tick < tick);
         self.end_tick = tick;
@@ -78,7 +78,7 @@ impl<S: Clone> History<S> {
         self.spacing_ticks *= 2;
         let spacing = self.spacing_ticks;
         self.copies.retain(|copy| copy.changed || copy.tick.is_multiple_of(spacing));
-        // Only changes are left: the oldest are given up, and the history begins later.
+        // Only changes are left: the oldest are dropped, and the history begins later.
         let surplus = self.copies.len().saturating_sub(self.most);
         self.copies.drain(..surplus);
     }

@@ -1,7 +1,7 @@
-//! The closed loop: a planner drives a Husky over a terrain, and the paper's metrics say how well.
+//! The closed loop: a planner drives a Husky over a terrain, rated by the paper's metrics.
 //!
-//! [`Scenario`] reads the files under `terrains/scenarios/`, [`Trial`] runs one, [`Metrics`] are the six of the paper, and
-//! a digest over the whole trajectory shows that two runs had the same bits.
+//! [`Scenario`] reads the files under `terrains/scenarios/`, [`Trial`] runs one, [`Metrics`] are the six of
+//! the paper, and a digest over the whole trajectory shows that two runs had the same bits.
 
 mod digest;
 mod history;

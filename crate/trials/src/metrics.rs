@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// Below this speed the curvature |ω / v| has no meaning; such samples are left out of its change.
+/// Below this speed the curvature |ω / v| is undefined; such samples do not count in its change.
 const LEAST_SPEED_M_S: f64 = 0.05;
 
 /// The metrics of a trial so far.
@@ -18,7 +18,8 @@ pub struct Metrics {
     pub mean_vibration_rad_s: f64,
     /// Mean of |z'| over time, centimetres a second.
     pub mean_elevation_rate_cm_s: f64,
-    /// C_chg = 1/T ∫ |k'(t)| dt with k = |ω / v|. The integral's unit is rad/m, which the paper gives for the mean too.
+    /// C_chg = 1/T ∫ |k'(t)| dt with k = |ω / v|. The unit of the integral is rad/m, which the paper gives
+    /// for the mean too.
     pub curvature_change_rad_m: f64,
 }
 
@@ -36,7 +37,7 @@ impl Metrics {
     }
 }
 
-/// Collects the metrics from evenly spaced samples of the motion.
+/// Computes the metrics from evenly spaced samples of the motion.
 #[derive(Clone, Debug)]
 pub(crate) struct MetricsRecorder {
     last: Sample,
@@ -93,7 +94,7 @@ impl MetricsRecorder {
         }
     }
 
-    /// The metrics up to the last sample; zeros where no time has passed.
+    /// The metrics up to the last sample; zeros before any time has passed.
     pub(crate) fn metrics(&self) -> Metrics {
         let per_second = |total: f64| if self.time_s > 0.0 { total / self.time_s } else { 0.0 };
         Metrics {

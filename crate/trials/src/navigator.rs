@@ -1,11 +1,11 @@
-//! What can drive the robot of a trial: the one interface that the planner shares with those it is compared with.
+//! The interface of everything that drives the robot of a trial: the mapless planner and the baselines.
 
 use core::time::Duration;
 
 use glam::{DVec2, Vec3};
 use mapless::{Command, Goal, Planner, Pose, Status, StopReason};
 
-/// Why a navigator stands still for good.
+/// Why a navigator stopped for good.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NavigatorStop {
     /// The planner stopped.
@@ -16,23 +16,23 @@ pub enum NavigatorStop {
     NoPath,
 }
 
-/// What a navigator does.
+/// What a navigator is doing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Activity {
     /// Driving to the goal.
     Driving,
     /// The goal is reached.
     Arrived,
-    /// Going back along its own trajectory.
+    /// Backtracking along its own trajectory.
     Backtracking,
-    /// Turning on the spot to find a way on.
+    /// Turning on the spot to find a candidate (spin recovery).
     Searching,
-    /// Standing still, for this reason.
+    /// Stopped for this reason.
     Stopped(NavigatorStop),
 }
 
 impl Activity {
-    /// The name in files and in the page.
+    /// The name in files and on the page.
     pub fn name(self) -> &'static str {
         match self {
             Self::Driving => "driving",
@@ -56,35 +56,37 @@ impl From<Status> for Activity {
     }
 }
 
-/// What a navigator decided.
+/// The result of a navigator's step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decision {
-    /// What it does.
+    /// What the navigator is doing.
     pub activity: Activity,
     /// The velocity command.
     pub command: Command,
 }
 
-/// Something that drives a robot to a goal.
+/// Drives a robot to a goal.
 ///
-/// [`Planner`] knows only what it is given here. A navigator that knows more, as a map, gets it when it is made.
+/// [`Planner`] knows nothing but the arguments of [`navigate`](Self::navigate). A navigator with a map gets
+/// it on construction.
 pub trait Navigator {
-    /// One decision: `points_m` are the scan's returns in the sensor frame, `pose` the robot's in the world, `goal` where it is to go, and
-    /// `elapsed` the time since the decision before.
+    /// One decision. `points_m` are the scan's returns in the sensor frame, `pose` is the robot's pose in the
+    /// world, `goal` its goal, and `elapsed` the time since the last decision.
     fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal: &Goal, elapsed: Duration) -> Decision;
 
-    /// How far it looks: returns farther from the sensor than this change nothing. With 0 it looks at no scan, and gets none.
+    /// Range of the returns that the navigator uses: farther ones change nothing. A navigator with range 0
+    /// gets no scans.
     fn sight_m(&self) -> f64 {
         f64::INFINITY
     }
 
-    /// The fastest it drives.
+    /// Its maximum speed.
     fn max_speed_m_s(&self) -> f64;
 
-    /// Forgets everything seen and driven.
+    /// Forgets everything that was sensed and driven.
     fn reset(&mut self);
 
-    /// The subgoal it last chose, seen from above, in the world; `None` when there is none.
+    /// The last chosen subgoal, seen from above, in the world; `None` if there is none.
     fn subgoal_m(&self) -> Option<DVec2> {
         None
     }

@@ -1,4 +1,4 @@
-//! The ways in which a trial ends.
+//! Outcomes of a trial.
 
 /// How a trial ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -8,13 +8,13 @@ pub enum Outcome {
     Reached,
     /// Roll or pitch beyond its limit.
     TiltLimit,
-    /// A minute without getting anywhere.
+    /// A minute without progress.
     Stuck,
     /// The navigator stopped with a reason.
     NoSubgoal,
     /// A wheel would have left the terrain.
     LeftTerrain,
-    /// Too slow.
+    /// Over the time limit.
     Timeout,
 }
 

@@ -1,4 +1,4 @@
-//! Start, waypoints and goal as a scenario file writes them.
+//! Start, waypoints and goal in a scenario file.
 
 use std::fmt;
 
@@ -21,7 +21,7 @@ pub(crate) fn start<'de, D: Deserializer<'de>>(deserializer: D) -> Result<StartP
     Ok(StartPose { position_m: DVec2::new(x, y), heading_rad })
 }
 
-/// Reads `[x, y]` or `{ x, y }`, metres, and the heading to end with, radians, where there is a third number.
+/// Reads `[x, y]` or `{ x, y }`, metres; a third number, if there is one, is the final heading, radians.
 pub(crate) fn goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(DVec2, Option<f64>), D::Error> {
     let numbers = Numbers { names: ["x", "y", "heading"], required: 2 };
     let [x, y, heading_rad] = deserializer.deserialize_any(numbers)?;

@@ -1,4 +1,4 @@
-//! How well the elevation profile of a scan agrees with the true skyline of the ground.
+//! Accuracy of the elevation profile against the true skyline of the ground.
 
 use core::f64::consts::TAU;
 use core::time::Duration;
@@ -14,7 +14,7 @@ use mapless_world::{
 
 use crate::trial::TrialError;
 
-/// What a column shows, in truth or as perceived; the index of a row or column of the confusion matrix.
+/// The kind of a column, true or perceived; the index of a row or column of the confusion matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
     /// Ground up to a skyline.
@@ -30,24 +30,25 @@ pub enum ColumnKind {
 pub struct ProfileAccuracy {
     /// Poses scanned.
     pub poses: usize,
-    /// Mean over all columns that are ground in truth and as perceived, of the absolute difference in elevation.
+    /// Mean over all columns that are ground in truth and as perceived, of the absolute difference in
+    /// elevation.
     pub mean_abs_error_rad: f64,
     /// Mean of the difference, perceived less true.
     pub bias_rad: f64,
     /// The mean absolute error of the worst pose.
     pub worst_pose_error_rad: f64,
-    /// Number of that pose among those drawn, from zero; those where the robot could not stand count, too.
+    /// Index of that pose among those drawn, from zero; poses at which the robot is not safe count, too.
     pub worst_pose: u64,
     /// Columns, by truth and then by what was perceived, each in the order of [`ColumnKind`].
     pub confusion: [[usize; 3]; 3],
-    /// Ground taken for unknown although its neighbours on both sides were seen.
+    /// Ground taken for unknown although both neighbours were seen.
     pub holes: usize,
     /// Poses whose scan gave no posterior.
     pub no_perception: usize,
 }
 
-/// Compares profile and truth at `poses` random places and headings where the robot could stand within its limits, at
-/// least r_oc from the border.
+/// Compares profile and truth at `poses` random places and headings where the robot could stand within its
+/// limits, at least r_oc from the border.
 ///
 /// # Errors
 /// [`TrialError::Config`] names the configuration value that makes no sense.
@@ -65,7 +66,7 @@ pub fn profile_accuracy(
     let radius_m = planner.config().perception.surface_radius_m;
     let mut scan = Scan::default();
     let mut sums = Sums::default();
-    // Ground with nowhere to stand must not keep this going.
+    // Bounds the search on ground without a safe pose.
     for attempt in 0..100 * poses as u64 {
         if sums.accuracy.poses == poses {
             break;

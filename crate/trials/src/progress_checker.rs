@@ -1,4 +1,4 @@
-//! When a trial is given up: its robot does not get anywhere, or takes too long.
+//! The progress checker: ends a trial whose robot makes no progress or takes too long.
 
 use glam::DVec2;
 
@@ -7,16 +7,17 @@ use crate::outcome::Outcome;
 /// A robot that stays within this distance for this long is stuck.
 const STUCK_RADIUS_M: f64 = 0.5;
 const STUCK_AFTER_S: f64 = 60.0;
-/// A trial may last this long, in seconds, plus [`MOST_STRAIGHT_TIMES`].
+/// The time limit, in seconds, without its share for the distance.
 pub const BASE_TIME_LIMIT_S: f64 = 60.0;
-/// A trial may last so many times as long as the straight way takes at full speed, plus [`BASE_TIME_LIMIT_S`]. It ends what would go on for
-/// ever; a robot that is still looking for the way around has not failed.
+/// Multiple of the straight-line time at full speed that the time limit adds to [`BASE_TIME_LIMIT_S`]. It
+/// ends trials that would not end by themselves; a robot that is still searching for a path around has not
+/// failed.
 pub const MOST_STRAIGHT_TIMES: f64 = 48.0;
 
-/// How long the robot may still take.
+/// The progress and the time limit of a trial.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ProgressChecker {
-    /// Where it was when it last got on, and when.
+    /// Place and tick of the last progress.
     anchor_m: DVec2,
     since_tick: u64,
     period_s: f64,
@@ -24,15 +25,15 @@ pub(crate) struct ProgressChecker {
 }
 
 impl ProgressChecker {
-    /// With a robot that starts here and now towards a place that it could reach in `straight_s` at full speed; a tick takes
-    /// `period_s`.
+    /// For a robot that sets out from `here_m` towards a place that it could reach in `straight_s` at full
+    /// speed; a tick takes `period_s`.
     pub(crate) fn new(here_m: DVec2, tick: u64, period_s: f64, straight_s: f64) -> Self {
         let limit_s = tick as f64 * period_s + BASE_TIME_LIMIT_S + MOST_STRAIGHT_TIMES * straight_s;
         Self { anchor_m: here_m, since_tick: tick, period_s, limit_s }
     }
 
-    /// Whether the trial is given up, with the robot here and now, and why.
-    pub(crate) fn fails(&mut self, here_m: DVec2, tick: u64) -> Option<Outcome> {
+    /// The outcome, if the trial ends here for lack of progress or time.
+    pub(crate) fn check(&mut self, here_m: DVec2, tick: u64) -> Option<Outcome> {
         if (here_m - self.anchor_m).length() > STUCK_RADIUS_M {
             (self.anchor_m, self.since_tick) = (here_m, tick);
         } else if (tick - self.since_tick) as f64 * self.period_s > STUCK_AFTER_S {
@@ -53,17 +54,17 @@ mod tests {
     #[test]
     fn a_robot_that_gets_nowhere_is_stuck() {
         let mut checker = ProgressChecker::new(at(0.0), 1000, 0.1, 1000.0);
-        assert_eq!(checker.fails(at(0.5), 1600), None);
-        assert_eq!(checker.fails(at(0.6), 1607), None);
-        assert_eq!(checker.fails(at(0.2), 2207), None);
-        assert_eq!(checker.fails(at(0.2), 2208), Some(Outcome::Stuck));
+        assert_eq!(checker.check(at(0.5), 1600), None);
+        assert_eq!(checker.check(at(0.6), 1607), None);
+        assert_eq!(checker.check(at(0.2), 2207), None);
+        assert_eq!(checker.check(at(0.2), 2208), Some(Outcome::Stuck));
     }
 
     #[test]
     fn time_ends_after_so_many_times_the_straight_way_and_a_minute() {
         let mut checker = ProgressChecker::new(at(0.0), 100, 1.0, 20.0);
         let last = 100 + 60 + 48 * 20_u32;
-        assert!((100..=last).all(|second| checker.fails(at(f64::from(second)), second.into()).is_none()));
-        assert_eq!(checker.fails(at(f64::from(last + 1)), u64::from(last + 1)), Some(Outcome::Timeout));
+        assert!((100..=last).all(|second| checker.check(at(f64::from(second)), second.into()).is_none()));
+        assert_eq!(checker.check(at(f64::from(last + 1)), u64::from(last + 1)), Some(Outcome::Timeout));
     }
 }

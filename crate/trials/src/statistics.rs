@@ -1,8 +1,8 @@
-//! Statistics over many trials: what reports and the page print.
+//! Statistics over many trials, for reports and the page.
 
 use std::time::Duration;
 
-/// Mean and sample standard deviation; no deviation of a single value, nothing of none.
+/// Mean and sample standard deviation; no deviation for a single value, `None` without values.
 #[must_use]
 pub fn mean_and_deviation(values: &[f64]) -> Option<(f64, Option<f64>)> {
     let mean = mean(values)?;
@@ -11,13 +11,13 @@ pub fn mean_and_deviation(values: &[f64]) -> Option<(f64, Option<f64>)> {
     Some((mean, deviation))
 }
 
-/// The mean; nothing of none.
+/// The mean; `None` without values.
 #[must_use]
 pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// The median; nothing of none.
+/// The median; `None` without values.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
@@ -26,13 +26,13 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
     Some(if values.len() % 2 == 1 { upper } else { (values[middle - 1] + upper) / 2.0 })
 }
 
-/// The nearest-rank percentile of sorted values: one that is there. Nothing of none.
+/// The nearest-rank percentile of sorted values; `None` without values.
 fn percentile<T: Copy>(sorted: &[T], percent: usize) -> Option<T> {
     let rank = (sorted.len() * percent).div_ceil(100).max(1);
     sorted.get(rank - 1).copied()
 }
 
-/// Nearest-rank percentiles of measured times, in milliseconds; zeros where there are none.
+/// Nearest-rank percentiles of measured times, in milliseconds; zeros without values.
 #[must_use]
 pub fn percentiles_ms<const N: usize>(mut times: Vec<Duration>, percents: [usize; N]) -> [f64; N] {
     times.sort_unstable();
@@ -42,7 +42,8 @@ pub fn percentiles_ms<const N: usize>(mut times: Vec<Duration>, percents: [usize
 /// Standard normal quantile of a two-sided 95 % interval.
 const Z: f64 = 1.959_963_984_540_054;
 
-/// Wilson's 95 % interval of the rate behind `successes` of `trials` (Wilson 1927, without continuity correction).
+/// Wilson's 95 % interval of the rate of `successes` in `trials` (Wilson 1927,
+/// <https://doi.org/10.1080/01621459.1927.10502953>, without continuity correction).
 #[must_use]
 pub fn wilson(successes: usize, trials: usize) -> (f64, f64) {
     if trials == 0 {
@@ -56,7 +57,8 @@ pub fn wilson(successes: usize, trials: usize) -> (f64, f64) {
     (((centre - half) / scale).max(0.0), ((centre + half) / scale).min(1.0))
 }
 
-/// Two-sided sign test: how likely chance alone divides pairs as unevenly as this, or more so. Even pairs count for neither side.
+/// Two-sided sign test: the probability that chance alone divides pairs as unevenly as this, or more. Even
+/// pairs do not count.
 #[must_use]
 pub fn sign_test(lower: usize, higher: usize) -> f64 {
     let pairs = lower + higher;
@@ -65,13 +67,14 @@ pub fn sign_test(lower: usize, higher: usize) -> f64 {
         tail += ways;
         ways *= (pairs - fewer) as f64 / (fewer + 1) as f64;
     }
-    // A shift by so many pairs would overflow.
+    // A shift by this many bits would overflow.
     let all = (0..pairs).fold(1.0, |all, _| 2.0 * all);
     (2.0 * tail / all).min(1.0)
 }
 
-/// Success weighted by path length (Anderson et al. 2018): the mean over all trials of what the shortest path is to the
-/// driven one, with nothing for a failure. Each trial gives the driven length where it succeeded, and the shortest.
+/// Success weighted by path length (Anderson et al. 2018, <https://arxiv.org/abs/1807.06757>): the mean over
+/// all trials of shortest / driven length, 0 for a failure. Each trial has its driven length, if it
+/// succeeded, and its shortest.
 #[must_use]
 pub fn spl(trials: &[(Option<f64>, f64)]) -> Option<f64> {
     let shares: Vec<f64> = trials
@@ -142,7 +145,7 @@ mod tests {
 
     #[test]
     fn spl_by_hand() {
-        // Twice the shortest way, a failure, and a way shorter than the search's grid allows.
+        // Twice the shortest path, a failure, and a path shorter than the search's grid allows.
         let trials = [(Some(20.0), 10.0), (None, 10.0), (Some(9.0), 10.0)];
         close(spl(&trials).unwrap(), (0.5 + 0.0 + 1.0) / 3.0);
         assert_eq!(spl(&[]), None);

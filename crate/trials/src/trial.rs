@@ -94,7 +94,8 @@ impl Trial {
         Self::with_navigator(field, scenario, planner, seed)
     }
 
-    /// Changes the ground under way; the robot settles on it and forgets what it remembers of it. Gives the samples that changed.
+    /// Changes the ground under way; the robot settles on it and forgets what it remembers of it. Gives the
+    /// samples that changed.
     ///
     /// # Errors
     /// [`TrialError::Config`] for a brush that makes no sense.
@@ -102,7 +103,7 @@ impl Trial {
         let changed = Arc::make_mut(&mut self.caster)
             .sculpt(brush)
             .map_err(|e| TrialError::Config(format!("brush.{e}")))?;
-        self.stand_anew(changed.is_some());
+        self.settle(changed.is_some());
         Ok(changed)
     }
 
@@ -114,12 +115,12 @@ impl Trial {
         Arc::make_mut(&mut self.caster)
             .replace(rect, heights_m)
             .map_err(|e| TrialError::Config(e.to_string()))?;
-        self.stand_anew(true);
+        self.settle(true);
         Ok(())
     }
 
     /// After the ground may have changed.
-    fn stand_anew(&mut self, changed: bool) {
+    fn settle(&mut self, changed: bool) {
         if changed {
             self.navigator.reset();
         }
@@ -150,7 +151,8 @@ impl Trial {
 }
 
 impl<N: Navigator> Trial<N> {
-    /// Puts the scenario's robot on `field`, with `navigator` to drive it; the scenario's `[planner]` section is left unread.
+    /// Puts the scenario's robot on `field`, with `navigator` to drive it; the scenario's `[planner]` section
+    /// is left unread.
     ///
     /// # Errors
     /// [`TrialError`] for a start or goal off the terrain or a sensor or robot that makes no sense.
@@ -183,11 +185,12 @@ impl<N: Navigator> Trial<N> {
             progress: ProgressChecker::default(),
             outcome: None,
         };
-        trial.allow_time();
+        trial.restart_time_limit();
         Ok(trial)
     }
 
-    /// Runs one planning period: [`Trial::look`], [`Trial::plan`], [`Trial::act`]. Does nothing once the trial has ended.
+    /// Runs one planning period: [`Trial::look`], [`Trial::plan`], [`Trial::act`]. Does nothing once the
+    /// trial has ended.
     pub fn tick(&mut self) -> Option<Outcome> {
         if self.outcome.is_none() {
             self.look();
@@ -206,7 +209,8 @@ impl<N: Navigator> Trial<N> {
         }
     }
 
-    /// As [`Trial::look`], as far as the sensor sees. It takes longer and decides the same; for those who look on.
+    /// As [`Trial::look`], as far as the sensor sees. It takes longer and decides the same; for those who
+    /// look on.
     pub fn look_far(&mut self) {
         if self.navigator.sight_m() > 0.0 {
             self.look_as_far_as(f64::INFINITY);
@@ -236,7 +240,7 @@ impl<N: Navigator> Trial<N> {
         self.outcome = match activity {
             Activity::Arrived if self.passed < self.waypoints_m.len() => {
                 self.passed += 1;
-                self.allow_time();
+                self.restart_time_limit();
                 self.drive(command)
             }
             Activity::Arrived => Some(Outcome::Reached),
@@ -245,7 +249,7 @@ impl<N: Navigator> Trial<N> {
         };
         self.tick += 1;
         let here_m = self.husky.state().position;
-        self.outcome = self.outcome.or_else(|| self.progress.fails(here_m, self.tick));
+        self.outcome = self.outcome.or_else(|| self.progress.check(here_m, self.tick));
         self.outcome
     }
 
@@ -273,7 +277,7 @@ impl<N: Navigator> Trial<N> {
     }
 
     /// Allows anew the time to the target.
-    fn allow_time(&mut self) {
+    fn restart_time_limit(&mut self) {
         let here_m = self.husky.state().position;
         let speed_m_s = self.navigator.max_speed_m_s().min(self.husky.config().max_speed_m_s);
         let straight_s = (self.target_m() - here_m).length() / speed_m_s;
@@ -288,7 +292,8 @@ impl<N: Navigator> Trial<N> {
         self.set_route(Vec::new(), goal_m, None)
     }
 
-    /// As [`Trial::set_goal`], with waypoints to drive to before, one after the other, and the heading to end with, if any.
+    /// As [`Trial::set_goal`], with waypoints to drive to before, one after the other, and the heading to end
+    /// with, if any.
     ///
     /// # Errors
     /// [`TrialError::OffTerrain`]; the route then stays as it was.
@@ -324,7 +329,7 @@ impl<N: Navigator> Trial<N> {
     /// Lets an ended trial go on, after a change.
     fn resume(&mut self) {
         self.outcome = None;
-        self.allow_time();
+        self.restart_time_limit();
     }
 
     /// How the trial ended; `None` while it runs.

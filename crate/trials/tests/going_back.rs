@@ -1,5 +1,5 @@
-//! Going back in a trial and driving on gives the bits of an uninterrupted one, and so does looking farther than the planner minds; waypoints come before the
-//! goal.
+//! A trial that goes back and runs forward again has the bits of an uninterrupted one, and so has one with a
+//! longer sensor range than the planner uses; waypoints come before the goal.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use glam::DVec2;

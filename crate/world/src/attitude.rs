@@ -1,4 +1,4 @@
-//! How a rigid body on four wheels rests on the ground.
+//! The attitude of a rigid body on four wheels on the ground.
 
 use crate::height_field::HeightField;
 use crate::husky_config::HuskyConfig;
@@ -15,11 +15,11 @@ pub struct Attitude {
     pub pitch_rad: f64,
 }
 
-/// The contacts move with the tilt and the tilt with the contacts; on a plane the first round is exact, on ground
-/// curved at the scale of the wheelbase four rounds leave less than a milliradian.
+/// The contacts move with the tilt and the tilt with the contacts. On a plane the first iteration is exact;
+/// on ground curved at the scale of the wheelbase four iterations leave less than a milliradian.
 const ROUNDS: usize = 4;
 
-/// The attitude of a Husky that stands at `position` with heading `yaw_rad`, or `None` when a wheel is off the terrain.
+/// The attitude of a Husky at `position` with heading `yaw_rad`; `None` if a wheel is off the terrain.
 ///
 /// The contact plane is the least-squares plane through the four points of the ground under the wheels.
 #[must_use]
@@ -46,7 +46,8 @@ pub fn attitude_on(
         let front_right = ground(ahead - aside)?;
         let rear_left = ground(aside - ahead)?;
         let rear_right = ground(-ahead - aside)?;
-        // The four offsets are ±ahead ± aside, so the normal equations of the plane fall apart into these differences.
+        // The four offsets are ±ahead ± aside, so the normal equations of the plane fall apart into these
+        // differences.
         let rise_ahead = (front_left + front_right - rear_left - rear_right) / 4.0;
         let rise_aside = (front_left - front_right + rear_left - rear_right) / 4.0;
         let slope_ahead = rise_ahead / ahead.x;

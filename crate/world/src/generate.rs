@@ -1,9 +1,10 @@
-//! Terrains by seed, that nobody shaped for a planner: recipes of a named difficulty.
+//! Terrains by seed, not shaped for any planner: recipes of a named difficulty.
 //!
-//! A terrain is a square of 50 to 80 m. One to three kinds of landform share it: hills and basins, ridges with passes, valleys
-//! with fords, terraces with ramps, craters and ditches, rough ground. A difficulty says how steep their flanks are, how many
-//! there are and how rough everything is. A bank too steep to climb closes the terrain, because no planner can see that a
-//! world ends. The same seed and difficulty give the same recipe, to the byte.
+//! A terrain is a square of 50 to 80 m with one to three kinds of landform: hills and basins, ridges with
+//! passes, valleys with fords, terraces with ramps, craters and ditches, rough ground. A difficulty sets the
+//! slope of their flanks, their number and the roughness. A bank too steep to climb closes the terrain,
+//! because no planner can see that a world ends. The same seed and difficulty give the same recipe, to the
+//! byte.
 
 mod landforms;
 mod writer;
@@ -28,11 +29,11 @@ pub enum Difficulty {
     Easy,
     /// Many flanks have to be gone around.
     Moderate,
-    /// Most flanks have to be gone around, and the ways between are rough.
+    /// Most flanks have to be gone around, and the ground between is rough.
     Hard,
 }
 
-/// What a difficulty means. Slopes are rise over run; each is drawn anew for every landform.
+/// The parameters of a difficulty. Slopes are rise over run, drawn for every landform.
 struct Level {
     /// Steepest slope of a landform's flank.
     flank: [f64; 2],
@@ -46,7 +47,7 @@ struct Level {
     roughness_m: [f64; 2],
 }
 
-/// The levels, easy first. What they come to is measured: `mapless generate` prints it.
+/// The levels, easy first. `mapless generate` prints the slopes that result.
 const LEVELS: [Level; 3] = [
     Level {
         flank: [0.25, 0.75],

@@ -69,8 +69,9 @@ pub enum FieldError {
 
 /// The ground: heights on a regular grid, row 0 = south, column 0 = west, the south-west sample at (0, 0).
 ///
-/// Between four samples the surface is the bilinear patch through them, so the ground is continuous everywhere and
-/// smooth inside each cell. The ground exists on the closed rectangle from (0, 0) to [`HeightField::extent_m`].
+/// Between four samples the surface is the bilinear patch through them, so the ground is continuous
+/// everywhere and smooth inside each cell. The ground exists on the closed rectangle from (0, 0) to
+/// [`HeightField::extent_m`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightField {
     columns: usize,
@@ -79,7 +80,8 @@ pub struct HeightField {
     heights_m: Vec<f32>,
 }
 
-/// One bilinear patch: `h(u, v) = h00 + along_u u + along_v v + twist u v`, with u, v in [0, 1] across the cell.
+/// One bilinear patch: `h(u, v) = h00 + along_u u + along_v v + twist u v`, with u, v in [0, 1] across the
+/// cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patch {
     pub(crate) h00: f64,
@@ -172,8 +174,8 @@ impl HeightField {
         Some(patch.height(u, v))
     }
 
-    /// Gradient (dz/dx, dz/dy) of the ground; `None` off the terrain. On an edge between cells it is that of the cell
-    /// to the north-east.
+    /// Gradient (dz/dx, dz/dy) of the ground; `None` off the terrain. On an edge between cells it is that of
+    /// the cell to the north-east.
     #[must_use]
     pub fn gradient(&self, position: DVec2) -> Option<DVec2> {
         let (patch, u, v) = self.locate(position)?;
@@ -214,8 +216,8 @@ impl HeightField {
     }
 }
 
-/// Checks the shape of a grid before its heights are read, so that nothing absurd is allocated. Returns the number
-/// of samples.
+/// Checks the shape of a grid before its heights are read, so that nothing absurd is allocated. Returns the
+/// number of samples.
 pub(crate) fn check_grid(columns: usize, rows: usize, cell_m: f64) -> Result<usize, FieldError> {
     if columns < 2 || rows < 2 {
         return Err(FieldError::TooFewSamples { columns, rows });

@@ -1,9 +1,9 @@
-//! Where a robot can stand, on a terrain nobody has chosen places for.
+//! Safe places on a terrain without chosen ones.
 
 use crate::height_field::HeightField;
 use glam::DVec2;
 
-/// How far from a place the ground is looked at: a Husky turns within this.
+/// Radius around a place within which the ground is checked: a Husky turns within it.
 const REACH_M: f64 = 0.8;
 /// Candidates along a side of the corner that is searched.
 const CANDIDATES: u32 = 24;

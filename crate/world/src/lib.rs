@@ -1,11 +1,11 @@
 //! The simulated world of `mapless`: terrain, a VLP-16 laser scanner and a Husky robot.
 //!
-//! World frame: x east, y north, z up, with the origin at the south-west corner of the terrain. Robot frame: x
-//! forward, y left, z up. Pitch is positive nose-up, roll positive with the left side up, yaw positive
+//! World frame: x east, y north, z up, with the origin at the south-west corner of the terrain. Robot frame:
+//! x forward, y left, z up. Pitch is positive nose-up, roll positive with the left side up, yaw positive
 //! counter-clockwise from east. Lengths are in metres, angles in radians.
 //!
-//! Everything here is a pure function of its arguments and gives the same bits natively and on wasm: no clock, no
-//! threads, no hidden random state.
+//! Everything here is a pure function of its arguments and gives the same bits natively and on wasm: no
+//! clock, no threads, no hidden random state.
 
 // Tests state exact values where the arithmetic is exact.
 #![cfg_attr(test, allow(clippy::float_cmp))]

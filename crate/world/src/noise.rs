@@ -28,7 +28,8 @@ const GRADIENTS: [[f64; 2]; 16] = {
     ]
 };
 
-/// Noise of one seed, quick where places come one after the other: it remembers the lattice cell of the last one.
+/// Noise of one seed, quick where places come one after the other: it remembers the lattice cell of the last
+/// one.
 pub(crate) struct GradientNoise {
     seed: u64,
     /// Column and row of the cell.

@@ -1,5 +1,5 @@
-//! Randomness without state: a value depends only on its counters, so a run can be resumed at any tick and beams can be
-//! drawn in any order.
+//! Randomness without state: a value depends only on its counters, so a run can be resumed at any tick and
+//! beams can be drawn in any order.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -7,7 +7,8 @@ use std::sync::LazyLock;
 /// The odd constant of the Weyl sequence of `SplitMix64`.
 const WEYL: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// The output function of `SplitMix64` (Steele, Lea and Flood, 2014): every bit of the result depends on every bit of `x`.
+/// The output function of `SplitMix64` (Steele, Lea and Flood, 2014): every bit of the result depends on
+/// every bit of `x`.
 fn mix(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -28,7 +29,8 @@ pub fn uniform(key: u64) -> f64 {
 const LAYERS: usize = 256;
 /// Where the lowest layer's tail begins, for this number of layers.
 const TAIL: f64 = 3.654_152_885_361_009;
-/// The right edges of the layers from the lowest up, the first as if its tail were part of the rectangle, and a last one of 0.
+/// The right edges of the layers from the lowest up, the first as if its tail were part of the rectangle, and
+/// a last one of 0.
 static EDGES: LazyLock<[f64; LAYERS + 1]> = LazyLock::new(|| {
     let area = TAIL * density(TAIL) + (PI / 2.0).sqrt() * libm::erfc(TAIL / 2.0f64.sqrt());
     let mut edges = [0.0; LAYERS + 1];
@@ -46,9 +48,9 @@ fn density(x: f64) -> f64 {
     libm::exp(-0.5 * x * x)
 }
 
-/// A standard normal number, by the ziggurat method (Marsaglia and Tsang, 2000): nearly always a point in a rectangle under the
-/// density, otherwise one drawn in what the rectangles leave out. The layer and the place in it come from different
-/// bits (Doornik, 2005).
+/// A standard normal number, by the ziggurat method (Marsaglia and Tsang, 2000): nearly always a point in a
+/// rectangle under the density, otherwise one drawn in what the rectangles leave out. The layer and the place
+/// in it come from different bits (Doornik, 2005).
 pub fn gaussian(key: u64) -> f64 {
     let edges = &*EDGES;
     let mut key = key;

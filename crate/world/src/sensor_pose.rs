@@ -1,8 +1,8 @@
-//! Where a sensor is.
+//! The pose of a sensor.
 
 use glam::{DMat3, DVec3};
 
-/// Where the sensor is. Its axes are those of the robot.
+/// The pose of a sensor. Its axes are those of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorPose {
     /// World position, in metres.

@@ -1,10 +1,10 @@
-//! The true elevation profile of the ground around a sensor, against which perception is judged.
+//! The true elevation profile of the ground around a sensor, the reference for perception.
 
 use crate::caster::{Caster, Fan};
 use crate::sensor_pose::SensorPose;
 use crate::vlp16::{RING_COUNT, ring_elevation_rad};
 
-/// What a sensor would see at one azimuth if its beams were infinitely dense.
+/// The true skyline at one azimuth: what infinitely dense beams would show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Skyline {
     /// No ground within the radius at any elevation of the sensor: a crest or a drop.
@@ -23,8 +23,8 @@ const COARSE_STEPS: usize = 120;
 /// Halvings of a coarse step; they leave half a microradian.
 const HALVINGS: usize = 13;
 
-/// The skyline at an azimuth in the sensor frame, from ground within `radius_m` metres of the sensor and elevations
-/// from that of the lowest ring to that of the highest.
+/// The skyline at an azimuth in the sensor frame, from ground within `radius_m` metres of the sensor and
+/// elevations from that of the lowest ring to that of the highest.
 #[must_use]
 pub fn true_skyline(caster: &Caster, pose: &SensorPose, radius_m: f64, azimuth_rad: f64) -> Skyline {
     let (sin_azimuth, cos_azimuth) = libm::sincos(azimuth_rad);

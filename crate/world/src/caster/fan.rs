@@ -7,9 +7,9 @@ use glam::DVec3;
 /// The rays of a sensor at one azimuth, cast in ascending order of elevation.
 ///
 /// In the plane of these rays, ground above a lower ray would have to reach down to it, unless the ground is
-/// steeper than the sensor's downward axis. So a ray is free at least as far as the ray below it, and only the rest
-/// needs to be walked: a whole fan costs little more than one ray along its skyline. On ground too steep for this, and with a
-/// sensor beside the terrain, every ray is walked from its origin.
+/// steeper than the sensor's downward axis. So a ray is free at least as far as the ray below it, and only
+/// the rest needs to be walked: a whole fan costs little more than one ray along its skyline. On ground too
+/// steep for this, and with a sensor beside the terrain, every ray is walked from its origin.
 #[derive(Clone)]
 pub(crate) struct Fan<'a> {
     caster: &'a Caster,
@@ -38,13 +38,13 @@ impl<'a> Fan<'a> {
             ahead,
             up,
             can_skip: !is_finite || is_gentle && caster.field.contains(pose.position.truncate()),
-            // Rays that are no rays meet nothing.
+            // Rays with a non-finite pose meet nothing.
             free_m: if is_finite { 0.0 } else { f64::INFINITY },
         }
     }
 
-    /// Range in metres to the ground at the elevation with this sine and cosine, which must not be lower than the one
-    /// before; see [`Caster::cast`].
+    /// Range in metres to the ground at the elevation with this sine and cosine, which must not be lower than
+    /// the one before; see [`Caster::cast`].
     pub(crate) fn cast(&mut self, sin_elevation: f64, cos_elevation: f64, max_range_m: f64) -> Option<f64> {
         let direction = self.ahead * cos_elevation + self.up * sin_elevation;
         let begin_m = if self.can_skip { (self.free_m / cos_elevation - SLACK_M).max(0.0) } else { 0.0 };

@@ -1,10 +1,11 @@
 //! Exact ray casting against the bilinear height field.
 //!
-//! A ray walks over the plan view of a pyramid like that of Tevs, Ihrke and Seidel ("Maximum mipmaps for fast, accurate, and
-//! scalable dynamic height field rendering", 2008), but of planes instead of highest points: over a node whose plane lies
-//! wholly below the ray it goes in one step, otherwise down to the plane, and on with a finer node from there. In a single
-//! cell the meeting with the bilinear patch is the first root of a quadratic. A ray starts above the ground and must
-//! cross it from above, so planes below the ground would decide nothing.
+//! A ray traverses a pyramid in plan view like that of Tevs, Ihrke and Seidel ("Maximum mipmaps for fast,
+//! accurate, and scalable dynamic height field rendering", 2008, <https://doi.org/10.1145/1342250.1342279>),
+//! but of planes instead of maxima: a node whose plane lies wholly below the ray is crossed in one step;
+//! otherwise the ray goes down to the plane, and on with a finer node from there. Within a single cell the
+//! intersection with the bilinear patch is the first root of a quadratic. A ray starts above the ground and
+//! must cross it from above, so planes below the ground would decide nothing.
 
 mod fan;
 mod patch;
@@ -20,7 +21,7 @@ pub(crate) use fan::Fan;
 
 /// A height field prepared for ray casting.
 ///
-/// It owns the field, so that the ground and its hierarchy cannot part: change it through [`Caster::sculpt`] and
+/// It owns the field, so that ground and hierarchy stay consistent: change it through [`Caster::sculpt`] and
 /// [`Caster::replace`].
 #[derive(Clone, Debug)]
 pub struct Caster {
@@ -37,17 +38,18 @@ struct GridRay {
     z_step: f64,
 }
 
-/// What a stretch of a ray meets.
+/// The result of tracing an interval of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Trace {
     /// The ground, at this distance in metres.
     Ground(f64),
-    /// Nothing up to this distance in metres, where the stretch or the terrain ends; it is infinite for a ray that has risen
-    /// above all ground.
+    /// Nothing up to this distance in metres, where the interval or the terrain ends; infinite for a ray that
+    /// has risen above all ground.
     Nothing(f64),
 }
 
-/// The level at which a walk begins: rays begin close above the ground, where large nodes are seldom clear.
+/// The level at which a traversal begins: rays begin close above the ground, where large nodes are seldom
+/// clear.
 const FIRST_LEVEL: usize = 1;
 
 impl Caster {
@@ -64,13 +66,14 @@ impl Caster {
         &self.field
     }
 
-    /// Gives the field back.
+    /// Returns the field.
     #[must_use]
     pub fn into_field(self) -> HeightField {
         self.field
     }
 
-    /// Shapes the ground with a brush and updates the hierarchy where it changed; see [`HeightField::sculpt`].
+    /// Shapes the ground with a brush and updates the hierarchy where it changed; see
+    /// [`HeightField::sculpt`].
     ///
     /// # Errors
     /// [`ConfigError`] when the brush is not valid.
@@ -92,11 +95,12 @@ impl Caster {
         Ok(())
     }
 
-    /// Distance in metres from `origin` along the unit vector `direction` to the first point of the ground, at most
-    /// `max_range_m`.
+    /// Distance in metres from `origin` along the unit vector `direction` to the first point of the ground,
+    /// at most `max_range_m`.
     ///
-    /// Rules at the edges: a ray that starts below the ground has no return; a ray that starts beside the terrain
-    /// sees it from outside, but not through the cut below its border; a non-finite ray has no return.
+    /// Rules at the edges: a ray that starts below the ground has no return; a ray that starts beside the
+    /// terrain sees it from outside, but not through the cut below its border; a non-finite ray has no
+    /// return.
     #[must_use]
     pub fn cast(&self, origin: DVec3, direction: DVec3, max_range_m: f64) -> Option<f64> {
         if !(origin.is_finite() && direction.is_finite() && max_range_m >= 0.0) {
@@ -108,7 +112,8 @@ impl Caster {
         }
     }
 
-    /// The first ground on a finite ray from `begin_m` to `end_m`; before `begin_m` the ray must be known to be free.
+    /// The first ground on a finite ray from `begin_m` to `end_m`; before `begin_m` the ray must be known to
+    /// be free.
     fn trace(&self, origin: DVec3, direction: DVec3, begin_m: f64, end_m: f64) -> Trace {
         let (mut begin, mut end) = (begin_m, end_m);
         // Above the highest point there is nothing to hit.

@@ -1,13 +1,13 @@
-//! The meeting of a ray with one bilinear patch.
+//! The intersection of a ray with one bilinear patch.
 
 use super::GridRay;
 use crate::height_field::HeightField;
 
 /// The first parameter in `begin..=exit` at which the ray is on or below the patch of `cell`.
 ///
-/// The clearance of the ray above the patch is a quadratic `a s² + b s + c` of the way `s` since `begin`. A
-/// ray that has slipped below the ground by a rounding error at the edge of two cells meets it at `begin`, so the
-/// surface has no cracks.
+/// The clearance of the ray above the patch is a quadratic `a s² + b s + c` of the distance `s` since
+/// `begin`. A ray that has slipped below the ground by a rounding error at the edge of two cells meets it at
+/// `begin`, so the surface has no cracks.
 pub(super) fn first_meeting(
     field: &HeightField,
     ray: &GridRay,
@@ -28,7 +28,8 @@ pub(super) fn first_meeting(
     (s <= exit - begin).then_some(begin + s)
 }
 
-/// The smallest positive root of `a s² + b s + c` for `c > 0`, without cancellation and for any `a`, zero included.
+/// The smallest positive root of `a s² + b s + c` for `c > 0`, without cancellation and for any `a`, zero
+/// included.
 fn first_positive_root(a: f64, b: f64, c: f64) -> Option<f64> {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {

@@ -3,10 +3,10 @@
 use crate::height_field::HeightField;
 use crate::sculpt::SampleRect;
 
-/// A plane that no point of a node lies above.
+/// A plane that bounds a node from above.
 ///
-/// On a slope a plane is as tight as the ground is smooth, where a highest point would bar every ray that passes less than
-/// the node's rise above it.
+/// On a slope a plane is as tight as the ground is smooth, where a maximum would block every ray that passes
+/// less than the node's rise above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Plane {
     /// Height at the south-west corner of the field, in metres.
@@ -133,7 +133,8 @@ impl Pyramid {
         }
     }
 
-    /// The plane above a node of level 2 or more: with the mean rise of the nodes below it, above their corners.
+    /// The plane above a node of level 2 or more: with the mean rise of the nodes below it, above their
+    /// corners.
     fn above_nodes(&self, field: &HeightField, level: usize, node: [usize; 2]) -> Plane {
         let below = &self.levels[level - 2];
         let [first_column, first_row] = node.map(|index| index * SIDE);

@@ -1,4 +1,4 @@
-//! The hierarchy against two independent ways to find the same point.
+//! The hierarchy against two independent methods.
 
 use super::*;
 use glam::DVec2;

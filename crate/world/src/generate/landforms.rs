@@ -1,7 +1,7 @@
 //! The kinds of landform.
 //!
-//! Each draws the steepest slope of a flank and a size; height or depth follow from both. Counts are those of a moderate
-//! terrain of 65 m with this kind alone.
+//! Each draws the steepest slope of a flank and a size; height or depth follow from both. Counts are those of
+//! a moderate terrain of 65 m with this kind alone.
 
 use super::writer::Writer;
 use crate::random::Sequence;
@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 const GAUSSIAN_SLOPE: f64 = 0.607;
 /// Steepest slope of a smooth step of unit height and unit width.
 const STEP_SLOPE: f64 = 1.5;
-/// Slope of a pass or a ford: every Husky may take it in every direction.
+/// Slope of a pass or a ford: safe for a Husky in every direction.
 const PASS_SLOPE: [f64; 2] = [0.05, 0.30];
 
 /// The square to be shaped.
@@ -20,7 +20,7 @@ pub(super) struct Site {
     pub(super) side_m: f64,
     /// Steepest slope of a flank, from and to.
     pub(super) flank: [f64; 2],
-    /// How many landforms there are, in those of a moderate terrain with one kind alone.
+    /// Number of landforms, as a share of those on a moderate terrain with one kind alone.
     pub(super) share: f64,
 }
 
@@ -39,7 +39,7 @@ pub(super) const LANDFORMS: [Landform; 6] = [
 ];
 
 impl Site {
-    /// A number of landforms of which there are `usual` on a moderate terrain of 65 m; at least one.
+    /// A number of landforms, `usual` on a moderate terrain of 65 m; at least one.
     fn count(&self, usual: f64, draw: &mut Sequence) -> u32 {
         let area = self.side_m / 65.0;
         ((usual * self.share * area * area * draw.between([0.8, 1.2])).round() as u32).max(1)
@@ -68,7 +68,7 @@ impl Site {
         (0..=count as u32).map(|index| at(index, draw)).collect()
     }
 
-    /// A slope for each point of a line: that of a flank, but of a pass at one point in three or four.
+    /// A slope for each point of a line: that of a flank, but that of a pass at one point in three or four.
     fn slopes_with_passes(&self, count: usize, draw: &mut Sequence) -> Vec<f64> {
         let flank = self.slope(draw);
         let every = draw.whole([3, 4]);

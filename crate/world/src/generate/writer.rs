@@ -3,7 +3,7 @@
 use glam::DVec2;
 use std::fmt::Write as _;
 
-/// Collects tables. Trails come after all else in a recipe, wherever they stand in it.
+/// Collects tables. Trails are applied after all other features, wherever they stand in the recipe.
 #[derive(Default)]
 pub(super) struct Writer(String);
 

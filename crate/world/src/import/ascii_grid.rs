@@ -1,7 +1,7 @@
 //! ESRI ASCII grid: a header of keys and values, then the heights from the north-west, row by row.
 //!
-//! Heights are samples at the cell centres, so the corner and the centre variant of the origin give the same local
-//! grid. Holes (`NODATA_value`) are refused.
+//! Heights are samples at the cell centres, so the corner and the centre variant of the origin give the same
+//! local grid. Holes (`NODATA_value`) are refused.
 
 use super::south_first;
 use crate::height_field::{HeightField, check_grid};

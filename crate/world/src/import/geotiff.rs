@@ -8,7 +8,8 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 use tiff::{ColorType, TiffError};
 
-/// The key of the coordinate system's kind in a `GeoKeyDirectory`, and its value for degrees of longitude and latitude.
+/// The key of the coordinate system's kind in a `GeoKeyDirectory`, and its value for degrees of longitude and
+/// latitude.
 const MODEL_TYPE_KEY: u16 = 1024;
 const GEOGRAPHIC: u16 = 2;
 

@@ -1,4 +1,5 @@
-//! Height grids from other programs. Geographic origins are ignored: local coordinates begin at the south-west sample.
+//! Height grids from other programs. Geographic origins are ignored: local coordinates begin at the
+//! south-west sample.
 
 mod ascii_grid;
 mod geotiff;

@@ -4,21 +4,21 @@ use crate::height_field::HeightField;
 use glam::DVec2;
 use std::ops::Range;
 
-/// Samples that all features and strokes of a recipe may touch, each time counted anew: a few seconds of work, more than a
-/// day's sculpting, and fifteen features as large as the largest terrain.
+/// Bound on the samples that all features and strokes of a recipe touch, each time counted: a few seconds of
+/// work, more than a day's sculpting, and fifteen features as large as the largest terrain.
 pub(super) const MAX_TOUCHED_SAMPLES: usize = 250_000_000;
 
-/// What a recipe has cost until now.
+/// The samples that a recipe has touched so far.
 #[derive(Default)]
 pub(super) struct Effort {
     pub(super) samples: usize,
 }
 
-/// More samples, which is how many, than a recipe may touch.
+/// More samples than a recipe may touch.
 pub(super) struct TooMuch(pub(super) usize);
 
 impl Effort {
-    /// Notes that `samples` are about to be touched, unless that is too much.
+    /// Adds `samples` to those touched, unless that is too many.
     pub(super) fn spend(&mut self, samples: usize) -> Result<(), TooMuch> {
         self.samples = self.samples.saturating_add(samples);
         if self.samples <= MAX_TOUCHED_SAMPLES { Ok(()) } else { Err(TooMuch(self.samples)) }

@@ -10,8 +10,8 @@ const FAR_M: f64 = 1e6;
 
 /// The table whose values are being checked.
 pub(super) struct Table<'a> {
-    /// The recipe, where in it the table begins, and which of its kind it is; nothing at the top level. The line is counted
-    /// for a fault only: doing so for each of many tables takes long.
+    /// The recipe, where in it the table begins, and which of its kind it is; nothing at the top level. The
+    /// line is counted for a fault only: doing so for each of many tables takes long.
     place: Option<(&'a str, usize, &'static str, usize)>,
 }
 
@@ -51,7 +51,7 @@ impl<'a> Table<'a> {
         TerrainFault::value(format!("{prefix}{key}"), value, expected)
     }
 
-    /// Work that was given up, as it was too much.
+    /// The fault of a recipe that touches too many samples.
     pub(super) fn too_much(&self, TooMuch(samples): TooMuch) -> TerrainFault {
         let expected = format!("at most {MAX_TOUCHED_SAMPLES} in all tables");
         self.fault("samples touched", samples, expected)

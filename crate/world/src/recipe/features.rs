@@ -16,7 +16,7 @@ pub(super) const GAUSSIAN_REACH: f64 = 6.0;
 pub(super) trait Feature {
     /// Checks every value.
     fn check(&self, table: &Table, canvas: &Canvas) -> Result<(), TerrainFault>;
-    /// Changes the ground, until it is too much.
+    /// Changes the ground; fails if that touches too many samples.
     fn apply(&self, canvas: &mut Canvas, seed: u64) -> Result<(), TooMuch>;
 }
 
@@ -135,7 +135,7 @@ fn add_along(
 ) -> Result<(), TooMuch> {
     let line = Line::through(points);
     line.each_near(canvas, GAUSSIAN_REACH * width_m, |nearest, height_m| {
-        let crest_m = line.value(heights_m, nearest.way_m);
+        let crest_m = line.value(heights_m, nearest.along_m);
         *height_m += sign * crest_m * libm::exp(-0.5 * nearest.distance2_m2 / (width_m * width_m));
     })
 }

@@ -9,8 +9,8 @@ const PIECES: usize = 12;
 /// A polyline fine enough to look smooth.
 pub(super) struct Line {
     vertices: Vec<DVec2>,
-    /// Way from the begin to each vertex, in metres.
-    ways_m: Vec<f64>,
+    /// Arc length from the beginning to each vertex, in metres.
+    arc_lengths_m: Vec<f64>,
     /// From each vertex to the next.
     pieces: Vec<Piece>,
 }
@@ -20,9 +20,9 @@ struct Piece {
     begin: DVec2,
     along: DVec2,
     length2_m2: f64,
-    /// Way along the line before the piece and within it.
+    /// Arc length before the piece, and length of the piece.
     before_m: f64,
-    way_m: f64,
+    along_m: f64,
 }
 
 impl Piece {
@@ -33,22 +33,24 @@ impl Piece {
     }
 }
 
-/// Samples along each side of a tile of the canvas, for which the pieces that may be nearest are found together.
+/// Samples along each side of a tile of the canvas, for which the pieces that may be nearest are found
+/// together.
 const TILE: usize = 4;
-/// Comparing a place with so many pieces takes as long as changing a sample.
+/// Comparing a place with this many pieces takes as long as changing a sample.
 const PIECES_A_SAMPLE: usize = 4;
-/// What rounding may make of a distance.
+/// Bound on the rounding error of a distance.
 const SLACK_M: f64 = 1e-6;
 
 /// The nearest point of a line.
 pub(super) struct Nearest {
     pub(super) distance2_m2: f64,
-    /// Way along the line to that point, in metres.
-    pub(super) way_m: f64,
+    /// Arc length to that point, in metres.
+    pub(super) along_m: f64,
 }
 
 impl Line {
-    /// The cubic Hermite spline through the points, with the tangents of centred differences over the chord lengths.
+    /// The cubic Hermite spline through the points, with the tangents of centred differences over the chord
+    /// lengths.
     pub(super) fn through(points: &[[f64; 2]]) -> Self {
         let points: Vec<DVec2> = points.iter().map(|&point| DVec2::from_array(point)).collect();
         let tangent = |i: usize| {
@@ -71,31 +73,37 @@ impl Line {
                 );
             }
         }
-        let mut ways_m = vec![0.0];
+        let mut arc_lengths_m = vec![0.0];
         for pair in vertices.windows(2) {
-            ways_m.push(ways_m[ways_m.len() - 1] + pair[0].distance(pair[1]));
+            arc_lengths_m.push(arc_lengths_m[arc_lengths_m.len() - 1] + pair[0].distance(pair[1]));
         }
-        let pieces = vertices.windows(2).zip(ways_m.windows(2)).map(|(ends, ways_m)| {
+        let pieces = vertices.windows(2).zip(arc_lengths_m.windows(2)).map(|(ends, arc_lengths_m)| {
             let along = ends[1] - ends[0];
             let length2_m2 = along.length_squared().max(f64::MIN_POSITIVE);
-            Piece { begin: ends[0], along, length2_m2, before_m: ways_m[0], way_m: ways_m[1] - ways_m[0] }
+            Piece {
+                begin: ends[0],
+                along,
+                length2_m2,
+                before_m: arc_lengths_m[0],
+                along_m: arc_lengths_m[1] - arc_lengths_m[0],
+            }
         });
-        Self { pieces: pieces.collect(), vertices, ways_m }
+        Self { pieces: pieces.collect(), vertices, arc_lengths_m }
     }
 
     pub(super) fn length_m(&self) -> f64 {
-        self.ways_m[self.ways_m.len() - 1]
+        self.arc_lengths_m[self.arc_lengths_m.len() - 1]
     }
 
-    /// The point at a way along the line.
-    pub(super) fn point(&self, way_m: f64) -> DVec2 {
-        let (index, share) = locate(&self.ways_m, way_m);
+    /// The point at an arc length.
+    pub(super) fn point(&self, along_m: f64) -> DVec2 {
+        let (index, share) = locate(&self.arc_lengths_m, along_m);
         self.vertices[index].lerp(self.vertices[index + 1], share)
     }
 
-    /// Interpolates values given at the recipe's points, at a way along the line.
-    pub(super) fn value(&self, at_points: &[f64], way_m: f64) -> f64 {
-        let (index, share) = locate(&self.ways_m, way_m);
+    /// Interpolates values given at the recipe's points, at an arc length.
+    pub(super) fn value(&self, at_points: &[f64], along_m: f64) -> f64 {
+        let (index, share) = locate(&self.arc_lengths_m, along_m);
         let point = index / PIECES;
         let share = ((index % PIECES) as f64 + share) / PIECES as f64;
         at_points[point] + (at_points[point + 1] - at_points[point]) * share
@@ -123,7 +131,8 @@ impl Line {
                 distances_m.clear();
                 distances_m.extend(self.pieces.iter().map(|piece| piece.nearest(centre).0.sqrt()));
                 let nearest_m = distances_m.iter().copied().fold(f64::INFINITY, f64::min);
-                // What is farther than this from the centre is nearest to no sample of the tile, or out of reach of all.
+                // Pieces farther than this from the centre are nearest to no sample of the tile, or out of
+                // reach of all.
                 let farthest_m = (nearest_m + radius_m).min(reach_m) + radius_m + SLACK_M;
                 pieces.clear();
                 pieces.extend(
@@ -154,17 +163,17 @@ fn nearest(pieces: &[Piece], at: DVec2, reach_m: f64) -> Option<Nearest> {
         let (distance2_m2, share) = piece.nearest(at);
         let before_m2 = nearest.as_ref().map_or(f64::INFINITY, |nearest| nearest.distance2_m2);
         if distance2_m2 < before_m2 && distance2_m2 <= reach_m * reach_m {
-            nearest = Some(Nearest { distance2_m2, way_m: piece.before_m + piece.way_m * share });
+            nearest = Some(Nearest { distance2_m2, along_m: piece.before_m + piece.along_m * share });
         }
     }
     nearest
 }
 
-/// The interval of an ascending list that holds `way_m`, and the share of it that lies before.
-fn locate(ways_m: &[f64], way_m: f64) -> (usize, f64) {
-    let index = ways_m.partition_point(|&way| way <= way_m).clamp(1, ways_m.len() - 1) - 1;
-    let length = (ways_m[index + 1] - ways_m[index]).max(f64::MIN_POSITIVE);
-    (index, ((way_m - ways_m[index]) / length).clamp(0.0, 1.0))
+/// The interval of an ascending list that holds an arc length, and the share of it that lies before.
+fn locate(arc_lengths_m: &[f64], along_m: f64) -> (usize, f64) {
+    let index = arc_lengths_m.partition_point(|&way| way <= along_m).clamp(1, arc_lengths_m.len() - 1) - 1;
+    let length = (arc_lengths_m[index + 1] - arc_lengths_m[index]).max(f64::MIN_POSITIVE);
+    (index, ((along_m - arc_lengths_m[index]) / length).clamp(0.0, 1.0))
 }
 
 #[cfg(test)]
@@ -178,9 +187,9 @@ mod tests {
         let points = [[0.0, 0.0], [3.0, 4.0], [9.0, 4.0]];
         let line = Line::through(&points);
         for (i, point) in points.iter().enumerate() {
-            let way_m = line.ways_m[i * PIECES];
-            assert!(line.point(way_m).distance(DVec2::from_array(*point)) < 1e-9);
-            assert!((line.value(&[1.0, 5.0, 2.0], way_m) - [1.0, 5.0, 2.0][i]).abs() < 1e-9);
+            let along_m = line.arc_lengths_m[i * PIECES];
+            assert!(line.point(along_m).distance(DVec2::from_array(*point)) < 1e-9);
+            assert!((line.value(&[1.0, 5.0, 2.0], along_m) - [1.0, 5.0, 2.0][i]).abs() < 1e-9);
         }
         assert!(line.length_m() > 11.0 && line.length_m() < 11.6, "{}", line.length_m());
         let straight = Line::through(&[[0.0, 1.0], [2.0, 1.0], [10.0, 1.0]]);
@@ -193,7 +202,7 @@ mod tests {
         let line = Line::through(&[[5.0, 5.0], [15.0, 5.0]]);
         let sample = |x: f64, y: f64| nearest(&line.pieces, DVec2::new(x, y), 3.0);
         let beside = sample(9.0, 7.0).unwrap();
-        assert!((beside.distance2_m2 - 4.0).abs() < 1e-9 && (beside.way_m - 4.0).abs() < 1e-9);
+        assert!((beside.distance2_m2 - 4.0).abs() < 1e-9 && (beside.along_m - 4.0).abs() < 1e-9);
         assert!((sample(3.0, 5.0).unwrap().distance2_m2 - 4.0).abs() < 1e-9, "beyond the end");
         assert!(sample(9.0, 9.0).is_none(), "beyond reach");
     }
@@ -208,11 +217,11 @@ mod tests {
             let line = Line::through(&points);
             let (columns, rows, cell_m) = (61, 53, 0.5);
             let mut canvas = Canvas { columns, rows, cell_m, heights_m: vec![f64::NAN; columns * rows], effort: Effort::default() };
-            let done = line.each_near(&mut canvas, reach_m, |nearest, height_m| *height_m = nearest.way_m);
+            let done = line.each_near(&mut canvas, reach_m, |nearest, height_m| *height_m = nearest.along_m);
             prop_assert!(done.is_ok());
-            for (index, way_m) in canvas.heights_m.iter().enumerate() {
+            for (index, along_m) in canvas.heights_m.iter().enumerate() {
                 let expected = nearest(&line.pieces, canvas.place(index % columns, index / columns), reach_m);
-                prop_assert_eq!(way_m.to_bits(), expected.map_or(f64::NAN, |nearest| nearest.way_m).to_bits());
+                prop_assert_eq!(along_m.to_bits(), expected.map_or(f64::NAN, |nearest| nearest.along_m).to_bits());
             }
         }
     }

@@ -303,7 +303,7 @@ fn lines_without_end_are_refused() {
     }
 }
 
-/// Nobody who makes terrain comes near the limit.
+/// Real recipes stay far from the limit.
 #[test]
 fn shipped_and_generated_terrains_touch_few_samples() {
     let effort = |text: &str| {

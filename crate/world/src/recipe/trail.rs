@@ -42,7 +42,7 @@ impl Feature for Trail {
         line.each_near(canvas, self.width_m / 2.0 + self.shoulder_m, |nearest, height_m| {
             let distance_m = nearest.distance2_m2.sqrt();
             let own_share = 1.0 - smooth_step((distance_m - self.width_m / 2.0) / self.shoulder_m);
-            let place = nearest.way_m / line.length_m() * (profile_m.len() - 1) as f64;
+            let place = nearest.along_m / line.length_m() * (profile_m.len() - 1) as f64;
             let before = (place as usize).min(profile_m.len() - 2);
             let trail_m =
                 profile_m[before] + (profile_m[before + 1] - profile_m[before]) * (place - before as f64);
@@ -59,10 +59,10 @@ impl Trail {
         let step_m = line.length_m() / steps as f64;
         let given = self.height_m.as_ref().map(|height_m| height_m.values(self.points.len()));
         let raw = (0..=steps).map(|step| {
-            let way_m = step as f64 * step_m;
+            let along_m = step as f64 * step_m;
             match &given {
-                Some(heights_m) => line.value(heights_m, way_m),
-                None => canvas.height_m(line.point(way_m)),
+                Some(heights_m) => line.value(heights_m, along_m),
+                None => canvas.height_m(line.point(along_m)),
             }
         });
         let half_window = (self.smoothing_m.unwrap_or(4.0 * self.width_m) / (2.0 * step_m)).round() as usize;

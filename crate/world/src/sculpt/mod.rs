@@ -47,8 +47,8 @@ pub enum BrushKind {
     },
 }
 
-/// One touch of a brush. Its effect falls off from the centre, or from the line to the place where it ends, to nothing at the
-/// radius.
+/// One touch of a brush. Its effect falls off from the centre, or from the line to the place where it ends,
+/// to nothing at the radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brush {
     /// Centre in the world frame, in metres; it may lie off the terrain.
@@ -120,7 +120,8 @@ impl Brush {
         }
     }
 
-    /// Share of the line from the centre to the end where `position` is nearest to it, and the distance to there in radii.
+    /// Share of the line from the centre to the end where `position` is nearest to it, and the distance to
+    /// there in radii.
     fn nearest(&self, position: DVec2) -> (f64, f64) {
         let along = self.end() - self.centre;
         let share = (position - self.centre).dot(along) / along.length_squared();
@@ -131,7 +132,8 @@ impl Brush {
 }
 
 impl HeightField {
-    /// Applies one touch of a brush and returns the samples it may have changed, or `None` when it covers none.
+    /// Applies one touch of a brush and returns the samples it may have changed, or `None` when it covers
+    /// none.
     ///
     /// Heights stop at ±[`HEIGHT_LIMIT_M`]: the ground stays finite however often it is raised.
     ///
@@ -157,7 +159,8 @@ impl HeightField {
     /// Puts other heights, row by row from the south-west, in place of those in a rectangle.
     ///
     /// # Errors
-    /// [`FieldError`] when the rectangle is not within the field, their number is another, or one is no height.
+    /// [`FieldError`] when the rectangle is not within the field, their number is another, or one is no
+    /// height.
     pub fn replace(&mut self, rect: SampleRect, heights_m: &[f32]) -> Result<(), FieldError> {
         let SampleRect { column_begin, column_end, row_begin, row_end } = rect;
         if column_begin >= column_end
@@ -194,7 +197,8 @@ impl HeightField {
         }
     }
 
-    /// What a brush makes of one sample; `ends_m` are the heights of the ground where its line begins and ends.
+    /// What a brush makes of one sample; `ends_m` are the heights of the ground where its line begins and
+    /// ends.
     fn target_m(&self, brush: &Brush, ends_m: [f64; 2], column: usize, row: usize, height_m: f64) -> f64 {
         let position = DVec2::new(column as f64, row as f64) * self.cell_m();
         let (share, radii) = brush.nearest(position);
