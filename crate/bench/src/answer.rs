@@ -7,7 +7,7 @@ use crate::clock::now_ms;
 use crate::registry::make;
 use crate::work::{Values, Work};
 
-/// The pieces of work in use, each made when first asked for.
+/// The benchmarks in use, each made on first request.
 #[derive(Default)]
 pub struct Bench {
     works: BTreeMap<String, Box<dyn Work>>,
@@ -19,7 +19,7 @@ pub struct Bench {
 enum Answer {
     /// The time of each repetition, in milliseconds.
     Ms(Vec<f64>),
-    /// What the last repetition gave; `null` stands for what does not exist.
+    /// The values of the last repetition; `null` for a value that does not exist.
     Values(Values),
     /// Why there is no answer.
     Error(String),
@@ -28,8 +28,9 @@ enum Answer {
 impl Bench {
     /// Answers a request with one line of JSON.
     ///
-    /// `NAME N` runs the piece of work N times: `{"ms": [...]}`, one time for each. `NAME values` gives what the last run gave,
-    /// running it once if it has not run: `{"values": {"what": [...]}}`. A fault is told as `{"error": "..."}`.
+    /// `NAME N` runs the benchmark N times: `{"ms": [...]}`, one time for each. `NAME values` returns the
+    /// values of the last run, running it once if it has not run: `{"values": {"what": [...]}}`. A fault
+    /// becomes `{"error": "..."}`.
     pub fn answer(&mut self, request: &str) -> String {
         let answer = self.run(request).unwrap_or_else(|error| Answer::Error(error.to_string()));
         // Maps with names for keys and numbers always have a JSON form.

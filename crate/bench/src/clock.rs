@@ -1,6 +1,6 @@
 //! The one clock of this crate.
 
-/// Milliseconds since some moment.
+/// Milliseconds since an arbitrary moment.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn now_ms() -> f64 {
     use std::sync::LazyLock;
@@ -9,7 +9,7 @@ pub(crate) fn now_ms() -> f64 {
     START.elapsed().as_secs_f64() * 1e3
 }
 
-/// Milliseconds since some moment, by `performance.now()`.
+/// Milliseconds since an arbitrary moment, by `performance.now()`.
 #[cfg(target_arch = "wasm32")]
 pub(crate) fn now_ms() -> f64 {
     use wasm_bindgen::prelude::wasm_bindgen;

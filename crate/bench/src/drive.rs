@@ -8,7 +8,7 @@ use crate::work::{Values, Work};
 
 /// One scenario on each terrain.
 const DRIVES: [&str; 5] = ["cht-ab", "gsb", "ht", "ml", "vta"];
-/// Steps on each terrain; after all of them the drives begin anew.
+/// Steps on each terrain; after all of them the drives start again.
 const STEPS: usize = 60;
 
 fn scenario(name: &str) -> Result<&'static Bundled, BenchError> {
@@ -20,7 +20,8 @@ fn start(scenario: &Bundled) -> Result<Trial, BenchError> {
     scenario.trial().map_err(BenchError::Scenario)
 }
 
-/// The planner's steps along the first seconds of drives over every terrain; the world between them is not timed.
+/// The planner's steps along the first seconds of drives over every terrain; the simulated world is not
+/// timed.
 pub(crate) struct Drive {
     starts: Vec<Trial>,
     trials: Vec<Trial>,
@@ -71,7 +72,8 @@ impl Work for Drive {
     }
 }
 
-/// A whole trial with the preset `default` and the scenario's own seed: scans, planner and motion, without loading its terrain.
+/// A whole trial with the preset `default` and the scenario's own seed: scans, planner and motion, without
+/// loading its terrain.
 pub(crate) struct WholeTrial {
     scenario: &'static Bundled,
     trial: Trial,

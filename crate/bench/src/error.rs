@@ -1,4 +1,4 @@
-//! Why a piece of work cannot be measured.
+//! Errors of the benchmarks.
 
 use mapless::gp::GpError;
 use mapless::gp::hyperparameters::RegressionError;
@@ -6,12 +6,12 @@ use mapless::gp::hyperparameters::RegressionError;
 /// Why a request has no measurement.
 #[derive(Debug, thiserror::Error)]
 pub enum BenchError {
-    /// A line that is no request.
+    /// A malformed request.
     #[error(
         "request {0:?}: expected the name of a piece of work, a space, and a number of repetitions or `values`"
     )]
     Request(String),
-    /// A piece of work that does not exist.
+    /// A benchmark that does not exist.
     #[error("work {0:?}: expected a name that `mapless-bench` knows")]
     Unknown(String),
     /// The terrain cannot be made.
@@ -40,7 +40,7 @@ pub enum BenchError {
     Write {
         /// The file.
         file: String,
-        /// What the system says.
+        /// The system's message.
         reason: String,
     },
 }

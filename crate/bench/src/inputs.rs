@@ -13,7 +13,7 @@ use crate::data::{
     sensor_pose,
 };
 
-/// Numbers of inducing inputs that the peers are asked for.
+/// Numbers of inducing inputs that the peers use.
 const INDUCING: [usize; 2] = [200, 400];
 /// Samples along each side of the fields that the peers scan.
 const SAMPLES: usize = 1000;
@@ -32,12 +32,12 @@ struct Inputs {
     samples: usize,
     cell_m: f64,
     max_range_m: f64,
-    /// Where the sensor is on each field, by name of the work.
+    /// Position of the sensor on each field, by name of the benchmark.
     sensors_m: BTreeMap<String, [f64; 3]>,
 }
 
-/// Writes `inputs.json`, and as little-endian single precision the directions of the beams, `directions.f32`, and the heights of
-/// each field, row by row from the south-west, `NAME.f32`.
+/// Writes `inputs.json`, and as little-endian single precision the directions of the beams, `directions.f32`,
+/// and the heights of each field, row by row from the south-west, `NAME.f32`.
 ///
 /// # Errors
 /// [`BenchError`] when a file cannot be written.

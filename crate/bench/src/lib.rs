@@ -1,8 +1,8 @@
-//! What `cargo xtask bench` measures of mapless: pieces of work with inputs made by rule, the same natively, in Node and in
-//! Chromium, and written to files for the peers.
+//! The benchmarks of `cargo xtask bench`: pieces of work with the same inputs natively, in Node and in
+//! Chromium, and in files for the peers.
 //!
-//! A line asks for a piece of work and a line answers; [`Bench::answer`] has the words. Both sides of a comparison are asked in
-//! turn, so that what else the machine does falls on both.
+//! Each request is a line and each answer a line; see [`Bench::answer`]. Both sides of a comparison are asked
+//! in turn, so that other load on the machine affects both.
 
 mod answer;
 mod clock;

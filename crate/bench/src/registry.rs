@@ -1,4 +1,4 @@
-//! Every piece of work by its name.
+//! The benchmarks by name.
 
 use crate::BenchError;
 use crate::drive::{Drive, WholeTrial};
@@ -7,7 +7,7 @@ use crate::peak::Peak;
 use crate::sensing::{Scanning, Tick};
 use crate::work::Work;
 
-/// Makes the piece of work called `name`.
+/// Makes the benchmark `name`.
 pub(crate) fn make(name: &str) -> Result<Box<dyn Work>, BenchError> {
     let unknown = || BenchError::Unknown(name.to_owned());
     let number = |text: &str| text.parse::<usize>().ok().filter(|&n| n > 0).ok_or_else(unknown);

@@ -1,4 +1,4 @@
-//! Scans, and the planner's step on them.
+//! Benchmarks of scans, and of the planner's step on them.
 
 use core::time::Duration;
 
@@ -49,7 +49,8 @@ impl Scanning {
         scan.ranges_m.into_iter().map(f64::from).collect()
     }
 
-    /// The most by which a cell's bilinear patch and two triangles on the same corners differ in height: a quarter of its twist.
+    /// The largest height difference between a cell's bilinear patch and two triangles on the same corners: a
+    /// quarter of its twist.
     fn triangle_difference_m(&self) -> f64 {
         let field = self.caster.field();
         let rows: Vec<&[f32]> = field.heights_m().chunks_exact(field.columns()).collect();
@@ -71,8 +72,8 @@ impl Work for Scanning {
         Ok(())
     }
 
-    /// The ranges, and those from as much lower and higher as the triangulated ground can differ, with a millimetre for single
-    /// precision: the range to any surface in between lies in between.
+    /// The ranges, and bounds on them for triangulated ground: the ranges from a sensor lower and higher by
+    /// the largest height difference, with a millimetre for single precision.
     fn values(&mut self) -> Values {
         let slack_m = self.triangle_difference_m() + 1e-3;
         Values::from([
@@ -123,7 +124,7 @@ impl Tick {
 impl Work for Tick {
     fn run(&mut self) -> Result<(), BenchError> {
         match self.planner.step(&self.points_m, &self.pose, Duration::from_millis(100)).status {
-            // In the pit there is nowhere to go; the whole of the perception runs all the same.
+            // In the pit there is no candidate; perception runs completely all the same.
             Status::Stopped(mapless::StopReason::NoSubgoal) => Ok(()),
             Status::Stopped(reason) => Err(BenchError::Stopped(reason)),
             Status::Driving | Status::Arrived | Status::Backtracking | Status::Searching => Ok(()),

@@ -2,5 +2,5 @@
 
 use mapless_trials::{Navigator, Trial};
 
-/// A trial driven by whatever was asked for.
+/// A trial driven by any navigator.
 pub(crate) type AnyTrial = Trial<Box<dyn Navigator>>;

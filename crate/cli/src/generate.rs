@@ -1,7 +1,7 @@
-//! `mapless generate`: tasks on generated terrains as scenario files, and what their difficulty comes to.
+//! `mapless generate`: tasks on generated terrains as scenario files, and measures of their difficulty.
 //!
-//! The folder gets `hard-1-0007.toml`, a scenario, and `terrain/hard-1-0007.toml`, its recipe. Running again writes nothing
-//! new; a folder with anything else in it, or a file with other contents, is refused.
+//! The folder gets `hard-1-0007.toml`, a scenario, and `terrain/hard-1-0007.toml`, its recipe. A second run
+//! writes nothing new; a folder with other files in it, or a file with other contents, is refused.
 
 mod summary;
 
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_other_files(&args.out)?;
     refuse_other_files(&terrains)?;
     let mut summary = Summary::default();
-    // Indicatif shows nothing where standard error is no terminal.
+    // Indicatif draws only on a terminal.
     for index in (1..=args.count).progress_count(args.count.into()) {
         let task = Task::generate(TaskName { difficulty: args.difficulty, seed: args.seed, index })?;
         let file = format!("{}.toml", task.name);
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     writeln!(std::io::stdout(), "{}", summary.table()).context("standard output")
 }
 
-/// Fails when a folder holds anything but tasks, so that none is mixed with what somebody else keeps there.
+/// Fails if a folder holds files that are no tasks, so that none are mixed with other files.
 fn refuse_other_files(folder: &Path) -> anyhow::Result<()> {
     for entry in fs::read_dir(folder).with_context(|| format!("--out: {}", folder.display()))? {
         let name = entry.with_context(|| format!("--out: {}", folder.display()))?.file_name();
@@ -73,7 +73,7 @@ fn is_task_file(name: &str) -> bool {
     name.strip_suffix(".toml").is_some_and(|stem| stem.parse::<TaskName>().is_ok())
 }
 
-/// Writes a file, unless it is there already; other contents are somebody's work.
+/// Writes a file, unless it is there already; a file with other contents is an error, never overwritten.
 fn write(path: &Path, text: &str) -> anyhow::Result<()> {
     let context = || format!("--out: {}", path.display());
     match fs::read(path) {
@@ -136,7 +136,7 @@ mod tests {
         for file in same {
             assert_eq!(fs::read(one.path().join(file)).unwrap(), fs::read(three.path().join(file)).unwrap());
         }
-        // Once more, and on from one to three.
+        // A second time, and then from one to three.
         let before = contents(three.path());
         run(&args(three.path(), 2)).unwrap();
         run(&args(one.path(), 3)).unwrap();

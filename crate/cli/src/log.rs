@@ -1,7 +1,8 @@
 //! The folder of `--out`: trajectory.csv, path.svg and result.json.
 //!
-//! One row of trajectory.csv is one planning period: the state of the robot when the scan was taken, and what the planner
-//! decided on it. The last row is where the robot ended, with the outcome in the column `status` and no decision.
+//! A row of trajectory.csv is one planning period: the state of the robot at the scan, and the planner's
+//! decision. The last row has the robot's final state, with the outcome in the column `status` and no
+//! decision.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write as _};
@@ -27,8 +28,8 @@ pub(crate) struct Log {
 }
 
 impl Log {
-    /// Makes the folder and begins its trajectory, so that what cannot be written shows before the long run. The picture
-    /// will show how near the goal counts as reached.
+    /// Makes the folder and begins its trajectory, so that a folder that cannot be written fails before the
+    /// long run. The picture shows the goal's tolerance.
     pub(crate) fn create(folder: &Path, goal_tolerance_m: f64) -> anyhow::Result<Self> {
         fs::create_dir_all(folder).with_context(|| format!("--out: {}", folder.display()))?;
         let path = folder.join("trajectory.csv");

@@ -1,7 +1,7 @@
 //! `mapless`: drives trials from scenario files, and perceives recorded scans.
 //!
-//! Exit code of a trial: 0 when the goal was reached, 2 for any other outcome, 1 for an error. Exit code of a scan: 0 when
-//! it was read, 1 for an error.
+//! Exit code of a trial: 0 when the goal was reached, 2 for any other outcome, 1 for an error. Exit code of a
+//! scan: 0 when it was read, 1 for an error.
 
 mod any_trial;
 mod generate;
@@ -34,8 +34,8 @@ struct Args {
 enum Command {
     /// Run one trial. Exit code: 0 = goal reached, 2 = another outcome, 1 = error.
     Run(run::Args),
-    /// Run a campaign: planners × routes × seeds × parameter values, one row a trial. Exit code: 0 = every trial has its row,
-    /// 1 = error.
+    /// Run a campaign: planners × routes × seeds × parameter values, one row a trial. Exit code: 0 = every
+    /// trial has its row, 1 = error.
     Trials(trials::Args),
     /// Write the tables and figures of finished campaigns.
     Report(results::Args),
@@ -43,7 +43,8 @@ enum Command {
     Profile(profile::Args),
     /// Write tasks on generated terrains, each of which the oracle has solved, as scenario files.
     Generate(generate::Args),
-    /// Show what the planner perceives in one recorded scan. Exit code: 0 = perceived or stopped with a reason, 1 = error.
+    /// Show what the planner perceives in one recorded scan. Exit code: 0 = perceived or stopped with a
+    /// reason, 1 = error.
     Perceive(perceive::Args),
 }
 
@@ -69,7 +70,7 @@ fn main() -> ExitCode {
     })
 }
 
-/// Shows clap's help or what is wrong with the arguments: an error has exit code 1 here, since 2 is an outcome.
+/// Shows clap's help or its error about the arguments: an error has exit code 1 here, since 2 is an outcome.
 fn usage(message: &clap::Error) -> ExitCode {
     let shown = message.print();
     if message.use_stderr() || shown.is_err() { ExitCode::FAILURE } else { ExitCode::SUCCESS }

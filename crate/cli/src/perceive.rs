@@ -1,7 +1,7 @@
 //! `mapless perceive`: one recorded scan through one step of the planner.
 //!
-//! A scan says nothing of where it was taken: the robot stands level at the origin, heads along +x, has driven nowhere
-//! yet, and its goal is 50 m ahead. The sensor stands as high above the ground as the configuration says.
+//! A scan has no pose: the robot is level at the origin, faces along +x, has not driven yet, and its goal is
+//! 50 m ahead. The sensor is as high above the ground as configured.
 
 mod report;
 mod rows;
@@ -27,8 +27,8 @@ const GOAL_M: DVec2 = DVec2::new(50.0, 0.0);
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Scan: .pcd, text with x y z a line (.csv, .txt, .xyz; sensor frame in metres: x forward, y left, z up), or a
-    /// capture of a VLP-16 (.pcap). The robot stands level at the origin with its goal 50 m ahead.
+    /// Scan: .pcd, text with x y z a line (.csv, .txt, .xyz; sensor frame in metres: x forward, y left, z
+    /// up), or a capture of a VLP-16 (.pcap). The robot stands level at the origin with its goal 50 m ahead.
     file: PathBuf,
     /// Which whole revolution of a capture, from 0.
     #[arg(long, value_name = "K", default_value_t = 0)]
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     writeln!(std::io::stdout(), "{text}").context("standard output")
 }
 
-/// What was perceived; stands above the tables and in the pictures.
+/// File, revolution and planner; the title of the tables and pictures.
 fn subject(args: &Args) -> String {
     let file = args.file.file_name().unwrap_or_default().to_string_lossy();
     let is_capture = args.file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pcap"));

@@ -1,4 +1,4 @@
-//! Pictures, as SVG: of a trial, its path over the elevation; of a scan, what perception makes of it.
+//! Pictures as SVG: of a trial, its path over the elevation; of a scan, its perception.
 
 mod directions;
 mod occupancy;
@@ -16,7 +16,7 @@ use mapless_world::HeightField;
 pub(crate) use occupancy::OccupancyPicture;
 pub(crate) use variance_image::VarianceImage;
 
-/// What the picture shows of a trial.
+/// The contents of a trial's picture.
 pub(crate) struct Picture<'a> {
     pub(crate) title: String,
     pub(crate) subtitle: String,

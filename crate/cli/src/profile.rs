@@ -1,4 +1,5 @@
-//! `mapless profile`: the perceived elevation profile against the true skyline, at random poses on a scenario's terrain.
+//! `mapless profile`: the perceived elevation profile against the true skyline, at random poses on a
+//! scenario's terrain.
 
 use std::io::Write as _;
 
@@ -13,7 +14,7 @@ use crate::setup::Setup;
 pub(crate) struct Args {
     #[command(flatten)]
     setup: Setup,
-    /// Random poses at which the robot can stand.
+    /// Random poses at which the robot is safe.
     #[arg(long, default_value_t = 200, value_name = "N")]
     poses: usize,
     /// Seed of the poses and of the sensor's noise.

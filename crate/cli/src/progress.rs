@@ -1,11 +1,11 @@
-//! How far a running trial has come, on standard error when that is a terminal.
+//! Progress of a running trial, on standard error if that is a terminal.
 
 use std::time::Instant;
 
 use crate::any_trial::AnyTrial;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// The bar fills as the goal comes closer.
+/// A bar that fills as the goal comes closer.
 pub(crate) struct Progress {
     bar: ProgressBar,
     begun: Instant,
@@ -15,7 +15,7 @@ pub(crate) struct Progress {
 impl Progress {
     pub(crate) fn new(trial: &AnyTrial) -> Self {
         let straight_m = to_goal_m(trial);
-        // The bar counts centimetres. Indicatif shows nothing where standard error is no terminal.
+        // The bar counts centimetres. Indicatif draws only on a terminal.
         let bar = ProgressBar::new((100.0 * straight_m) as u64);
         if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}") {
             bar.set_style(style);

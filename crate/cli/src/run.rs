@@ -19,17 +19,17 @@ use crate::trial_report::{Report, Subject};
 pub(crate) struct Args {
     /// Scenario file (TOML): terrain, start, goal, seed and what differs from the defaults.
     scenario: PathBuf,
-    /// What drives: default, paper and flat are configurations of the mapless planner, from which a scenario's [planner]
-    /// section starts; the others know the map.
+    /// What drives: default, paper and flat are configurations of the mapless planner, from which a
+    /// scenario's [planner] section starts; the others know the map.
     #[arg(long, default_value = "default", value_parser = parsers::planner(), value_name = "NAME")]
     planner: NavigatorKind,
     /// When the mapless planner learns hyperparameters, instead of what the configuration says.
     #[arg(long, value_parser = parsers::learning(), value_name = "MODE")]
     learning: Option<LearningMode>,
-    /// What the mapless planner is told in place of what it perceives.
+    /// Ground truth in place of perception, for the mapless planner.
     #[arg(long, default_value = "none", value_parser = parsers::truth(), value_name = "WHAT")]
     truth: Truth,
-    /// Seed of the sensor's noise and of what a planner draws, instead of the scenario's own.
+    /// Seed of the sensor's noise and of a planner's random numbers, instead of the scenario's own.
     #[arg(long)]
     seed: Option<u64>,
     /// Write trajectory.csv, path.svg and result.json to this folder, which is made when missing.
@@ -40,7 +40,7 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// Runs the trial and shows how it ended.
+/// Runs the trial and shows its result.
 pub(crate) fn run(args: &Args) -> anyhow::Result<Outcome> {
     let LoadedScenario { scenario, terrain } = LoadedScenario::read(&args.scenario)?;
     let file = || args.scenario.display().to_string();
@@ -85,7 +85,7 @@ impl Args {
     }
 }
 
-/// Drives until the trial ends, and says how long each planner step took.
+/// Drives until the trial ends; returns the time of each planner step.
 fn drive(trial: &mut AnyTrial, log: &mut Option<Log>) -> anyhow::Result<(Outcome, Vec<Duration>)> {
     let progress = Progress::new(trial);
     let mut planner_times = Vec::new();

@@ -1,4 +1,4 @@
-//! What `profile` and `perceive` begin with: a configuration of the planner.
+//! The arguments that `profile` and `perceive` share: a scenario and a configuration of the planner.
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ pub(crate) struct Setup {
     pub(crate) planner: PlannerChoice,
 }
 
-/// Which planner.
+/// The planner's configuration by its name.
 #[derive(clap::Args)]
 pub(crate) struct PlannerChoice {
     /// Planner configuration; a scenario's [planner] section starts from it.
@@ -43,7 +43,7 @@ impl Setup {
 }
 
 impl PlannerChoice {
-    /// The configuration with what was asked for on the command line.
+    /// The configuration with the options of the command line.
     pub(crate) fn apply(&self, mut config: PlannerConfig) -> PlannerConfig {
         if let Some(mode) = self.learning {
             config.perception.learning.mode = mode;

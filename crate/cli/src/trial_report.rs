@@ -1,4 +1,4 @@
-//! What a trial came to: as JSON and as a table.
+//! The result of a trial: as JSON and as a table.
 
 use std::fmt;
 use std::time::Duration;
@@ -8,12 +8,12 @@ use mapless_trials::{Metrics, Outcome, statistics};
 
 use crate::any_trial::AnyTrial;
 
-/// What was run; stands above the table and the picture.
+/// Scenario, planner and seed; the title of the table and the picture.
 pub(crate) struct Subject {
     /// Name of the scenario file, without extension.
     pub(crate) scenario: String,
     pub(crate) terrain: String,
-    /// Name of the planner, and of what was true in place of perceived.
+    /// Name of the planner, and of the ground truth in place of perception.
     pub(crate) planner: String,
     pub(crate) seed: u64,
     pub(crate) roll_limit_rad: f64,
@@ -32,7 +32,7 @@ pub(crate) struct Report {
     #[serde(skip)]
     pub(crate) subject: Subject,
     pub(crate) outcome: Outcome,
-    /// Why the planner stopped, where it did.
+    /// Why the planner stopped, if it did.
     pub(crate) reason: Option<String>,
     pub(crate) metrics: Metrics,
     pub(crate) ticks: u64,
@@ -83,7 +83,7 @@ impl Report {
         )
     }
 
-    /// The report for people, with the limits beside the largest tilts.
+    /// The report as text, with the limits beside the largest tilts.
     pub(crate) fn table(&self) -> String {
         let metrics = &self.metrics;
         let tilt = |angle_rad: f64| format!("{:.1}", angle_rad.to_degrees());

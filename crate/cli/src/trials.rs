@@ -24,15 +24,17 @@ pub(crate) struct Args {
     /// Run only the I-th of N equal parts; the last one to finish in the same folder writes the final files.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Folder of the results, results/NAME when absent. What it has of this campaign is not run again.
+    /// Folder of the results, results/NAME when absent. Trials of this campaign that are in it are not run
+    /// again.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Run the trial with this id alone, and print what came of it as JSON; with --out, also write DIR/ID.csv, its trajectory.
+    /// Run the trial with this id alone, and print its result as JSON; with --out, also write DIR/ID.csv, its
+    /// trajectory.
     #[arg(long, value_name = "ID", conflicts_with_all = ["jobs", "shard"])]
     only: Option<String>,
 }
 
-/// Runs the campaign, or what is left of it.
+/// Runs the campaign, or the rest of it.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let plan = Plan::read(&args.campaign)?;
     if let Some(id) = &args.only {
@@ -73,7 +75,7 @@ fn replay(plan: &Plan, id: &str, out: Option<&Path>) -> anyhow::Result<()> {
     writeln!(std::io::stdout(), "{}", serde_json::to_string(&entry.result)?).context("standard output")
 }
 
-/// How far the campaign has come, on standard error: a bar on a terminal, a line now and then elsewhere.
+/// Progress of the campaign, on standard error: a bar on a terminal, a line now and then elsewhere.
 struct Shown {
     bar: ProgressBar,
     last_line: Option<Mutex<Instant>>,
@@ -108,7 +110,7 @@ impl Shown {
     }
 }
 
-/// As people say it: `40 s`, `5 min`, `3 h 20 min`.
+/// A duration in words: `40 s`, `5 min`, `3 h 20 min`.
 fn duration(duration: Duration) -> String {
     let seconds = duration.as_secs();
     match (seconds / 3600, seconds / 60 % 60) {

@@ -19,7 +19,7 @@ const BOTTOM: f64 = 96.0;
 /// The legend needs this much even under a narrow map.
 const LEAST_WIDTH: f64 = 640.0;
 
-/// A map on its page, drawn but for what goes on it.
+/// A map on its page, ready for routes and marks.
 pub struct Map<'a> {
     field: &'a HeightField,
     pixels_per_m: f64,
@@ -28,8 +28,9 @@ pub struct Map<'a> {
 }
 
 impl<'a> Map<'a> {
-    /// Begins a page with the map of `field`; the caller ends it with `</svg>`. The relief has `detail` pixels for one of the
-    /// page: 1 is sharp, less makes a smaller file. Lines of legend beyond the first make the page longer.
+    /// Begins a page with the map of `field`; the caller ends it with `</svg>`. The relief has `detail`
+    /// pixels for one of the page: 1 is sharp, less makes a smaller file. Lines of legend beyond the first
+    /// make the page longer.
     ///
     /// # Errors
     /// [`FigureError`] when the relief cannot be encoded.
@@ -55,7 +56,7 @@ impl<'a> Map<'a> {
         Ok(map)
     }
 
-    /// Where a place lies on the page, whose x runs right and whose y runs down.
+    /// Position of a place on the page, whose x runs right and whose y runs down.
     pub fn place(&self, at_m: DVec2) -> DVec2 {
         DVec2::new(LEFT + at_m.x * self.pixels_per_m, TOP + self.size.y - at_m.y * self.pixels_per_m)
     }
@@ -196,9 +197,9 @@ impl<'a> Map<'a> {
 /// Height of a line of the legend.
 const LEGEND_LINE: f64 = 24.0;
 
-/// Marks and what they mean, from left to right.
+/// Marks and their meanings, from left to right.
 pub struct Legend {
-    /// Where the next mark stands.
+    /// Position of the next mark.
     pub place: DVec2,
     right: f64,
 }

@@ -1,4 +1,4 @@
-//! What the pictures share: the page, images in it, and the bar that explains colours.
+//! Shared parts of the pictures: the page, images in it, and the colour bar.
 
 use std::fmt::{self, Write as _};
 
@@ -11,8 +11,8 @@ use crate::scale::{nice_step, ticks};
 /// Colour of lines and words.
 pub const INK: &str = "#1c1c1c";
 
-/// Begins a white page of `size` pixels with a title and a line below it, `left` from the edge. The caller ends it with
-/// `</svg>`.
+/// Begins a white page of `size` pixels with a title and a line below it, `left` from the edge. The caller
+/// ends it with `</svg>`.
 pub fn begin(svg: &mut String, size: DVec2, left: f64, title: &str, subtitle: &str) -> fmt::Result {
     let (width, height) = (size.x, size.y);
     writeln!(
@@ -53,24 +53,24 @@ pub fn png(width: u32, height: u32, rgb: &[u8]) -> Result<Vec<u8>, FigureError> 
 
 /// A vertical bar of colours with its ticks at the right.
 pub struct ColourBar<'a> {
-    /// Of its gradient; unique in the picture.
+    /// Identifier of its gradient; unique in the picture.
     pub id: &'a str,
-    /// Stands beside it.
+    /// The text beside it.
     pub label: &'a str,
     /// Its upper left corner.
     pub place: DVec2,
     /// In pixels of the page.
     pub height: f64,
-    /// What its lower and its upper end stand for.
+    /// The values at its lower and its upper end.
     pub range: (f64, f64),
-    /// About as many ticks.
+    /// Approximate number of ticks.
     pub ticks: f64,
 }
 
 impl ColourBar<'_> {
     const WIDTH: f64 = 16.0;
 
-    /// Draws it; `colour` takes the share of the range, from 0 to 1.
+    /// Draws it; `colour` maps the share of the range, from 0 to 1, to a colour.
     pub fn draw(&self, svg: &mut String, colour: impl Fn(f64) -> [u8; 3]) -> fmt::Result {
         let Self { id, label, place, height, range: (low, high), .. } = *self;
         let bottom = place.y + height;
@@ -110,12 +110,12 @@ impl ColourBar<'_> {
     }
 }
 
-/// A colour as SVG writes it.
+/// A colour in SVG's notation.
 pub fn css([r, g, b]: [u8; 3]) -> String {
     format!("rgb({r} {g} {b})")
 }
 
-/// Text as SVG writes it.
+/// Text escaped for SVG.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

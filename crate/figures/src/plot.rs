@@ -10,15 +10,16 @@ const TOP: f64 = 16.0;
 const BOTTOM: f64 = 52.0;
 /// Labels of neighbouring lines keep this distance.
 const LABEL_HEIGHT: f64 = 15.0;
-/// Okabe and Ito's colours for everybody, but for black, which is the text's, and yellow, which a white sheet hides, with two more.
+/// Okabe and Ito's colour-blind safe colours, without black, which is the text's, and yellow, which is lost
+/// on a white sheet, and with two more.
 pub const COLOURS: [&str; 8] =
     ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1", "#888888"];
 
 /// One line.
 pub struct Line {
-    /// Stands at its end.
+    /// The label at its end.
     pub name: String,
-    /// Places of x and y, joined in order.
+    /// Points (x, y), joined in order.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -33,9 +34,9 @@ pub enum Scale {
 
 /// Lines over one axis.
 pub struct Plot {
-    /// What x is, and its unit.
+    /// Name and unit of x.
     pub x_label: String,
-    /// What y is, and its unit.
+    /// Name and unit of y.
     pub y_label: String,
     /// The lines.
     pub lines: Vec<Line>,
@@ -121,7 +122,7 @@ impl Plot {
         for (y, x, name, colour) in labels {
             let y = y.max(free_from);
             free_from = y + LABEL_HEIGHT;
-            // The stroke says whose label it is where lines end at one place.
+            // The stroke shows whose label it is if lines end at one place.
             draw(format!(
                 "<path stroke=\"{colour}\" stroke-width=\"2.5\" d=\"M{x:.1} {:.1}h12\"/><text x=\"{:.1}\" y=\"{y:.1}\">{name}</text>",
                 y - 4.0,

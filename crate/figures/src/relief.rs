@@ -5,7 +5,7 @@ use mapless_world::HeightField;
 
 use crate::{FigureError, page};
 
-/// Slopes are drawn this much steeper, since gentle ones matter to a robot.
+/// Slopes are drawn this much steeper: gentle ones matter to a robot.
 const EXAGGERATION: f64 = 1.3;
 /// Share of white in the colours, so that path and marks stand out on paper too.
 const PALENESS: f64 = 0.5;
@@ -40,8 +40,8 @@ pub(crate) fn png(field: &HeightField, size: DVec2) -> Result<Vec<u8>, FigureErr
     page::png(width, height, &rgb)
 }
 
-/// Colour of the share `height` of the elevation range: a perceptually even map that also reads in grey and with
-/// colour-blind eyes. Channels from 0 to 255.
+/// Colour at the share `height` of the elevation range: a perceptually uniform map that also reads in grey
+/// and with colour-blind eyes. Channels from 0 to 255.
 pub(crate) fn tint(height: f64) -> [f64; 3] {
     let (r, g, b) = colorous::CIVIDIS.eval_continuous(height.clamp(0.0, 1.0)).as_tuple();
     [r, g, b].map(|channel| f64::from(channel) * (1.0 - PALENESS) + 255.0 * PALENESS)

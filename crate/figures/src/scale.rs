@@ -2,7 +2,7 @@
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above `most`, which must be positive.
 pub fn nice_step(most: f64) -> f64 {
-    // Negative powers of ten are not exact; dividing by positive ones gives the number as one would write it.
+    // Negative powers of ten are not exact; dividing by positive ones gives the decimal number exactly.
     let exponent = libm::log10(most).floor();
     let scaled = |digit: f64| {
         let power = libm::pow(10.0, exponent.abs());

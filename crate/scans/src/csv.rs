@@ -47,7 +47,7 @@ fn point(number: usize, fields: [&str; 3]) -> Result<Vec3, ScanFault> {
     Ok(Vec3::from_array(point))
 }
 
-/// The beginning of what stands in the file, since a wrong file may be one long line.
+/// The beginning of a value, since a wrong file may be one long line.
 fn shortened(text: &str) -> String {
     const MOST: usize = 40;
     let text = text.trim();

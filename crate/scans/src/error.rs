@@ -1,4 +1,4 @@
-//! What can be wrong with a file.
+//! Errors of scan files.
 
 /// Why a scan could not be read: the file and what is wrong with it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -30,7 +30,7 @@ pub enum ScanFault {
     Damaged {
         /// The format expected.
         format: &'static str,
-        /// What the reader met, with the place where known.
+        /// The reader's message, with the place if known.
         reason: String,
     },
     /// A value is not allowed.
@@ -38,9 +38,9 @@ pub enum ScanFault {
     Value {
         /// Where in the file.
         place: String,
-        /// What stands there.
+        /// The value found.
         value: String,
-        /// What is allowed there.
+        /// The values allowed there.
         expected: String,
     },
     /// There is no such revolution.

@@ -1,6 +1,6 @@
 //! PCD, the format of the Point Cloud Library.
 //!
-//! `pcd_rs` reads the points. It believes what a file says of its own size, so that is checked first.
+//! `pcd_rs` reads the points. It trusts the sizes in the header, so they are checked first.
 
 use std::io::Cursor;
 
@@ -41,7 +41,7 @@ fn damaged(reason: impl ToString) -> ScanFault {
     ScanFault::Damaged { format: "PCD", reason: reason.to_string() }
 }
 
-/// Where x, y and z stand in a record, which leaves out padding.
+/// Indices of x, y and z in a record, which leaves out padding.
 fn axes(meta: &PcdMeta) -> Result<[usize; 3], ScanFault> {
     let mut axes = [0; 3];
     for (axis, name) in axes.iter_mut().zip(["x", "y", "z"]) {
@@ -112,7 +112,7 @@ fn check_size(meta: &PcdMeta, data: &[u8]) -> Result<(), ScanFault> {
     Ok(())
 }
 
-/// NaN when there is no such number.
+/// NaN if there is no such number.
 fn coordinate_m(record: &DynRecord, index: usize) -> f64 {
     match record.0.get(index) {
         Some(Field::F32(values)) => values.first().map_or(f64::NAN, |&value| value.into()),

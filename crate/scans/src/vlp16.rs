@@ -1,7 +1,7 @@
 //! The data packets of a VLP-16 (Velodyne, *VLP-16 User Manual*, 63-9243, chapters 6 to 9).
 //!
-//! A packet has twelve blocks of two firing sequences of the sixteen lasers, and at its end says which returns it holds
-//! and of which sensor. A block gives the azimuth of its first firing alone; the others are interpolated.
+//! A packet has twelve blocks of two firing sequences of the sixteen lasers, then the return mode and the
+//! type of sensor. A block has the azimuth of its first firing alone; the others are interpolated.
 
 use glam::Vec3;
 
@@ -9,7 +9,7 @@ use crate::error::ScanFault;
 
 /// Length of a data packet: 12 blocks, a time stamp of four bytes, return mode and product.
 pub(crate) const PACKET_BYTES: usize = BLOCKS * BLOCK_BYTES + 6;
-/// What each block begins with.
+/// The first bytes of each block.
 pub(crate) const BLOCK_FLAG: [u8; 2] = [0xff, 0xee];
 /// A whole turn in the sensor's unit, hundredths of a degree.
 pub(crate) const TURN: f64 = 36_000.0;
@@ -48,7 +48,8 @@ pub(crate) struct Firing {
 }
 
 impl Firing {
-    /// The returns in the project's sensor frame, metres: Velodyne's azimuth turns clockwise, ours anticlockwise.
+    /// The returns in the project's sensor frame, metres: Velodyne's azimuth turns clockwise, ours
+    /// anticlockwise.
     pub(crate) fn points_m(&self) -> impl Iterator<Item = Vec3> {
         self.distances.iter().enumerate().filter(|(_, distance)| **distance > 0).map(|(laser, &distance)| {
             let turned = self.turn_per_block * LASER_US * laser as f64 / BLOCK_US;
@@ -101,7 +102,7 @@ pub(crate) fn firings(packet: &[u8; PACKET_BYTES], number: usize) -> Result<Vec<
             let last = firing.distances;
             let strongest = distances(packet, first + 1, sequence);
             firing.distances = strongest;
-            // A beam with one return tells it twice.
+            // A beam with one return reports it twice.
             for (laser, distance) in firing.distances.iter_mut().enumerate() {
                 if *distance == last[laser] {
                     *distance = 0;
@@ -145,7 +146,8 @@ pub(crate) mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A packet whose first block looks to `azimuth`, each next one 0.4° further, with `distance` in every return.
+    /// A packet whose first block looks to `azimuth`, each next one 0.4° further, with `distance` in every
+    /// return.
     pub(crate) fn packet(
         azimuth: u16,
         mode: u8,

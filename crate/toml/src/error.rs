@@ -1,9 +1,9 @@
-//! What is wrong with a document, and where.
+//! Errors in a document, with their place.
 
 use std::fmt::{self, Display};
 use std::ops::Range;
 
-/// What is wrong with a document, and where.
+/// An error in a document, with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
     message: String,
@@ -12,29 +12,29 @@ pub struct Error {
     place: Option<Place>,
 }
 
-/// Where a fault begins: line and column count from 1.
+/// Begin of a fault: line and column count from 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Place {
     line: usize,
     column: usize,
-    /// The line as it stands.
+    /// The text of the line.
     text: String,
-    /// How many of its characters are at fault.
+    /// Number of characters at fault.
     length: usize,
 }
 
 impl Error {
-    /// What went wrong, without the place.
+    /// The message, without the place.
     pub fn message(&self) -> &str {
         &self.message
     }
 
-    /// The line of the document that the fault is in, counted from 1, where that is known.
+    /// The line of the fault, counted from 1, if known.
     pub fn line(&self) -> Option<usize> {
         self.place.as_ref().map(|place| place.line)
     }
 
-    /// Places the fault here, unless its place is known.
+    /// Sets the place of the fault, unless it is known.
     pub(crate) fn at(mut self, span: Range<usize>) -> Self {
         self.span.get_or_insert(span);
         self

@@ -1,14 +1,14 @@
-//! A value that knows where it stands.
+//! A value with its place in the document.
 
 use std::fmt;
 use std::marker::PhantomData;
 
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 
-/// By this name the reader knows that a place is asked for.
+/// The reader recognises a located value by this name.
 pub(crate) const NAME: &str = "$mapless_toml::Located";
 
-/// A value and where it stands in the document. Only [`from_str`](crate::from_str) can read one.
+/// A value and its place in the document. Only [`from_str`](crate::from_str) can read one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located<T> {
     /// The first byte of the value; of a table, of its header.

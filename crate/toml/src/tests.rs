@@ -1,4 +1,4 @@
-//! The toml crate is the measure: the same values, and the same messages.
+//! The toml crate is the reference: the same values, and the same messages.
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
@@ -48,7 +48,7 @@ enum OneOrMany {
     Many(Vec<f64>),
 }
 
-/// What the toml crate makes of a text, its message without the last line's end.
+/// The toml crate's reading of a text, its message without the last line's end.
 fn theirs<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())
 }
@@ -112,7 +112,7 @@ fn a_located_table_knows_its_header() {
     assert_eq!(found, [(0, 1.0), (23, 2.0)]);
 }
 
-/// The toml crate's words for an integer that it cannot read, whatever the reason; ours give the reason.
+/// The toml crate's message for every integer that it cannot read; ours says why.
 const OVERFLOWED: &str = "integer number overflowed";
 
 #[test]
@@ -135,7 +135,8 @@ fn without_carets(message: String) -> String {
 }
 
 proptest! {
-    /// A byte of a good document changed, left out or doubled: the same value or the same fault as with the toml crate.
+    /// A byte of a good document changed, left out or doubled: the same value or the same fault as with the
+    /// toml crate.
     #[test]
     fn damaged_documents_are_judged_alike(at in 0..GOOD.len(), byte in 0x09..0x7f_u8, how in 0..3) {
         let mut bytes = GOOD.as_bytes().to_vec();

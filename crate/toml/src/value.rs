@@ -1,4 +1,4 @@
-//! From a parsed document into what it describes.
+//! The deserializer: from a parsed document to a type.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -19,7 +19,7 @@ pub(crate) fn read<T: DeserializeOwned>(table: &Spanned<DeTable<'_>>) -> Result<
     T::deserialize(Value { kind: Kind::Table(table.get_ref()), span: table.span() })
 }
 
-/// A value of the document and where it stands.
+/// A value of the document and its place.
 struct Value<'a> {
     kind: Kind<'a>,
     span: Range<usize>,
@@ -50,7 +50,7 @@ impl<'a> Value<'a> {
         Self { kind, span: value.span() }
     }
 
-    /// The complaint about a value of another kind than expected.
+    /// The error for a value of another kind than expected.
     fn unexpected(&self, expected: &dyn Expected) -> Error {
         let found = match self.kind {
             Kind::String(text) => Unexpected::Str(text),
@@ -86,7 +86,7 @@ fn integer(number: &DeInteger<'_>) -> Option<i64> {
     i64::from_str_radix(number.as_str(), number.radix()).ok()
 }
 
-/// `1e999` is no number that a float can hold, `inf` is.
+/// `1e999` overflows a float and is refused; `inf` is allowed.
 fn float(text: &str) -> Option<f64> {
     let value: f64 = text.parse().ok()?;
     (value.is_finite() || text.contains("inf") || text.contains("nan")).then_some(value)
@@ -95,7 +95,8 @@ fn float(text: &str) -> Option<f64> {
 impl<'de> Deserializer<'de> for Value<'_> {
     type Error = Error;
 
-    // Not inlined: each visitor has one of these, and the compiler would copy it to every field that reads it.
+    // Not inlined: each visitor has one of these, and the compiler would copy it to every field that reads
+    // it.
     #[inline(never)]
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         let read = match self.kind {
@@ -104,7 +105,7 @@ impl<'de> Deserializer<'de> for Value<'_> {
                 Some(value) => visitor.visit_i64(value),
                 None => match u64::from_str_radix(number.as_str(), number.radix()) {
                     Ok(value) => visitor.visit_u64(value),
-                    // As `0x` without more is read.
+                    // The same error as for `0x` without digits.
                     Err(_) if number.as_str().is_empty() => Err(Error::custom("integer: expected digits")),
                     Err(_) => Err(Error::custom(format_args!(
                         "integer {}: expected one of 64 bits",

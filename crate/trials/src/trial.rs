@@ -1,4 +1,4 @@
-//! One trial: world → scan → planner → command → world.
+//! One trial: a loop of world, scan, planner and command.
 
 use core::time::Duration;
 use std::sync::Arc;
@@ -23,7 +23,7 @@ use crate::scenario::{Preset, Scenario};
 /// Motion steps in one planning period.
 const MOTION_STEPS: u32 = 10;
 
-/// Why a trial cannot begin or change as asked.
+/// Why a trial cannot begin or change.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TrialError {
     /// A place that is not on the terrain.
@@ -69,7 +69,7 @@ impl Trial {
     /// Puts the scenario's robot on `field`; `seed` replaces the scenario's own.
     ///
     /// # Errors
-    /// [`TrialError`] for a start or goal off the terrain or a configuration that makes no sense.
+    /// [`TrialError`] for a start or goal off the terrain or a configuration outside its range.
     pub fn new(
         field: HeightField,
         scenario: &Scenario,
@@ -80,7 +80,7 @@ impl Trial {
         Self::with_planner(field, scenario, config, seed)
     }
 
-    /// As [`Trial::new`], with a planner configuration of one's own.
+    /// As [`Trial::new`], with another planner configuration.
     ///
     /// # Errors
     /// As [`Trial::new`].
@@ -94,11 +94,11 @@ impl Trial {
         Self::with_navigator(field, scenario, planner, seed)
     }
 
-    /// Changes the ground under way; the robot settles on it and forgets what it remembers of it. Gives the
+    /// Changes the ground during the trial: the robot settles on it and forgets the terrain. Returns the
     /// samples that changed.
     ///
     /// # Errors
-    /// [`TrialError::Config`] for a brush that makes no sense.
+    /// [`TrialError::Config`] for a brush that is not valid.
     pub fn sculpt(&mut self, brush: &Brush) -> Result<Option<SampleRect>, TrialError> {
         let changed = Arc::make_mut(&mut self.caster)
             .sculpt(brush)
@@ -107,7 +107,7 @@ impl Trial {
         Ok(changed)
     }
 
-    /// Puts other heights in place of those in a rectangle, as [`Trial::sculpt`] changes them.
+    /// Replaces the heights in a rectangle, with the same consequences as [`Trial::sculpt`].
     ///
     /// # Errors
     /// [`TrialError::Config`] for heights that do not fit; nothing then changes.
@@ -119,7 +119,7 @@ impl Trial {
         Ok(())
     }
 
-    /// After the ground may have changed.
+    /// Settles the robot on the ground, if that changed, and forgets the terrain.
     fn settle(&mut self, changed: bool) {
         if changed {
             self.navigator.reset();
@@ -131,7 +131,7 @@ impl Trial {
         }
     }
 
-    /// What the last planner step saw and decided.
+    /// The planner's last step.
     pub fn step(&self) -> Step<'_> {
         self.navigator.last_step()
     }
@@ -151,11 +151,11 @@ impl Trial {
 }
 
 impl<N: Navigator> Trial<N> {
-    /// Puts the scenario's robot on `field`, with `navigator` to drive it; the scenario's `[planner]` section
-    /// is left unread.
+    /// Puts the scenario's robot on `field`, driven by `navigator`; the scenario's `[planner]` section is
+    /// ignored.
     ///
     /// # Errors
-    /// [`TrialError`] for a start or goal off the terrain or a sensor or robot that makes no sense.
+    /// [`TrialError`] for a start or goal off the terrain or a sensor or robot outside its range.
     pub fn with_navigator(
         field: HeightField,
         scenario: &Scenario,
@@ -200,17 +200,16 @@ impl<N: Navigator> Trial<N> {
         self.outcome
     }
 
-    /// Takes a scan from where the robot stands, as far as the navigator looks.
+    /// Takes a scan at the robot's pose, out to the navigator's range.
     pub fn look(&mut self) {
         self.look_as_far_as(self.navigator.sight_m());
-        // No return at all would say that the sensor is blind, not that the ground falls away.
+        // A scan without any return would mean a blind sensor, not a drop all around.
         if self.scan.points.is_empty() {
             self.look_far();
         }
     }
 
-    /// As [`Trial::look`], as far as the sensor sees. It takes longer and decides the same; for those who
-    /// look on.
+    /// As [`Trial::look`], out to the sensor's range. It takes longer and changes no decision; for observers.
     pub fn look_far(&mut self) {
         if self.navigator.sight_m() > 0.0 {
             self.look_as_far_as(f64::INFINITY);
@@ -276,7 +275,7 @@ impl<N: Navigator> Trial<N> {
         None
     }
 
-    /// Allows anew the time to the target.
+    /// Restarts the time limit, for the distance to the present target.
     fn restart_time_limit(&mut self) {
         let here_m = self.husky.state().position;
         let speed_m_s = self.navigator.max_speed_m_s().min(self.husky.config().max_speed_m_s);
@@ -284,7 +283,7 @@ impl<N: Navigator> Trial<N> {
         self.progress = ProgressChecker::new(here_m, self.tick, self.period_s(), straight_s);
     }
 
-    /// Sets a new goal and drives on; the metrics go on too.
+    /// Sets a new goal and continues; the metrics continue too.
     ///
     /// # Errors
     /// [`TrialError::OffTerrain`]; the goal then stays as it was.
@@ -292,8 +291,7 @@ impl<N: Navigator> Trial<N> {
         self.set_route(Vec::new(), goal_m, None)
     }
 
-    /// As [`Trial::set_goal`], with waypoints to drive to before, one after the other, and the heading to end
-    /// with, if any.
+    /// As [`Trial::set_goal`], with waypoints before the goal, in order, and a final heading, if any.
     ///
     /// # Errors
     /// [`TrialError::OffTerrain`]; the route then stays as it was.
@@ -310,7 +308,7 @@ impl<N: Navigator> Trial<N> {
         Ok(())
     }
 
-    /// Puts the robot somewhere else and begins anew from there, with the ground as it is now.
+    /// Moves the robot to another start and begins again there, on the ground as it is now.
     ///
     /// # Errors
     /// [`TrialError::OffTerrain`]; nothing then changes.
@@ -326,7 +324,7 @@ impl<N: Navigator> Trial<N> {
         Ok(())
     }
 
-    /// Lets an ended trial go on, after a change.
+    /// Continues an ended trial after a change.
     fn resume(&mut self) {
         self.outcome = None;
         self.restart_time_limit();
@@ -337,7 +335,7 @@ impl<N: Navigator> Trial<N> {
         self.outcome
     }
 
-    /// Why the navigator stopped, where it did.
+    /// Why the navigator stopped, if it did.
     pub fn stop_reason(&self) -> Option<NavigatorStop> {
         match self.decision.activity {
             Activity::Stopped(reason) => Some(reason),
@@ -345,7 +343,7 @@ impl<N: Navigator> Trial<N> {
         }
     }
 
-    /// What drives the robot.
+    /// The navigator that drives the robot.
     pub fn navigator(&self) -> &N {
         &self.navigator
     }
@@ -393,39 +391,39 @@ impl<N: Navigator> Trial<N> {
         [x, y, z, pose.roll_rad, pose.pitch_rad, pose.yaw_rad, robot.speed_m_s, robot.turn_rate_rad_s]
     }
 
-    /// Where it started.
+    /// The start.
     pub fn start(&self) -> StartPose {
         self.start
     }
 
-    /// Where it should go in the end.
+    /// The goal.
     pub fn goal_m(&self) -> DVec2 {
         self.goal_m
     }
 
-    /// Where it should go before, one after the other.
+    /// The waypoints before the goal, in order.
     pub fn waypoints_m(&self) -> &[DVec2] {
         &self.waypoints_m
     }
 
-    /// How many of the waypoints it has been to.
+    /// The number of waypoints passed.
     pub fn waypoints_passed(&self) -> usize {
         self.passed
     }
 
-    /// Where it goes now: the next waypoint, or the goal.
+    /// The present target: the next waypoint, or the goal.
     pub fn target_m(&self) -> DVec2 {
         self.waypoints_m.get(self.passed).copied().unwrap_or(self.goal_m)
     }
 
-    /// Where it goes now, with the final heading where that is the goal and one was asked for.
+    /// The present target; with the final heading if it is the goal and has one.
     pub fn target(&self) -> Goal {
         let target = Goal::at(self.target_m());
         let is_last = self.passed >= self.waypoints_m.len();
         self.goal_heading_rad.filter(|_| is_last).map_or(target, |heading_rad| target.facing(heading_rad))
     }
 
-    /// The heading that it should end with; any when absent.
+    /// The final heading; any if `None`.
     pub fn goal_heading_rad(&self) -> Option<f64> {
         self.goal_heading_rad
     }

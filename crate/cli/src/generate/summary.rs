@@ -1,4 +1,4 @@
-//! What the difficulty of generated tasks comes to.
+//! Measures of the difficulty of generated tasks.
 
 use comfy_table::{CellAlignment, Table, presets};
 use mapless_baselines::Task;

@@ -1,4 +1,4 @@
-//! What perception made of a scan: as JSON and as tables.
+//! The result of perception on a scan: as JSON and as tables.
 
 use std::f64::consts::PI;
 
@@ -10,17 +10,17 @@ use mapless_trials::Activity;
 
 use super::rows::{ColumnRow, CommandRow, CostRow, SegmentRow, SubgoalRow};
 
-/// The result of one step, as `--json` prints it. Azimuths and elevations are the sensor's; positions are the world's,
-/// whose origin is the ground under the robot and whose x is its heading.
+/// The result of one step, as `--json` prints it. Azimuths and elevations are the sensor's; positions are the
+/// world's, whose origin is the ground under the robot and whose x is its heading.
 #[derive(serde::Serialize)]
 pub(crate) struct PerceptionReport {
     #[serde(skip)]
     subject: String,
     /// Returns in the scan.
     returns: usize,
-    /// `driving`, `arrived`, `retreating`, `looking` or `stopped`.
+    /// `driving`, `arrived`, `backtracking`, `searching` or `stopped`.
     status: &'static str,
-    /// Why the planner stopped, where it did.
+    /// Why the planner stopped, if it did.
     reason: Option<String>,
     command: CommandRow,
     surface_radius_m: f64,
@@ -29,7 +29,7 @@ pub(crate) struct PerceptionReport {
     inducing_inputs: usize,
     /// Largest jitter that a covariance needed.
     jitter: f64,
-    /// Always one for each column; unknown where the planner stopped before it saw anything.
+    /// One for each column; unknown if the planner stopped before perception.
     profile: Vec<ColumnRow>,
     segments: Vec<SegmentRow>,
     subgoals: Vec<SubgoalRow>,
@@ -67,7 +67,7 @@ impl PerceptionReport {
         &self.subject
     }
 
-    /// What was decided, in a line.
+    /// The decision in a line.
     pub(crate) fn headline(&self) -> String {
         let candidates = self.subgoals.iter().filter(|subgoal| subgoal.refusal.is_none()).count();
         let seen = format!(
@@ -85,7 +85,7 @@ impl PerceptionReport {
         }
     }
 
-    /// The report for people: what was seen, the segments and the subgoals.
+    /// The report as text: perception, the segments and the subgoals.
     pub(crate) fn tables(&self) -> String {
         let mut text = format!("{}\n{}\n\n{}", self.subject, self.headline(), self.summary());
         if !self.segments.is_empty() {

@@ -1,4 +1,4 @@
-//! The rows of a perception report: what the planner's types are called in JSON.
+//! The rows of a perception report: the planner's types by their names in JSON.
 
 use mapless::Command;
 use mapless::decision::subgoals::{Cost, Refusal, Subgoal};
@@ -40,7 +40,7 @@ pub(crate) struct SubgoalRow {
     pub(crate) position_m: [f64; 3],
     /// `tilt`, `unseen` or none for a candidate.
     pub(crate) refusal: Option<&'static str>,
-    /// Weighted terms; none when refused.
+    /// Weighted terms; none if refused.
     pub(crate) cost: Option<CostRow>,
 }
 

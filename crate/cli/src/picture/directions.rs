@@ -1,4 +1,5 @@
-//! A panel of directions: azimuth across with the robot's left on the left and straight ahead in the middle, elevation up.
+//! A panel of directions: azimuth across with the robot's left on the left and straight ahead in the middle,
+//! elevation up.
 
 use std::fmt::{self, Write as _};
 
@@ -7,13 +8,13 @@ use mapless::skyline::occupancy::COLUMNS;
 
 use mapless_figures::page::{self, INK, embed};
 
-/// Pixels a degree; elevation is drawn higher than it is wide, since that is where the ground differs.
+/// Pixels per degree; elevation has a larger scale, since the ground differs there.
 const ACROSS: f64 = 3.0;
 const UP: f64 = 7.0;
 /// Elevation of the upper edge, half a row above the sensor's highest ring, and minus that of the lower one.
 const TOP_DEG: f64 = 15.5;
 
-/// Where the panels stand on the page, and their size, pixels.
+/// Position of the panels on the page, and their size, pixels.
 pub(crate) const LEFT: f64 = 64.0;
 pub(crate) const SIZE: DVec2 = DVec2::new(ACROSS * COLUMNS as f64, UP * 2.0 * TOP_DEG);
 
@@ -24,26 +25,26 @@ pub(crate) struct Panel {
 }
 
 impl Panel {
-    /// Where a direction lies on the page. Column 0, straight behind, is the last one on the right.
+    /// Position of a direction on the page. Column 0, straight behind, is the last one on the right.
     pub(crate) fn place(self, azimuth_rad: f64, elevation_rad: f64) -> DVec2 {
         DVec2::new(self.x(azimuth_rad), self.y(elevation_rad))
     }
 
-    /// How far across an azimuth lies.
+    /// Horizontal position of an azimuth.
     pub(crate) fn x(self, azimuth_rad: f64) -> f64 {
         LEFT + ACROSS * (179.5 - azimuth_rad.to_degrees()).rem_euclid(360.0)
     }
 
-    /// How far down an elevation lies.
+    /// Vertical position of an elevation.
     pub(crate) fn y(self, elevation_rad: f64) -> f64 {
         self.top + UP * (TOP_DEG - elevation_rad.to_degrees())
     }
 
-    /// The stretch of azimuths that begins at `begin_rad` and extends anticlockwise, as pieces from left to right: two
-    /// where it passes behind the robot.
+    /// The interval of azimuths that begins at `begin_rad` and extends anticlockwise, as pieces from left to
+    /// right: two if it passes behind the robot.
     pub(crate) fn across(self, begin_rad: f64, extent_rad: f64) -> Vec<(f64, f64)> {
         let (right, width) = (self.x(begin_rad), ACROSS * extent_rad.to_degrees());
-        // A stretch that begins on the panel's left edge begins on its right edge just as well.
+        // An interval that begins on the panel's left edge may as well begin on its right edge.
         let right = if right - LEFT < 1e-6 { LEFT + SIZE.x } else { right };
         if right - width >= LEFT - 1e-6 {
             return vec![(right - width, right)];
@@ -110,7 +111,7 @@ impl Panel {
         )
     }
 
-    /// What the azimuths mean, under the last panel.
+    /// The label of the azimuths, under the last panel.
     pub(crate) fn azimuth_label(self, svg: &mut String) -> fmt::Result {
         let y = self.top + SIZE.y + 38.0;
         let middle = self.x(0.0);

@@ -1,5 +1,5 @@
-//! The occupancy surface as observed, its reconstruction and the variance surface, one below the other (the paper shows
-//! them as rings around the robot).
+//! The occupancy surface as observed, its reconstruction and the variance surface, one below the other (the
+//! paper shows them as rings around the robot).
 
 use std::fmt::Write as _;
 
@@ -17,7 +17,7 @@ const HEIGHT: f64 = TOP + 3.0 * SPACING + 4.0;
 /// Directions without a return.
 const UNSEEN: [u8; 3] = [255; 3];
 
-/// What the picture shows.
+/// The contents of the picture.
 pub(crate) struct OccupancyPicture<'a> {
     pub(crate) title: &'a str,
     pub(crate) subtitle: &'a str,
@@ -34,7 +34,8 @@ impl OccupancyPicture<'_> {
         let mut svg = String::new();
         page::begin(&mut svg, DVec2::new(WIDTH, HEIGHT), LEFT, self.title, self.subtitle)?;
 
-        // Half a degree each: a ring reaches a degree to either side of its elevation, half of it beyond the panel's edge.
+        // Half a degree each: a ring reaches a degree to either side of its elevation, half of it beyond the
+        // panel's edge.
         panels[0].paint(&mut svg, 2 * ROWS, |column, row| {
             let ring = (2 * row + 3) / 8;
             let cell = self.observed.column(column).iter().find(|cell| cell.ring == ring);
@@ -73,7 +74,7 @@ impl OccupancyPicture<'_> {
     }
 }
 
-/// A perceptually even map from cold to warm; as in the paper, warm is little occupancy.
+/// A perceptually uniform map from cold to warm; as in the paper, warm is little occupancy.
 fn warmth(share: f64) -> [u8; 3] {
     let (r, g, b) = colorous::PLASMA.eval_continuous(share.clamp(0.0, 1.0)).as_tuple();
     [r, g, b]

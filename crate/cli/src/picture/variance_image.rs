@@ -1,4 +1,5 @@
-//! The unfolded variance surface with the profile, its segments and the subgoals (the paper's variance image).
+//! The unfolded variance surface with the profile, its segments and the subgoals (the paper's variance
+//! image).
 
 use std::fmt::{self, Write as _};
 
@@ -21,7 +22,7 @@ const HEIGHT: f64 = LEGEND + 52.0;
 /// Colour of the edge between observed and free.
 const PROFILE: &str = "#00a0e0";
 
-/// What the picture shows.
+/// The contents of the picture.
 pub(crate) struct VarianceImage<'a> {
     pub(crate) title: &'a str,
     pub(crate) subtitle: &'a str,
@@ -137,7 +138,7 @@ fn area(svg: &mut String, segment: &Segment) -> fmt::Result {
     Ok(())
 }
 
-/// Hatched where unknown, reddened below a red band where a wall stands.
+/// Hatched if unknown, reddened below a red band for a wall.
 fn shade(svg: &mut String, place: DVec2, size: DVec2, verdict: Verdict) -> fmt::Result {
     let mut rectangle = |height: f64, fill: &str, opacity: f64| {
         writeln!(
@@ -228,10 +229,10 @@ fn ring(svg: &mut String, at: DVec2) -> fmt::Result {
     Ok(())
 }
 
-/// Two lines under the panel: what was seen, and what follows from it.
+/// Two lines under the panel: perception, and the decision.
 fn legend(svg: &mut String, radius_m: f64) -> fmt::Result {
     let (mut x, mut y) = (LEFT + 12.0, LEGEND);
-    // Writes the words beside the mark at x and gives the place of the next mark.
+    // Writes the words beside the mark at x; returns the position of the next mark.
     let words = |svg: &mut String, x: f64, y: f64, words: &str| -> Result<f64, fmt::Error> {
         writeln!(svg, r#"<text x="{:.1}" y="{:.1}">{words}</text>"#, x + 20.0, y + 4.5)?;
         Ok(x + 54.0 + 6.6 * words.chars().count() as f64)

@@ -28,7 +28,7 @@ pub enum StopReason {
     #[error("no perception: {0}")]
     NoPerception(GpError),
     /// The spin recovery found no candidate either.
-    #[error("no subgoal found after looking around")]
+    #[error("no subgoal found by the spin recovery")]
     NoSubgoal,
     /// The requested final heading cannot be turned to at the goal without exceeding a tilt limit.
     #[error("turning to the goal's heading would exceed a tilt limit")]
