@@ -1,4 +1,5 @@
-//! `mapless trials` through the real binary: resumed after kills, in shards and with several jobs, always the same bytes.
+//! `mapless trials` through the real binary: resumed after kills, in shards and with several jobs, always the
+//! same bytes.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -23,9 +24,9 @@ const CAMPAIGN: &str = "planners = [\"default\"]\nroutes = [\"routes/*.toml\"]\n
     trajectories = true\n\n[[parameters]]\npath = \"planner.decision.steepness_weight\"\nvalues = [0.0, -1.0]\n";
 /// Routes × (base and two values) × seeds.
 const TRIALS: usize = 2 * 3 * 6;
-/// Those with the value that no planner takes.
+/// Those with a value that no planner accepts.
 const ERRORS: usize = 2 * 6;
-/// What must be the same bytes however a campaign has run.
+/// Files with the same bytes however a campaign has run.
 const FILES: [&str; 3] = ["trials.csv", "trials.parquet", "campaign.json"];
 
 struct Folder(TempDir);
@@ -59,7 +60,7 @@ impl Folder {
         command
     }
 
-    /// Runs the campaign to its end; gives what it prints.
+    /// Runs the campaign to its end; returns its output.
     fn trials(&self, args: &[&str]) -> String {
         let output = self.command(&[&["trials", "small.toml"], args].concat()).output().unwrap();
         assert!(output.status.success(), "{output:?}");
@@ -143,8 +144,9 @@ fn jobs_shards_and_kills_change_no_byte() {
     assert_eq!(timing.lines().count(), TRIALS + 1);
 }
 
-/// Starts the campaign ten times and kills it each time before its end: in turn at any moment of its first 100 ms and soon after the next trial
-/// was written, the last times with pieces of a line behind it as a power failure may leave them.
+/// Starts the campaign ten times and kills it each time before its end: in turn at any moment of its first
+/// 100 ms and soon after the next trial was written; the last times with part of a line behind it, as a power
+/// failure may leave it.
 fn kill_ten_times(folder: &Folder) {
     // A small generator of its own, so that a failure can be repeated.
     let mut state = 0x2545_f491_4f6c_dd1d_u64;
@@ -200,7 +202,7 @@ fn rows_say_what_ran_and_each_can_be_run_again() {
     let first = &reader[0];
     assert_eq!((first["route"].as_str(), first["seed"].as_str()), (Some("east"), Some("1")));
     assert_eq!(first["straight_m"], "6.0");
-    // The ground is gentle: the oracle drives straight, up to where it counts as there.
+    // The ground is gentle: the oracle drives straight, up to the goal's tolerance.
     for row in &reader {
         let metres = |name: &str| row[name].as_str().unwrap().parse::<f64>().unwrap();
         let (straight_m, oracle_m) = (metres("straight_m"), metres("oracle_length_m"));
@@ -312,7 +314,7 @@ fn every_planner_drives_in_a_campaign_and_stands_in_its_report() {
 #[test]
 fn a_report_is_the_same_twice_and_names_every_route() {
     let folder = Folder::new();
-    // One route has the name of one of the paper's, so that its numbers stand beside ours.
+    // One route has the name of one of the paper's, so that its numbers appear beside ours.
     fs::rename(folder.path("routes/east.toml"), folder.path("routes/cht-ad.toml")).unwrap();
     folder.write(
         "small.toml",

@@ -47,7 +47,8 @@ impl Folder {
         serde_json::from_slice(&output.stdout).unwrap()
     }
 
-    /// Runs a scenario that cannot run: code 1, nothing on stdout, a message that begins as given and says more.
+    /// Runs a scenario that cannot run: code 1, nothing on stdout, a message that begins as given and says
+    /// more.
     fn refuses(&self, text: &str, begin: &str, needles: &[&str]) {
         self.write("bad.toml", text);
         refused(&self.run("bad.toml", &["--json"]), begin, needles);
@@ -236,7 +237,7 @@ fn the_table_names_units_and_limits() {
 #[test]
 fn a_trial_that_does_not_reach_its_goal_exits_with_2_and_says_why() {
     let folder = Folder::new();
-    // Nothing comes back from so near, so there is no ground to drive on.
+    // No return comes from so near, so there is no ground to drive on.
     folder.write("blind.toml", format!("{SCENARIO}[sensor]\nmax_range_m = 1.0\n"));
     let output = folder.run("blind.toml", &["--json", "--out", "blind"]);
     let result: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -65,7 +65,7 @@ fn beams() -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// Level ground 0.8 m below the sensor, hidden or cut off where `range_m` of azimuth and elevation says otherwise.
+/// Level ground 0.8 m below the sensor, unless `range_m` of azimuth and elevation gives another range.
 fn scan(range_m: impl Fn(f64, f64) -> Option<f64>) -> String {
     let mut text = String::from("x,y,z\n");
     for (azimuth, elevation) in beams() {
@@ -88,7 +88,7 @@ fn walled() -> String {
     })
 }
 
-/// Fails unless the object is what perception always gives: every name, every number in its range.
+/// Fails unless the object has every name of a perception report, and every number in its range.
 fn assert_sound(result: &Value) {
     let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{value} is no number"));
     let profile = result["profile"].as_array().unwrap();

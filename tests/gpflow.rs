@@ -8,7 +8,8 @@ use mapless::gp::kernel::RationalQuadratic;
 use mapless::gp::sparse::SparseGp;
 use serde::Deserialize;
 
-/// One scene with gpflow's posterior and bound for several hyperparameters, and its exact process on a part of the inputs.
+/// One scene with gpflow's posterior and bound for several hyperparameters, and its exact process on a part
+/// of the inputs.
 #[derive(Debug, Deserialize)]
 struct Scene {
     scene: String,
@@ -195,15 +196,15 @@ fn compare_scene(scene: &Scene) -> Result<usize, String> {
     Ok(scene.cases.len() + 1)
 }
 
-/// The bound and its gradients; a condition above 1e9 leaves gpflow four digits of the bound and two of the gradient, as 80-bit
-/// arithmetic shows.
+/// The bound and its gradients; a condition above 1e9 leaves gpflow four digits of the bound and two of the
+/// gradient, as 80-bit arithmetic shows.
 fn compare_bound(place: &str, case: &Case, elbo: f64, bound: &CollapsedBound) -> Result<(), String> {
     let lost = case.condition > 1e9;
     let relative = if lost { 1e-4 } else { 1e-8 };
     within(place, "bound", &[elbo], &[case.elbo], relative * case.elbo.abs())?;
     let (mut ours, mut theirs) = (gradient_of(&case.grad_log, bound.gradient()), case.grad_log.list());
     if lost {
-        // And none of the derivative with respect to the variance.
+        // Nor any digits of the derivative with respect to the variance.
         ours[0] = 0.0;
         theirs[0] = 0.0;
     }

@@ -1,5 +1,5 @@
-//! Learning on the repository's scene gives recorded bits; native and browser tests compare with the same number, so a pass of
-//! both shows that bound, gradient and both optimisers agree on every target.
+//! Learning on the repository's scene gives recorded bits; native and browser tests compare with the same
+//! number, so a pass of both shows that bound, gradient and both optimisers agree on every target.
 
 use mapless::gp::hyperparameters::Hyperparameters;
 use mapless::gp::kernel::RationalQuadratic;
@@ -7,7 +7,8 @@ use mapless::gp::learning::{Learned, Learner, LearningConfig, Optimiser};
 
 use crate::gpflow;
 
-/// The digest of what L-BFGS and Adam learn in twenty evaluations, with every inducing input free.
+/// The digest of the hyperparameters that L-BFGS and Adam learn in twenty evaluations, with every inducing
+/// input free.
 pub const RECORDED: u64 = 17_714_151_122_878_875_295;
 
 /// Learns with both and gives the digest.

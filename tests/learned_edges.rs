@@ -1,5 +1,5 @@
-//! What learning does to the skyline: within the default bounds the edge of the variance surface stays just above the returns,
-//! and without bounds it leaves them.
+//! The effect of learning on the skyline: within the default bounds the edge of the variance surface stays
+//! just above the returns, and without bounds it leaves them.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -51,7 +51,7 @@ fn bounds_keep_the_edge_where_the_returns_are() {
     let fixed = edge_deg(&inputs, &targets, &inducing, &start);
     let bounded = learn(&start, HyperparameterBounds::default());
     let anything = [1e-4, 1e4];
-    // With less noise to begin with, so that the climb goes the usual way: up in variance and length-scales.
+    // With less noise to begin with, so that the maximisation raises variance and length-scales, as usual.
     let little_noise = Hyperparameters { noise_variance: 1.0, ..start };
     let unbounded = learn(
         &little_noise,

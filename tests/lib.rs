@@ -1,4 +1,4 @@
-//! What the tests that span crates share.
+//! Shared parts of the tests that span crates.
 
 pub mod gpflow;
 pub mod learned_bits;

@@ -11,7 +11,8 @@ fn gpflow_fixtures_of_the_repository_agree() {
     assert_eq!(gpflow::compare(gpflow::KERNELS).unwrap(), 6);
 }
 
-/// Every fixture in the folder named by `MAPLESS_GPFLOW_FIXTURES`, and in `../shared/reference/gpflow` where it exists.
+/// Every fixture in the folder named by `MAPLESS_GPFLOW_FIXTURES`, and in `../shared/reference/gpflow` where
+/// it exists.
 #[test]
 fn gpflow_fixtures_of_other_folders_agree() {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/reference/gpflow");

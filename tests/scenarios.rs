@@ -1,4 +1,4 @@
-//! Every scenario is worth a trial: driving straight at its goal fails, and a safe way there exists.
+//! Every scenario is a real task: driving straight at its goal fails, and a safe path exists.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -95,7 +95,7 @@ fn a_safe_way_to_the_goal_exists() {
     }
 }
 
-/// Start and goal are places to stand on, away from the border.
+/// Start and goal are safe places, away from the border.
 #[test]
 fn start_and_goal_are_nearly_level() {
     for (name, LoadedScenario { scenario, terrain }) in loaded() {

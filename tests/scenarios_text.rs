@@ -1,4 +1,5 @@
-//! The scenarios of the repository as text, so that they run where there are no files, and their trajectory digests.
+//! The scenarios of the repository as text, so that they run where there are no files, and their trajectory
+//! digests.
 
 use std::collections::BTreeMap;
 

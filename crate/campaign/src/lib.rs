@@ -5,11 +5,11 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `trials.parquet`, `trials.csv` | one row a trial: outcome, metrics, digest, configuration ([`TrialRow`]) |
-//! | `campaign.json` | what the campaign consists of ([`Manifest`]) |
-//! | `trajectories/` | the first seed's trajectory of every planner on every route, where the campaign asks for them |
+//! | `trials.parquet`, `trials.csv` | a row for each trial: outcome, metrics, configuration ([`TrialRow`]) |
+//! | `campaign.json` | the parts of the campaign ([`Manifest`]) |
+//! | `trajectories/` | the first seed's trajectories, by planner and route, if they are kept |
 //! | `timing.csv` | wall-clock times, which differ from run to run |
-//! | `journal*.jsonl` | what has run so far, one line a trial |
+//! | `journal*.jsonl` | the trials that have run, a line for each |
 //!
 //! All but the last two are the same bytes whenever, wherever and in whatever order the trials ran.
 

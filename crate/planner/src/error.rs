@@ -1,4 +1,4 @@
-//! What can be wrong with input.
+//! Errors of input.
 
 /// A configuration value outside its meaning.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,4 +1,4 @@
-//! After its first steps a planner works in the memory it has: a step that allocates can be late.
+//! A planner allocates nothing after its first steps: a step that allocates can be late.
 
 #![allow(unsafe_code, reason = "an allocator that counts is one by nature")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -59,7 +59,7 @@ fn hills() -> HeightField {
     HeightField::new(200, 200, 0.2, heights.collect()).unwrap()
 }
 
-/// Drives for this many steps over the hills; gives the allocations of each step.
+/// Drives for this many steps over the hills; returns the allocations of each step.
 fn drive(ticks: u64) -> Vec<usize> {
     let caster = Caster::new(hills());
     let sensor = Vlp16::new(SensorConfig::default()).unwrap();

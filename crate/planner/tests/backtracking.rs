@@ -1,4 +1,4 @@
-//! When the planner turns back.
+//! Conditions for backtracking.
 
 use core::time::Duration;
 
@@ -10,7 +10,8 @@ use mapless::{Goal, PerceptionOverride, Planner, PlannerConfig, Status};
 
 const GOAL_M: DVec2 = DVec2::new(20.0, 0.0);
 
-/// Steps over level ground, as it is told, however steep the robot stands; gives what it does and its speed.
+/// A step with level ground as perception override, however steep the robot's attitude; returns status and
+/// speed.
 fn step(planner: &mut Planner, x_m: f64, pitch_rad: f64) -> (Status, f64) {
     let pose = Pose::from_roll_pitch_yaw(DVec3::new(x_m, 0.0, 0.0), 0.0, pitch_rad, 0.0);
     let profile = |_: f64| Column::Ground { elevation_rad: 0.0 };
@@ -41,7 +42,7 @@ fn it_goes_back_from_where_it_stands_steeper_than_it_was_told_and_on_again_a_met
     assert_eq!(step(&mut planner, 2.0, 0.0).0, Status::Driving);
 }
 
-/// Steps at one place that gets steeper with each; gives what it does in the end.
+/// Steps at one place with a pitch that grows each time; returns the last status.
 fn steepen(planner: &mut Planner, x_m: f64, to_pitch_rad: f64, step_rad: f64) -> Status {
     let steps = (to_pitch_rad / step_rad) as i32;
     let pitches_rad = (0..=steps).rev().map(|k| to_pitch_rad - step_rad * f64::from(k));
@@ -71,7 +72,7 @@ fn without_patience_it_goes_on_where_it_would_have_turned_back() {
     let PlannerConfig { robot: limits, state_lattice: forecast, .. } = PlannerConfig::default();
     let steep_rad =
         limits.pitch_limit_rad - 0.5 * (forecast.escape_margin_rad + forecast.impatient_margin_rad);
-    // 3 m and 45 m; patience lasts for 40 m.
+    // 3 m and 45 m; the detour budget is 40 m.
     for (laps, turns_back) in [(1, true), (15, false)] {
         let mut planner = Planner::new(PlannerConfig::default()).unwrap();
         for lap in 0..laps {

@@ -1,4 +1,4 @@
-//! What the planner does with scans of simple ground, and with what it cannot understand.
+//! Behaviour of the planner on scans of simple ground, and on invalid input.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
@@ -18,7 +18,8 @@ const START: Pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, 0.0, 0.0);
 const PERIOD: Duration = Duration::from_millis(100);
 const AHEAD: DVec2 = DVec2::new(50.0, 0.0);
 
-/// A full scan, 16 rings × 1800 azimuths, from 0.8 m above the origin; `range_m` gives the range of a beam's unit direction.
+/// A full scan, 16 rings × 1800 azimuths, from 0.8 m above the origin; `range_m` gives the range of a beam's
+/// unit direction.
 fn scan(range_m: impl Fn(DVec3) -> Option<f64>) -> Vec<Vec3> {
     let mut points = Vec::new();
     for column in 0..1800 {
@@ -53,7 +54,7 @@ fn walled(radius_m: f64) -> impl Fn(DVec3) -> Option<f64> {
     }
 }
 
-/// Both presets, with less patience: a scan full of walls is the dearest there is.
+/// Both presets, with a short spin recovery: a scan full of walls is the most expensive one.
 fn both_presets() -> [Planner; 2] {
     [PlannerConfig::default(), PlannerConfig::paper()].map(|mut config| {
         config.decision.spin_recovery_s = 0.3;
@@ -102,7 +103,7 @@ fn a_planner_that_gave_up_goes_on_once_the_world_has_changed() {
         step(&mut planner, &points, &START, AHEAD);
     }
     assert_eq!(planner.last_step().status, Status::Stopped(StopReason::NoSubgoal));
-    // The walls are remembered until the planner is told to forget them.
+    // The walls are remembered until a reset.
     planner.reset();
     assert_eq!(step(&mut planner, &scan(level), &START, AHEAD).status, Status::Driving);
 }
@@ -120,7 +121,7 @@ fn a_goal_in_sight_is_driven_to_and_arrived_at() {
     }
 }
 
-/// A planner that is told the ground.
+/// A step of a planner whose terrain is overridden.
 fn step_told(goal_m: DVec2, ground: impl Fn(DVec2) -> Option<Plane>) -> (Status, Option<Subgoal>) {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
     let overrides = PerceptionOverride { terrain: Some(&ground), ..PerceptionOverride::default() };

@@ -1,5 +1,5 @@
-//! Learning: the bound never falls, bounds and budget hold, both methods agree, a warm start is cheaper, and every
-//! degenerate problem has a named result.
+//! Learning: the bound never falls, bounds and budget hold, both methods agree, a warm start is cheaper, and
+//! every degenerate problem has a named result.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -26,7 +26,8 @@ const WIDE: HyperparameterBounds = HyperparameterBounds {
     noise_variance_m2: [1e-3, 10.0],
 };
 
-/// A wavy surface with a little noise of its own, on a lattice of five rings like a scan's, and every `stride`-th input.
+/// A wavy surface with a little noise of its own, on a lattice of five rings like a scan's, and every
+/// `stride`-th input.
 fn scan(columns: u32, stride: usize) -> (Vec<DVec2>, Vec<f64>, Vec<DVec2>) {
     let mut state = 7_u32;
     let (inputs, targets): (Vec<DVec2>, Vec<f64>) = (0..columns * 5)

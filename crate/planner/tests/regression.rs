@@ -76,7 +76,8 @@ proptest! {
         let Problem { inputs, targets, inducing, logs } = problem;
         let mut bound = CollapsedBound::new();
         let base = bound.evaluate(&inputs, &targets, &inducing, &hyperparameters(logs)).unwrap();
-        // Another jitter is another function, and so near to a singular covariance that the jitter matters, differences say little.
+        // Another jitter is another function, and so near to a singular covariance that the jitter matters,
+        // differences say little.
         prop_assume!(bound.jitter() < 2e-6 && are_apart(&inducing, &hyperparameters(logs)));
         let evaluate = |inducing: &[DVec2], logs: [f64; 5]| {
             CollapsedBound::new().evaluate(&inputs, &targets, inducing, &hyperparameters(logs)).unwrap()
@@ -130,8 +131,9 @@ proptest! {
         let rounding = 1e-9 * (1.0 + likelihood.abs());
         prop_assert!(sparse <= likelihood + rounding, "{sparse} {likelihood}");
         let full = bound.evaluate(&inputs, &targets, &inputs, &hyperparameters).unwrap();
-        // What remains is the jitter j, which makes an eigenvalue λ of the covariance λ²/(λ + j), less by j at most. So the trace and the logarithms of
-        // the determinant take n j/σ² at most, and the quadratic form |y|² j/(2 σ⁴).
+        // What remains is the jitter j, which makes an eigenvalue λ of the covariance λ²/(λ + j), less by j
+        // at most. So the trace and the logarithms of the determinant take n j/σ² at most, and the quadratic
+        // form |y|² j/(2 σ⁴).
         let Hyperparameters { kernel, noise_variance } = hyperparameters;
         let square: f64 = targets.iter().map(|target| target * target).sum();
         let jitter = bound.jitter();
@@ -143,8 +145,8 @@ proptest! {
         let (mut mean, mut variance) = ([0.0], [0.0]);
         gp.predict(&inducing[..1], &mut mean, &mut variance);
         let (exact_mean, exact_variance) = exact.predict(inducing[0]);
-        // The jitter changes the weight of an eigenvector by j/(λ + j)/σ² at most, and the squares of k*'s shares of them over λ sum up to the variance at most.
-        // √λ j/(λ + j) is largest at λ = j.
+        // The jitter changes the weight of an eigenvector by j/(λ + j)/σ² at most, and the squares of k*'s
+        // shares of them over λ sum up to the variance at most. √λ j/(λ + j) is largest at λ = j.
         let tolerance = 0.5 * (kernel.variance * gp.jitter() * square).sqrt() / noise_variance + 1e-9;
         prop_assert!((mean[0] - exact_mean).abs() <= tolerance, "{mean:?} {exact_mean} {tolerance}");
         let tolerance = 2.0 * kernel.variance * gp.jitter() / noise_variance + 1e-9;

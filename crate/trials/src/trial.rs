@@ -119,7 +119,7 @@ impl Trial {
         Ok(())
     }
 
-    /// Settles the robot on the ground, if that changed, and forgets the terrain.
+    /// Settles the robot on the ground; the navigator forgets the terrain if it `changed`.
     fn settle(&mut self, changed: bool) {
         if changed {
             self.navigator.reset();

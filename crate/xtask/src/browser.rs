@@ -30,7 +30,7 @@ pub(crate) struct Browser {
 }
 
 impl Browser {
-    /// Finds a browser with its driver; where there is none, installs them with apt if this process may.
+    /// Finds a browser with its driver; if there is none, installs them with apt if this process may.
     pub(crate) fn set_up(sh: &Shell) -> anyhow::Result<Self> {
         let missing = match Self::find(sh) {
             Ok(browser) => return Ok(browser),
@@ -58,11 +58,11 @@ impl Browser {
         }
     }
 
-    /// What wasm-bindgen's test runner asks of the driver, as the text of its `webdriver.json`.
+    /// The content of `webdriver.json`, which wasm-bindgen's test runner passes to the driver.
     pub(crate) fn webdriver_json(&self) -> String {
         let args = [
             "--headless=new",
-            // The sandbox does not start as root, which is what containers run as.
+            // The sandbox does not start as root, as in most containers.
             "--no-sandbox",
             "--disable-gpu",
             "--disable-background-networking",
@@ -91,7 +91,7 @@ fn versions(sh: &Shell, variable: &str, names: &[&str]) -> anyhow::Result<Vec<(P
     Ok(names.iter().filter_map(|name| on_path(Path::new(name))).filter_map(version).collect())
 }
 
-/// Where `program` is: itself if absolute, or else in the first folder of PATH that has it.
+/// The path of `program`: itself if absolute, or else in the first folder of PATH that has it.
 fn on_path(program: &Path) -> Option<PathBuf> {
     let folders = env::var_os("PATH").unwrap_or_default();
     env::split_paths(&folders)

@@ -1,4 +1,4 @@
-//! `cargo xtask fuzz`: every fuzz target for a while, and what came of it to `docs/FUZZ.md`.
+//! `cargo xtask fuzz`: runs every fuzz target for a while, and writes the result to `docs/FUZZ.md`.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -13,11 +13,11 @@ const REPORT: &str = "docs/FUZZ.md";
 /// Memory that a single input may take; the largest terrain takes a few hundred megabytes.
 const MOST_MEGABYTES: u32 = 4096;
 
-/// Runs every target for `seconds`; what was found before is tried again first.
+/// Runs every target for `seconds`; inputs found before are tried again first.
 pub(crate) fn run(sh: &Shell, seconds: u32) -> anyhow::Result<()> {
     let cargo_fuzz = setup::cargo_fuzz(sh)?;
     let root = sh.current_dir();
-    // Its own folder: these builds have flags that the others have not.
+    // A folder of their own: these builds have other flags.
     let _target = sh.push_env("CARGO_TARGET_DIR", setup::target_dir(sh).join("fuzz"));
     cmd!(sh, "{cargo_fuzz} build --fuzz-dir {FOLDER} --sanitizer none").run()?;
     let targets = cmd!(sh, "{cargo_fuzz} list --fuzz-dir {FOLDER}").read()?;

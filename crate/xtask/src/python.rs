@@ -1,4 +1,4 @@
-//! Python environments of our own, with what a requirements file pins.
+//! Python environments of our own, with pinned requirements.
 
 use std::path::{Path, PathBuf};
 
@@ -7,20 +7,20 @@ use xshell::{Shell, cmd};
 
 /// An environment to set up.
 pub(crate) struct Environment<'a> {
-    /// Where it goes.
+    /// Its folder.
     pub(crate) folder: &'a Path,
-    /// What it holds, for pip.
+    /// Its requirements, for pip.
     pub(crate) requirements: &'a str,
     /// Programs to try, the best first.
     pub(crate) pythons: &'a [&'a str],
-    /// Whether a version, as (3, 11), will do.
+    /// Whether a version, as (3, 11), is suitable.
     pub(crate) fits: fn((u32, u32)) -> bool,
-    /// What is missing when none of them fits, and what to install.
+    /// The message if none of them is: what is missing, and what to install.
     pub(crate) missing: &'a str,
 }
 
 impl Environment<'_> {
-    /// Installs it, unless it is there with these very requirements; gives its Python.
+    /// Installs it, unless it is there with these very requirements; returns its Python.
     pub(crate) fn set_up(&self, sh: &Shell) -> anyhow::Result<PathBuf> {
         let Self { folder, requirements, .. } = *self;
         let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });

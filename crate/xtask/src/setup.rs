@@ -1,4 +1,4 @@
-//! What the build and the tests need on a fresh machine; each part is skipped when it is already there.
+//! Prerequisites of build and tests on a fresh machine; each part is skipped if it is already there.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ pub(crate) const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 /// The oldest Node that vite runs on (`engines` in `package.json`).
 const OLDEST_NODE: (u32, u32) = (20, 19);
 
-/// Where cargo puts what it builds.
+/// Cargo's target folder.
 pub(crate) fn target_dir(sh: &Shell) -> PathBuf {
     let root = sh.current_dir();
     env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |named| root.join(named))
@@ -52,8 +52,8 @@ pub(crate) fn wasm_bindgen(sh: &Shell) -> anyhow::Result<PathBuf> {
     }
     println!("Building wasm-bindgen {version} into {}; this takes a few minutes, once.", root.display());
     let build = tools.join("build");
-    // Without its default features it has no TLS: the tools talk to this machine only. Less optimisation builds
-    // sooner, and the tools run for less than a second.
+    // Without its default features it has no TLS: the tools talk to this machine only. Less optimisation
+    // builds sooner, and the tools run for less than a second.
     cmd!(sh, "cargo install wasm-bindgen-cli --version {version} --no-default-features")
         .args(["--bin", "wasm-bindgen", "--bin", "wasm-bindgen-test-runner"])
         .arg("--root")
@@ -95,7 +95,7 @@ pub(crate) fn npm_packages(sh: &Shell) -> anyhow::Result<()> {
         bail!("Node is {node}, which is too old. {how_to}");
     }
     let lock = sh.read_file("package-lock.json")?;
-    // Kept inside node_modules so that it goes when they go.
+    // Kept inside node_modules so that it is removed with them.
     let installed = "node_modules/.installed-package-lock.json";
     if sh.read_file(installed).is_ok_and(|installed| installed == lock) {
         return Ok(());

@@ -25,11 +25,12 @@ pub(crate) enum Part {
     Wasm,
     /// Unit and browser tests of the page.
     Page,
-    /// Campaigns on a local Ray cluster; only when asked for, as it needs Python 3.10 or newer and installs Ray under target/.
+    /// Campaigns on a local Ray cluster; only on request, as it needs Python 3.10 or newer and installs Ray
+    /// under target/.
     Ray,
 }
 
-/// One step: its heading, the parts it belongs to (at least one), and what it does.
+/// One step: its heading, the parts it belongs to (at least one), and its function.
 struct Stage {
     title: &'static str,
     parts: &'static [Part],
@@ -87,7 +88,7 @@ pub(crate) fn run(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Sets up all that the stages of `part` need, so that what is missing shows before anything runs.
+/// Sets up everything for the stages of `part`, so that a missing program shows before anything runs.
 fn set_up(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     let wants = |any: &[Part]| part.is_none_or(|part| any.contains(&part));
     if wants(&[Part::Lint]) {
@@ -133,7 +134,7 @@ fn documentation(sh: &Shell) -> anyhow::Result<Count> {
 }
 
 fn build_page(sh: &Shell) -> anyhow::Result<Count> {
-    // They are in the repository, for whoever checks the page before building the modules.
+    // The type files are in the repository, for checks of the page without a build of the modules.
     let files =
         ["mapless_wasm", "mapless_wasm_baselines"].map(|module| format!("web/src/wasm/{module}.d.ts"));
     let types = || files.clone().map(|file| sh.read_file(file).ok());
@@ -153,7 +154,8 @@ fn check_page(sh: &Shell) -> anyhow::Result<Count> {
 }
 
 fn test_native(sh: &Shell) -> anyhow::Result<Count> {
-    // The same property-test cases every time, so that a run fails for a change and never by chance. `cargo test` by itself draws new ones.
+    // The same property-test cases every time, so that a run fails for a change and never by chance. `cargo
+    // test` by itself draws new ones.
     count(cmd!(sh, "cargo test --workspace").env("PROPTEST_RNG_SEED", "1"), Runner::Cargo)
 }
 
@@ -162,8 +164,8 @@ fn test_wasm(sh: &Shell) -> anyhow::Result<Count> {
     let capabilities = sh.current_dir().join("target/webdriver.json");
     sh.write_file(&capabilities, browser.webdriver_json())?;
     let runner = setup::wasm_bindgen(sh)?.join("wasm-bindgen-test-runner");
-    // Optimised as in the page, with which it shares all that is built; a whole trial takes longer than the
-    // runner's 20 seconds.
+    // Optimised as in the page, with which it shares all builds; a whole trial takes longer than the runner's
+    // 20 seconds.
     let test =
         cmd!(sh, "cargo test --release --package mapless-wasm --target wasm32-unknown-unknown --tests")
             .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER", runner)
@@ -195,7 +197,7 @@ fn test_ray(sh: &Shell) -> anyhow::Result<Count> {
     count(cmd!(sh, "{python} crate/campaign/ray/test_run.py {program}"), Runner::Playwright)
 }
 
-/// Installs Ray; gives the Python that has it.
+/// Installs Ray; returns the Python that has it.
 fn ray(sh: &Shell) -> anyhow::Result<PathBuf> {
     let environment = Environment {
         folder: &setup::target_dir(sh).join("ray-venv"),

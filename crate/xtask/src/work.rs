@@ -1,4 +1,4 @@
-//! A list of jobs, a few at a time.
+//! Runs a list of jobs, a few at a time.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -9,7 +9,7 @@ use anyhow::Context as _;
 /// Jobs that run at a time.
 const WORKERS: usize = 2;
 
-/// Runs the jobs up to the first that fails, and tells of each as `describe` words it.
+/// Runs the jobs up to the first that fails, and announces each in the words of `describe`.
 pub(crate) fn run_all<J: Ord + Send + std::fmt::Debug, R: Send>(
     jobs: Vec<J>,
     run: impl Fn(&J) -> anyhow::Result<R> + Sync,
@@ -22,7 +22,7 @@ pub(crate) fn run_all<J: Ord + Send + std::fmt::Debug, R: Send>(
         let mut done = Vec::new();
         while let Some((index, job)) = next() {
             let result = run(&job).with_context(|| {
-                // Nobody needs the rest then.
+                // A failure drops the other jobs.
                 while next().is_some() {}
                 format!("{job:?}")
             })?;

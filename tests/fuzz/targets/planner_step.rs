@@ -1,4 +1,5 @@
-//! Steps of the planner on any scans, poses and goals: a finite command within the limits, and no command where it stops.
+//! Steps of the planner on any scans, poses and goals: a finite command within the limits, and no command
+//! after a stop.
 
 #![no_main]
 
@@ -24,7 +25,7 @@ struct Step {
     loose_points_m: Vec<[f32; 3]>,
 }
 
-/// Where the robot is: somewhat on from where it was, as robots drive, or anywhere.
+/// The robot's pose: near the last one, as robots drive, or anywhere.
 #[derive(Arbitrary, Debug)]
 enum Place {
     /// Centimetres, then hundredths of a radian of roll, pitch and turn.
@@ -39,7 +40,7 @@ enum Goal {
     Any([f64; 2]),
 }
 
-/// A stretch of one ring with a range in quarters of a decimetre, so that few bytes make a scan.
+/// An interval of one ring with a range in quarters of a decimetre, so that few bytes make a scan.
 #[derive(Arbitrary, Debug)]
 struct Beam {
     ring: u8,

@@ -1,5 +1,5 @@
-//! The collapsed variational bound on the log marginal likelihood (Titsias 2009), as gpflow's `SGPR.elbo` computes it,
-//! with its gradient.
+//! The collapsed variational bound on the log marginal likelihood (Titsias 2009), as gpflow's `SGPR.elbo`
+//! computes it, with its gradient.
 //!
 //! With the symbols of [`crate::gp::sparse`] and B = I + A Aᵀ:
 //!
@@ -11,8 +11,8 @@
 //! ∂F/∂K_uu = ½ L⁻ᵀ (2 I - B⁻¹ - B - u uᵀ) L⁻¹,
 //! ∂F/∂log σₙ² = ½ (m - tr B⁻¹ - tr(A Aᵀ) - n + (rᵀr + n σ²) / σₙ²),
 //!
-//! and the kernel's derivatives carry the first two on to its hyperparameters and to Z. Three passes of O(n m²), in panels that
-//! stay in the cache: L⁻¹ K_uf, A Aᵀ and ∂F/∂K_uf.
+//! and the kernel's derivatives carry the first two on to its hyperparameters and to Z. Three passes of O(n
+//! m²), in panels that stay in the cache: L⁻¹ K_uf, A Aᵀ and ∂F/∂K_uf.
 
 use core::f64::consts::TAU;
 
@@ -67,14 +67,15 @@ impl CollapsedBound {
         self.projection.jitter
     }
 
-    /// The bound F on log p(y), in nats, for `targets` (n) at `inputs` (n) through the inducing inputs `inducing` (m); leaves
-    /// its gradient in [`Self::gradient`] and [`Self::inducing_gradient`].
+    /// The bound F on log p(y), in nats, for `targets` (n) at `inputs` (n) through the inducing inputs
+    /// `inducing` (m); leaves its gradient in [`Self::gradient`] and [`Self::inducing_gradient`].
     ///
     /// Inputs are (azimuth, elevation) in radians.
     ///
     /// # Errors
-    /// [`RegressionError`] when the data do not pair up, something is not a number, a hyperparameter is not positive, there is
-    /// nothing to fit, or a covariance cannot be factored. The gradients are then those of no evaluation.
+    /// [`RegressionError`] when the data do not pair up, something is not a number, a hyperparameter is not
+    /// positive, there is nothing to fit, or a covariance cannot be factored. The gradients are then those of
+    /// no evaluation.
     pub fn evaluate(
         &mut self,
         inputs: &[DVec2],
@@ -90,7 +91,7 @@ impl CollapsedBound {
         }
         let Hyperparameters { kernel, noise_variance } = *hyperparameters;
         let (n, m) = (inputs.len() as f64, inducing.len());
-        // All of them: the gradient is that of a smooth function.
+        // Without truncation: the gradient is that of a smooth function.
         self.projection.project(inputs, targets, inducing, hyperparameters, f64::INFINITY)?;
         for square in [&mut self.l_b, &mut self.reduction, &mut self.reversed] {
             square.resize(m * m, 0.0);

@@ -1,9 +1,12 @@
-//! Exact Gaussian process regression: the reference that the sparse approximation is measured against. O(n³), plain rather than
+//! Exact Gaussian process regression, the reference for the sparse approximation. O(n³), plain rather than
 //! fast, and without jitter.
 //!
-//! With K the covariance of the inputs, L Lᵀ = K + σₙ² I and a = (K + σₙ² I)⁻¹ y:
-//! log p(y) = -½ yᵀa - Σ log L_ii - n/2 log 2π, its derivative with respect to θ is ½ tr((a aᵀ - (K + σₙ² I)⁻¹) ∂K/∂θ),
-//! and at a test input with covariances k_*: mean = k_*ᵀ a, variance = k_** - |L⁻¹ k_*|².
+//! With K the covariance of the inputs, L Lᵀ = K + σₙ² I and a = (K + σₙ² I)⁻¹ y (Rasmussen and Williams
+//! 2006, algorithm 2.1, <https://gaussianprocess.org/gpml/>):
+//!
+//! - log p(y) = -½ yᵀa - Σ log L_ii - n/2 log 2π,
+//! - its derivative with respect to θ: ½ tr((a aᵀ - (K + σₙ² I)⁻¹) ∂K/∂θ),
+//! - at a test input with covariances k_*: mean = k_*ᵀ a, variance = k_** - |L⁻¹ k_*|².
 
 use core::f64::consts::TAU;
 
@@ -30,8 +33,8 @@ impl ExactGp {
     /// Fits the posterior to `targets` (n) at `inputs` (n), given as (azimuth, elevation) in radians.
     ///
     /// # Errors
-    /// [`RegressionError`] when the data do not pair up, something is not a number, a hyperparameter is not positive, or the
-    /// covariance cannot be factored.
+    /// [`RegressionError`] when the data do not pair up, something is not a number, a hyperparameter is not
+    /// positive, or the covariance cannot be factored.
     pub fn fit(
         inputs: &[DVec2],
         targets: &[f64],
@@ -93,7 +96,7 @@ impl ExactGp {
         gradient
     }
 
-    /// Predictive mean and variance of the latent function at one input, added to no noise.
+    /// Predictive mean and variance of the latent function at one input, without noise.
     pub fn predict(&self, input: DVec2) -> (f64, f64) {
         let kernel = &self.hyperparameters.kernel;
         let mut covariances: Vec<f64> = self.inputs.iter().map(|x| kernel.covariance(*x, input)).collect();

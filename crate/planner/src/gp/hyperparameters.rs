@@ -1,11 +1,11 @@
-//! The hyperparameters of Gaussian process regression, and what can be wrong with a regression problem.
+//! Hyperparameters of Gaussian process regression, and errors of a regression problem.
 
 use glam::DVec2;
 
 use crate::gp::jitter::GpError;
 use crate::gp::kernel::RationalQuadratic;
 
-/// What a regression is given besides its data.
+/// Hyperparameters of a regression: kernel and noise.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Hyperparameters {
     /// The kernel: signal variance, length-scales and alpha.
@@ -51,7 +51,7 @@ pub enum RegressionError {
         /// The value.
         value: f64,
     },
-    /// A hyperparameter outside its meaning.
+    /// A hyperparameter that is not positive.
     #[error("{name} = {value}: expected a positive number")]
     NotPositive {
         /// Name of the hyperparameter.

@@ -1,4 +1,4 @@
-//! Factoring covariances that are nearly singular, with jitter on their diagonal as gpflow adds it, and what can go wrong.
+//! Factorisation of nearly singular covariances, with jitter on the diagonal as in gpflow, and its errors.
 
 use crate::math::cholesky::NotPositiveDefinite;
 
@@ -13,7 +13,7 @@ pub enum GpError {
         /// The last jitter tried.
         jitter: f64,
     },
-    /// No bound to climb: the covariance could not be factored at the start.
+    /// Nothing to maximise: the covariance could not be factored at the start.
     #[error("nothing can be learned through {inducing} inducing inputs")]
     NothingLearned {
         /// Number of inducing inputs.
@@ -28,7 +28,8 @@ pub enum GpError {
 const FIRST_JITTER: f64 = 1e-6;
 const LAST_JITTER: f64 = 1e-2;
 
-/// Tries to `factor` the covariance of `inducing` inputs with ever more jitter on its diagonal; gives the jitter that did.
+/// Tries to `factor` the covariance of `inducing` inputs with rising jitter on its diagonal; returns the
+/// jitter that succeeded.
 pub(crate) fn with_rising_jitter(
     inducing: usize,
     mut factor: impl FnMut(f64) -> Result<(), NotPositiveDefinite>,

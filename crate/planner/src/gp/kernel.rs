@@ -18,7 +18,8 @@ pub struct RationalQuadratic {
 }
 
 impl Default for RationalQuadratic {
-    /// An elevation length-scale near the sensor's ring spacing; DESIGN.md says how the values were chosen.
+    /// An elevation length-scale near the sensor's ring spacing; chosen by measurement:
+    /// docs/design/perception.md.
     fn default() -> Self {
         Self { variance: 1.0, length_scales_rad: [0.15, 0.04], alpha: 10.0 }
     }

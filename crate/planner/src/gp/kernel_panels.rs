@@ -49,7 +49,8 @@ impl ScaledPanels {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), &x| (x.min(least), x.max(most)))
     }
 
-    /// Writes the covariances of `points` (already scaled) with one panel of inputs; zero beyond the last input.
+    /// Writes the covariances of `points` (already scaled) with one panel of inputs; zero beyond the last
+    /// input.
     pub(crate) fn covariances(
         &self,
         kernel: &RationalQuadratic,
@@ -65,7 +66,8 @@ impl ScaledPanels {
         }
     }
 
-    /// Adds the part of the gradient that flows through one panel of covariances, whose derivatives are `weights`.
+    /// Adds the part of the gradient that flows through one panel of covariances, whose derivatives are
+    /// `weights`.
     pub(crate) fn add_derivatives(
         &self,
         kernel: &RationalQuadratic,

@@ -1,12 +1,14 @@
-//! Learning the hyperparameters, and if wanted the inducing inputs, by maximising the collapsed bound ([`crate::gp::bound`]), as
-//! the paper does for each scan.
+//! Learning the hyperparameters, and if wanted the inducing inputs, by maximising the collapsed bound
+//! ([`crate::gp::bound`]), as the paper does for each scan.
 //!
-//! Left alone, variance and length-scales grow until they blur the skyline: the occupancy of a scan has a mean of some metres
-//! where the process assumes zero. So every hyperparameter has bounds, and most of them bind. Within the
-//! default ones the edge of the surface stays about a degree above the highest return of a column, as with the fixed
-//! hyperparameters; without bounds it leaves the returns by several degrees (`tests/learned_edges.rs`).
+//! Left alone, variance and length-scales grow until they blur the skyline: the occupancy of a scan has a
+//! mean of some metres where the process assumes zero. So every hyperparameter has bounds, and most of them
+//! bind. Within the default ones the edge of the surface stays about a degree above the highest return of a
+//! column, as with the fixed hyperparameters; without bounds it leaves the returns by several degrees
+//! (`tests/learned_edges.rs`).
 //!
-//! Learning happens in the logarithms of the hyperparameters and in units of the length-scales for inducing inputs.
+//! Learning happens in the logarithms of the hyperparameters and in units of the length-scales for inducing
+//! inputs.
 
 mod space;
 
@@ -44,22 +46,23 @@ impl core::str::FromStr for LearningMode {
     }
 }
 
-/// What learning may do and how much work it may be.
+/// The mode of learning, its bounds and its budget.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LearningConfig {
-    /// When.
+    /// When hyperparameters are learned.
     pub mode: LearningMode,
-    /// Which method climbs the bound. Paper: not given.
+    /// The optimiser that maximises the bound. Paper: not given.
     pub optimiser: Optimiser,
-    /// Evaluations of the bound with its gradient for each scan learned from, the first included. From the default
-    /// hyperparameters within the default bounds the climb takes 7 to 15; moving inducing inputs take many more.
+    /// Evaluations of the bound with its gradient for each scan learned from, the first included. From the
+    /// default hyperparameters within the default bounds the climb takes 7 to 15; moving inducing inputs take
+    /// many more.
     pub evaluations_per_scan: u32,
     /// Whether the inducing inputs move too. Paper: yes.
     pub learn_inducing_inputs: bool,
     /// Whether one length-scale serves both axes, within the bounds of both. Paper: yes.
     pub isotropic: bool,
-    /// Where the hyperparameters may go.
+    /// Bounds of the hyperparameters.
     pub bounds: HyperparameterBounds,
 }
 
@@ -105,8 +108,8 @@ impl Default for HyperparameterBounds {
 }
 
 impl LearningConfig {
-    /// The paper: on every scan, with one length-scale, inducing inputs included. The bounds are ours, around the length-scale
-    /// and noise of [`crate::PlannerConfig::paper`].
+    /// The paper: on every scan, with one length-scale, inducing inputs included. The bounds are ours, around
+    /// the length-scale and noise of [`crate::PlannerConfig::paper`].
     pub fn paper() -> Self {
         let length_scale_rad = [0.03, 0.04];
         Self {
@@ -199,7 +202,7 @@ pub enum LearningError {
     },
 }
 
-/// What was learned from one scan.
+/// The result of learning from one scan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Learned {
     /// The hyperparameters, within their bounds; to be passed as the next start.
@@ -216,7 +219,7 @@ pub struct Learned {
     pub stop: Stop,
 }
 
-/// Learns by climbing the bound; keeps its workspace.
+/// Learns by maximising the bound; keeps its workspace.
 #[derive(Clone, Debug)]
 pub struct Learner {
     config: LearningConfig,
@@ -234,10 +237,11 @@ impl Learner {
         self.config.learn_inducing_inputs
     }
 
-    /// Climbs the bound for `targets` (n) at `inputs` (n, azimuth and elevation in radians) from `start` and the inducing
-    /// inputs `inducing` (m).
+    /// Climbs the bound for `targets` (n) at `inputs` (n, azimuth and elevation in radians) from `start` and
+    /// the inducing inputs `inducing` (m).
     ///
-    /// A start learned from the scan before makes it a warm one. The first evaluation is made whatever the budget.
+    /// A start learned from the scan before makes it a warm one. The first evaluation is made whatever the
+    /// budget.
     ///
     /// # Errors
     /// [`LearningError`] when the start lies outside the bounds or the bound cannot be evaluated there.

@@ -1,5 +1,5 @@
-//! Gaussian process regression: the rational quadratic kernel, the sparse posterior (variational free energy), the exact one to
-//! compare with, the collapsed bound and the learning of hyperparameters.
+//! Gaussian process regression: the rational quadratic kernel, the sparse posterior (variational free
+//! energy), the exact one to compare with, the collapsed bound and the learning of hyperparameters.
 
 pub mod bound;
 pub mod exact;

@@ -1,4 +1,4 @@
-//! What the bound and the posterior both begin with: the training data seen through the inducing inputs.
+//! The common part of bound and posterior: the projection of the training data on the inducing inputs.
 //!
 //! L Lᵀ = K_uu + jitter I, A = L⁻¹ K_uf / σₙ, A Aᵀ and A y / σₙ, in panels that stay in the cache.
 
@@ -25,7 +25,7 @@ pub(crate) struct Projection {
     /// K_uu without jitter, m × m, as are the next two.
     pub(crate) k_uu: Vec<f64>,
     pub(crate) l: Vec<f64>,
-    /// A Aᵀ; above the diagonal only for who mirrors it.
+    /// A Aᵀ; the upper triangle is valid only after mirroring.
     pub(crate) aat: Vec<f64>,
     /// A in panels, m rows each.
     pub(crate) a: Vec<Row>,
@@ -38,8 +38,8 @@ pub(crate) struct Projection {
 }
 
 impl Projection {
-    /// Projects `targets` at `inputs` on the inducing inputs. Covariances over more than `reach` length-scales of azimuth may be taken
-    /// for zero, and are where inputs and inducing inputs are in ascending order of it.
+    /// Projects `targets` at `inputs` on the inducing inputs. If inputs and inducing inputs are in ascending
+    /// order of azimuth, covariances over more than `reach` length-scales of azimuth are taken for zero.
     pub(crate) fn project(
         &mut self,
         inputs: &[DVec2],
@@ -82,7 +82,7 @@ impl Projection {
         self.block.resize(m * BLOCK_COLUMNS, 0.0);
     }
 
-    /// L of K_uu, with the jitter raised step by step until it exists.
+    /// L of K_uu, with rising jitter until it exists.
     fn factor_inducing_covariance(&mut self, kernel: &RationalQuadratic) -> Result<(), GpError> {
         let m = self.points.len();
         for panel in 0..self.point_panels.len() {

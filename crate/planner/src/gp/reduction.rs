@@ -1,7 +1,7 @@
-//! What a posterior takes from the prior variance: the quadratic form kᵀ W k with W = (L Lᵀ)⁻¹ - (M Mᵀ)⁻¹ and
-//! M = L L_B, in the symbols of [`crate::gp::sparse`].
+//! The reduction of the prior variance by a posterior: the quadratic form kᵀ W k with W = (L Lᵀ)⁻¹ - (M Mᵀ)⁻¹
+//! and M = L L_B, in the symbols of [`crate::gp::sparse`].
 //!
-//! Two triangular solves for every test input become one symmetric product, and one over fewer inducing inputs where
+//! Two triangular solves for every test input become one symmetric product, over fewer inducing inputs if
 //! only some of them are in reach.
 
 use core::ops::Range;
@@ -10,7 +10,8 @@ use multiversion::multiversion;
 
 use crate::math::panels::{self, Row, TALL, WIDTH, accumulate, add_tile};
 
-/// The lower triangle of W with what is off the diagonal doubled, so that half the products give the form; zero above.
+/// The lower triangle of W with its off-diagonal part doubled, so that half the products give the form; zero
+/// above.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Reduction {
     doubled: Vec<f64>,
@@ -27,7 +28,7 @@ impl Reduction {
             matrix.clear();
             matrix.resize(m * m, 0.0);
         }
-        // From the last columns on: the rows that a strip is multiplied with are then there.
+        // From the last columns on: the rows that a strip is multiplied with are computed before it.
         for first in (0..m).step_by(WIDTH).rev() {
             panel.clear();
             panel.resize(m, [0.0; WIDTH]);
@@ -53,7 +54,8 @@ impl Reduction {
         }
     }
 
-    /// kᵀ W k for each column of a panel of covariances with the inducing inputs `reach`; those with the others count as zero.
+    /// kᵀ W k for each column of a panel of covariances with the inducing inputs `reach`; covariances with
+    /// the others count as zero.
     pub(crate) fn of(&self, covariances: &[Row], reach: Range<usize>, m: usize) -> Row {
         quadratic_form(&self.doubled, covariances, reach, m)
     }
@@ -69,8 +71,8 @@ fn transpose_strip(strip: &[Row], columns: Range<usize>, out: &mut [f64]) {
     }
 }
 
-/// Adds the columns of Tᵀ U to `out` (n × n), from the diagonal down; `transposed` is the lower triangular T's transpose and
-/// `strip` the columns of the lower triangular U.
+/// Adds the columns of Tᵀ U to `out` (n × n), from the diagonal down; `transposed` is the lower triangular
+/// T's transpose and `strip` the columns of the lower triangular U.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn add_strip(transposed: &[f64], strip: &[Row], columns: Range<usize>, out: &mut [f64]) {
     let n = strip.len();
@@ -107,7 +109,7 @@ fn quadratic_form(lower: &[f64], covariances: &[Row], reach: Range<usize>, n: us
     form
 }
 
-/// Adds the part of the form that R rows from `first` on have; the covariances begin with row `begin`.
+/// Adds the contribution of R rows from `first` on to the form; the covariances begin with row `begin`.
 #[inline(always)]
 fn add_form<const R: usize>(
     lower: &[f64],

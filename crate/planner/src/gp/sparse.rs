@@ -1,11 +1,19 @@
-//! Variational sparse Gaussian process regression (Titsias 2009, collapsed bound), as gpflow's `SGPR` computes it.
+//! Variational sparse Gaussian process regression (Titsias 2009, collapsed bound,
+//! <https://proceedings.mlr.press/v5/titsias09a.html>), as gpflow's `SGPR` computes it.
 //!
 //! With inducing inputs Z (m), training inputs X (n), targets y and noise variance σₙ²:
-//! L Lᵀ = K_uu + jitter I, A = L⁻¹ K_uf / σₙ, L_B L_Bᵀ = I + A Aᵀ, c = L_B⁻¹ A y / σₙ. At a test input with
-//! covariances k_u*: t = L⁻¹ k_u*, s = L_B⁻¹ t, mean = sᵀ c, variance = k_** - tᵀ t + sᵀ s. What does not depend on the test
-//! input is computed once: mean = wᵀ k_u* with w = L⁻ᵀ L_B⁻ᵀ c, variance = k_** - k_u*ᵀ W k_u* (module `reduction`).
-//! Fitting costs O(n m²), a prediction O(m²). Everything is sorted by azimuth, so that what is out of the kernel's reach costs
-//! nothing.
+//!
+//! - L Lᵀ = K_uu + jitter I, A = L⁻¹ K_uf / σₙ, L_B L_Bᵀ = I + A Aᵀ, c = L_B⁻¹ A y / σₙ,
+//! - at a test input with covariances k_u*: t = L⁻¹ k_u*, s = L_B⁻¹ t,
+//! - mean = sᵀ c, variance = k_** - tᵀ t + sᵀ s.
+//!
+//! The factors that do not depend on the test input are computed once (W in module `reduction`):
+//!
+//! - mean = wᵀ k_u* with w = L⁻ᵀ L_B⁻ᵀ c,
+//! - variance = k_** - k_u*ᵀ W k_u*.
+//!
+//! Fitting costs O(n m²), a prediction O(m²). Everything is sorted by azimuth, so that inputs out of the
+//! kernel's reach cost nothing.
 
 use glam::DVec2;
 
@@ -20,7 +28,8 @@ use crate::math::panels::{Row, WIDTH};
 
 /// Covariances below this share of the variance count as zero.
 const NEGLIGIBLE: f64 = 1e-12;
-/// Covariances below this share of the variance count as zero in the form kᵀ W k, where they meet factors as small as they are.
+/// Covariances below this share of the variance count as zero in the form kᵀ W k, where they are multiplied
+/// with factors as small.
 const NEGLIGIBLE_IN_VARIANCE: f64 = 1e-8;
 
 /// A fitted posterior with its workspace; refitting reuses the memory.
@@ -101,7 +110,7 @@ impl SparseGp {
         let in_order = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
         self.data.clear();
         self.data.extend(inputs.iter().copied().zip(targets.iter().copied()));
-        // What still compares equal has the same bits, so their order has no meaning.
+        // Entries that compare equal have the same bits, so their order does not matter.
         self.data.sort_unstable_by(|(a, y), (b, z)| in_order(a, b).then(y.total_cmp(z)));
         self.inputs.clear();
         self.inputs.extend(self.data.iter().map(|(input, _)| *input));
@@ -112,7 +121,7 @@ impl SparseGp {
         self.inducing.sort_unstable_by(in_order);
     }
 
-    /// Predictive mean and variance of the latent function at `inputs`, added to no noise.
+    /// Predictive mean and variance of the latent function at `inputs`, without noise.
     pub fn predict(&mut self, inputs: &[DVec2], mean: &mut [f64], variance: &mut [f64]) {
         let kernel = &self.hyperparameters.kernel;
         let Projection { points, input_panels, .. } = &mut self.projection;

@@ -1,5 +1,5 @@
-//! The Cholesky factor of a matrix, eight rows at a time: a row of L is the solution of a triangular system in the rows
-//! above it, and [`crate::math::panels`] solves eight of them at once.
+//! The Cholesky factor of a matrix, eight rows at a time: a row of L is the solution of a triangular system
+//! in the rows above it, and [`crate::math::panels`] solves eight of them at once.
 
 use multiversion::multiversion;
 
@@ -9,7 +9,8 @@ use crate::math::panels::{Row, TALL, WIDTH, accumulate, solve_leading};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NotPositiveDefinite;
 
-/// Factors the symmetric `a` (n × n) as L Lᵀ, reading and writing its lower triangle, and leaves zeros above. `panel` is scratch.
+/// Factors the symmetric `a` (n × n) as L Lᵀ, reading and writing its lower triangle, and leaves zeros above.
+/// `panel` is scratch.
 pub(crate) fn cholesky(a: &mut [f64], n: usize, panel: &mut Vec<Row>) -> Result<(), NotPositiveDefinite> {
     panel.clear();
     panel.resize(n, [0.0; WIDTH]);
@@ -65,13 +66,14 @@ fn finish_rows(
     Ok(())
 }
 
-/// The products of the rows with each other, over the columns of the panel, which has the same values transposed.
+/// The products of the rows with each other, over the columns of the panel, which has the same values
+/// transposed.
 #[inline(always)]
 fn products(rows: &[f64], n: usize, panel: &[Row]) -> [Row; WIDTH] {
     let mut products = [[0.0; WIDTH]; WIDTH];
     let count = rows.len() / n;
     for (tile, sums) in products.as_chunks_mut::<TALL>().0.iter_mut().enumerate() {
-        // Beyond the last row the last one stands in, and nobody reads its products.
+        // Rows beyond the last are replaced by the last one; their products are not used.
         let row = |r: usize| (tile * TALL + r).min(count - 1) * n;
         let factors: [&[f64]; TALL] = core::array::from_fn(|r| &rows[row(r)..row(r) + panel.len()]);
         accumulate(&factors, panel, sums);
@@ -92,7 +94,7 @@ mod tests {
         ) {
             let root = DMatrix::from_row_slice(n, n + 3, &values);
             let matrix = &root * root.transpose() + DMatrix::identity(n, n);
-            // What is above the diagonal is not read.
+            // The upper triangle is not read.
             let mut a: Vec<f64> =
                 (0..n * n).map(|k| if k % n > k / n { f64::NAN } else { matrix[(k / n, k % n)] }).collect();
             cholesky(&mut a, n, &mut Vec::new()).unwrap();

@@ -1,5 +1,6 @@
-//! Logarithm and exponential for eight numbers at once, from additions, multiplications and bit patterns only: the same
-//! bits on every target, and vectorised by the compiler where `libm` is a call for each number.
+//! Logarithm and exponential for eight numbers at once, from additions, multiplications and bit patterns
+//! only: the same bits on every target, and vectorised by the compiler where `libm` is a call for each
+//! number.
 
 /// Numbers handled together: two AVX2 registers, four of wasm.
 pub(crate) const LANES: usize = 8;
@@ -20,7 +21,8 @@ pub(crate) fn ln(x: [f64; LANES]) -> [f64; LANES] {
     let mut out = [0.0; LANES];
     for lane in 0..LANES {
         let bits = x[lane].to_bits();
-        // x = 2ᵏ (1 + f): the exponent above √½'s, kept in the low bits of 2⁵² with an offset that makes it positive.
+        // x = 2ᵏ (1 + f): the exponent above √½'s, kept in the low bits of 2⁵² with an offset that makes it
+        // positive.
         let above = bits.wrapping_sub(SQRT_HALF_BITS).wrapping_add(1024 << 52) >> 52;
         let k = f64::from_bits(above | TWO_52.to_bits()) - (TWO_52 + 1024.0);
         let f = f64::from_bits(bits.wrapping_sub(above.wrapping_sub(1024) << 52)) - 1.0;
@@ -48,8 +50,8 @@ pub(crate) fn exp_of_negative(x: [f64; LANES]) -> [f64; LANES] {
         let shifted = x * core::f64::consts::LOG2_E + SHIFT;
         let k = shifted - SHIFT;
         let r = (x - k * LN_2_HIGH) - k * LN_2_LOW;
-        // Taylor's series to r¹³, in pairs so that they do not wait for each other; |r| ≤ ln 2 / 2 makes the rest less
-        // than 4e-18.
+        // Taylor's series to r¹³, in pairs so that they do not wait for each other; |r| ≤ ln 2 / 2 makes the
+        // rest less than 4e-18.
         let pair = |k: usize| INVERSE_FACTORIALS[k] + r * INVERSE_FACTORIALS[k + 1];
         let square = r * r;
         let fourth = square * square;
@@ -79,7 +81,8 @@ const INVERSE_FACTORIALS: [f64; 14] = [
     1.0 / 6_227_020_800.0,
 ];
 
-/// The largest whole number not above a finite `value`. (`f64::floor` is a call where the processor's own is not assumed.)
+/// The largest whole number not above a finite `value`. (`f64::floor` is a call where the processor's own is
+/// not assumed.)
 pub(crate) fn floor(value: f64) -> i32 {
     let towards_zero = value as i32;
     towards_zero.saturating_sub(i32::from(value < f64::from(towards_zero)))

@@ -1,8 +1,8 @@
 //! The dense kernels of the sparse Gaussian process, on row-major slices.
 //!
-//! Every sum runs in a fixed order over a fixed number of lanes and no multiplication is fused with an addition, so
-//! the bits are the same on every target and at every vector width. They are ours because the libraries choose
-//! their kernels at run time. Tests compare them with nalgebra.
+//! Every sum runs in a fixed order over a fixed number of lanes and no multiplication is fused with an
+//! addition, so the bits are the same on every target and at every vector width. Libraries choose their
+//! kernels at run time, so these are written here. Tests compare them with nalgebra.
 
 use core::ops::Range;
 
@@ -32,8 +32,9 @@ pub(crate) fn solve_lower_vector(l: &[f64], n: usize, b: &mut [f64]) {
     }
 }
 
-/// Adds K Kᵀ to the lower triangle of a matrix, between the rows and columns `inputs`. `covariances` is Kᵀ, an even number of rows
-/// over `inputs`; `place(i)` is where the matrix has the entry of row i and the first of the columns.
+/// Adds K Kᵀ to the lower triangle of a matrix, between the rows and columns `inputs`. `covariances` is Kᵀ,
+/// an even number of rows over `inputs`; `place(i)` is the index of the matrix's entry in row i and the first
+/// of the columns.
 #[inline(always)]
 pub(crate) fn add_products(
     covariances: &[f64],

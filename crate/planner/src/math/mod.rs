@@ -1,4 +1,5 @@
-//! Arithmetic that gives the same bits on every target: angles, elementary functions, dense linear algebra and optimisers.
+//! Arithmetic that gives the same bits on every target: angles, elementary functions, dense linear algebra
+//! and optimisers.
 
 pub mod angle;
 pub(crate) mod cholesky;

@@ -1,13 +1,14 @@
-//! Climbing a smooth function inside a box with a budget of evaluations: limited-memory BFGS and Adam, both projected.
+//! Maximisation of a smooth function inside a box with a budget of evaluations: limited-memory BFGS and Adam,
+//! both projected.
 //!
-//! The marginal likelihood of a scan usually grows up to the bounds of several hyperparameters, so the bounds must hold exactly
-//! and cost nothing when they bind; an evaluation may fail, and none may go beyond the budget. Libraries that build for wasm
-//! offer no box, read a clock, or count iterations in place of evaluations.
+//! The marginal likelihood of a scan usually grows up to the bounds of several hyperparameters, so the bounds
+//! must hold exactly and cost nothing when they bind; an evaluation may fail, and none may exceed the budget.
+//! Libraries that build for wasm offer no box, read a clock, or count iterations instead of evaluations.
 
 mod adam;
 mod lbfgs;
 
-/// Why an ascent ended.
+/// Why a maximisation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stop {
@@ -21,7 +22,7 @@ pub enum Stop {
     IllConditioned,
 }
 
-/// Which method climbs.
+/// The method of maximisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Optimiser {
@@ -51,7 +52,7 @@ impl Bounds {
     }
 }
 
-/// Where an ascent ended.
+/// The end of a maximisation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Optimum {
     pub(crate) x: Vec<f64>,
@@ -60,15 +61,16 @@ pub(crate) struct Optimum {
     pub(crate) stop: Stop,
 }
 
-/// The function climbed: gives its value and writes its gradient, or gives nothing where it has none.
+/// The objective: returns its value and writes its gradient, or returns nothing if it has none.
 pub(crate) trait Objective: FnMut(&[f64], &mut [f64]) -> Option<f64> {}
 impl<F: FnMut(&[f64], &mut [f64]) -> Option<f64>> Objective for F {}
 
-/// Relative gain of one step, and slope relative to the value, that count as negligible; the gain is SciPy's L-BFGS-B's.
+/// Relative gain of one step, and slope relative to the value, that count as negligible; the gain is that of
+/// SciPy's L-BFGS-B.
 const NEGLIGIBLE_GAIN: f64 = 2.2e-9;
 const NEGLIGIBLE_SLOPE: f64 = 1e-8;
 
-/// A place on the way, with the function's value and gradient there.
+/// A point of the search, with the objective's value and gradient.
 struct Place {
     x: Vec<f64>,
     gradient: Vec<f64>,
@@ -96,7 +98,8 @@ impl Place {
     }
 }
 
-/// Climbs from `start`, whose value and gradient took the first evaluation, for at most `budget` evaluations in all.
+/// Maximises from `start`, whose value and gradient took the first evaluation, with at most `budget`
+/// evaluations in all.
 pub(crate) fn maximise(
     optimiser: Optimiser,
     start: Vec<f64>,
@@ -161,7 +164,7 @@ mod tests {
             };
             let optimum = run(optimiser, [0.0; 2], &square(-1.0, 1.0), 500, fails_later);
             assert_eq!((optimum.stop, optimum.value), (Stop::IllConditioned, 0.0));
-            // The gradient promises what the value does not keep.
+            // A gradient that promises a gain which the value does not have.
             let flat = |_: &[f64], gradient: &mut [f64]| {
                 gradient.fill(1.0);
                 Some(0.0)

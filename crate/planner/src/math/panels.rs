@@ -1,8 +1,8 @@
 //! Dense kernels on panels: a matrix stored as strips of eight columns, each strip row by row.
 //!
-//! A strip of a few hundred rows stays in the first-level cache while a triangular solve or a product runs over it, four
-//! rows at a time, so that eight sums are in flight. As in [`crate::math::linalg`] every sum has a fixed order and nothing is
-//! fused, so the widest registers of the machine change no bit.
+//! A strip of a few hundred rows stays in the first-level cache while a triangular solve or a product runs
+//! over it, four rows at a time, so that eight sums are in flight. As in [`crate::math::linalg`] every sum
+//! has a fixed order and nothing is fused, so the widest registers of the machine change no bit.
 
 use core::ops::Range;
 
@@ -21,8 +21,8 @@ pub(crate) fn total(row: &Row) -> f64 {
 /// Rows handled together.
 pub(crate) const TALL: usize = 4;
 
-/// Solves L X = P in place for lower triangular `l` (n × n, row by row) and one panel of n rows, of which those before
-/// `first` are zero.
+/// Solves L X = P in place for lower triangular `l` (n × n, row by row) and one panel of n rows, of which
+/// those before `first` are zero.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 pub(crate) fn solve_lower(l: &[f64], first: usize, panel: &mut [Row]) {
     let n = panel.len();
@@ -35,7 +35,8 @@ pub(crate) fn solve_lower(l: &[f64], first: usize, panel: &mut [Row]) {
     }
 }
 
-/// Solves L X = P in place for a panel of a multiple of [`TALL`] rows, where L leads the rows of `l`, of length `n`.
+/// Solves L X = P in place for a panel of a multiple of [`TALL`] rows, where L leads the rows of `l`, of
+/// length `n`.
 #[inline(always)]
 pub(crate) fn solve_leading(l: &[f64], n: usize, panel: &mut [Row]) {
     for i in (0..panel.len()).step_by(TALL) {
@@ -84,7 +85,8 @@ pub(crate) fn accumulate<const R: usize>(factors: &[&[f64]; R], panel: &[Row], s
     *sums = local;
 }
 
-/// Writes M P of `matrix` (rows of `panel` each, row by row) to `out`, one panel row for each row of the matrix.
+/// Writes M P of `matrix` (rows of `panel` each, row by row) to `out`, one panel row for each row of the
+/// matrix.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 pub(crate) fn multiply(matrix: &[f64], panel: &[Row], out: &mut [Row]) {
     let n = panel.len();
@@ -103,12 +105,12 @@ pub(crate) fn multiply(matrix: &[f64], panel: &[Row], out: &mut [Row]) {
     }
 }
 
-/// Columns gathered before they are added to a product of a matrix with its transpose: a transposed panel of them and
-/// four rows fit the first-level cache, a few hundred rows the second.
+/// Columns gathered before they are added to a product of a matrix with its transpose: a transposed panel of
+/// them and four rows fit the first-level cache, a few hundred rows the second.
 pub(crate) const BLOCK_COLUMNS: usize = 256;
 
-/// Adds B Bᵀ to the lower triangle of `out` (n × n), where B is `block`: n rows of [`BLOCK_COLUMNS`], of which those before
-/// `from`, a multiple of [`WIDTH`], are zero.
+/// Adds B Bᵀ to the lower triangle of `out` (n × n), where B is `block`: n rows of [`BLOCK_COLUMNS`], of
+/// which those before `from`, a multiple of [`WIDTH`], are zero.
 ///
 /// Some values above the diagonal are written too; [`mirror_lower`] puts them right.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
@@ -161,7 +163,8 @@ pub(crate) fn mirror_lower(matrix: &mut [f64], n: usize) {
     }
 }
 
-/// Turns Lᵀ X = B into a lower triangular problem: writes the matrix with rows and columns in reverse order, transposed.
+/// Turns Lᵀ X = B into a lower triangular problem: writes the matrix with rows and columns in reverse order,
+/// transposed.
 pub(crate) fn reverse_transpose(l: &[f64], n: usize, out: &mut [f64]) {
     for i in 0..n {
         for j in 0..n {
@@ -170,7 +173,8 @@ pub(crate) fn reverse_transpose(l: &[f64], n: usize, out: &mut [f64]) {
     }
 }
 
-/// Solves Lᵀ X = M in place for a whole `matrix` (n × n), given L's [`reverse_transpose`]; `panel` is scratch.
+/// Solves Lᵀ X = M in place for a whole `matrix` (n × n), given L's [`reverse_transpose`]; `panel` is
+/// scratch.
 pub(crate) fn solve_transposed(reversed: &[f64], n: usize, matrix: &mut [f64], panel: &mut Vec<Row>) {
     panel.clear();
     panel.resize(n, [0.0; WIDTH]);

@@ -38,14 +38,14 @@
 //! depth_m = 1.5                  # of the middle, below the ground around
 //! rim_height_m = 0.5
 //!
-//! [[noise]]                      # gradient noise; each octave has half the wavelength and half the amplitude
+//! [[noise]]                      # gradient noise; each octave halves the wavelength and the amplitude
 //! amplitude_m = 0.3
 //! wavelength_m = 8.0
 //! octaves = 4
 //!
 //! [[trail]]                      # after all other features, in order
 //! points = [[2.0, 20.0], [30.0, 22.0], [58.0, 20.0]]
-//! height_m = [10.0, 12.0, 10.0]  # optional, one for all or one per point; default: the ground along the line
+//! height_m = [10.0, 12.0, 10.0]  # optional, for all or per point; default: the ground along the line
 //! width_m = 2.0                  # level across
 //! shoulder_m = 2.0               # blends into the ground over this on each side
 //! smoothing_m = 8.0              # the height along the line is averaged over this, default 4 width_m

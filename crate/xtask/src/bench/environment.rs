@@ -1,4 +1,4 @@
-//! The programs that are measured, built or installed, and the machine they run on.
+//! The programs of the benchmark, built or installed, and the machine.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,7 +11,7 @@ use crate::{python, setup};
 
 const REQUIREMENTS: &str = "crate/bench/requirements.txt";
 
-/// Where everything is.
+/// Paths of the programs.
 pub(crate) struct Environment {
     /// Inputs for the peers, and the wasm module.
     folder: PathBuf,
@@ -33,13 +33,13 @@ pub(crate) fn set_up(sh: &Shell) -> anyhow::Result<Environment> {
     let folder = target.join("bench");
     let built = target.join("wasm32-unknown-unknown/release/mapless_bench.wasm");
     cmd!(sh, "{wasm_bindgen} --target web --out-dir {folder} {built}").run()?;
-    // Node reads the module as one of these only when told.
+    // Node reads the module as an ES module only with this file.
     sh.write_file(folder.join("package.json"), "{\"type\": \"module\"}\n")?;
     let native = target.join("release/mapless-bench").with_extension(std::env::consts::EXE_EXTENSION);
     Ok(Environment { folder, native, python, chrome: browser.chrome })
 }
 
-/// Installs the peers into a Python environment of their own; gives its Python.
+/// Installs the peers into a Python environment of their own; returns its Python.
 fn peers(sh: &Shell, venv: &Path) -> anyhow::Result<PathBuf> {
     let environment = python::Environment {
         folder: venv,
@@ -109,7 +109,7 @@ impl Environment {
     }
 }
 
-/// What else the machine does, where Linux tells.
+/// Other load on the machine, as far as Linux reports it.
 fn others(sh: &Shell) -> String {
     let average =
         sh.read_file("/proc/loadavg").ok().and_then(|text| text.split(' ').next().map(str::to_owned));

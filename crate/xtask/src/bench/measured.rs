@@ -1,4 +1,4 @@
-//! What was measured.
+//! The measurements.
 
 use std::collections::BTreeMap;
 
@@ -8,14 +8,14 @@ use super::agreement::Agreement;
 use super::memory::Memory;
 use super::runner::{Side, Values};
 
-/// Everything that the report is made of.
+/// Everything in the report.
 #[derive(Default)]
 pub(crate) struct Measured {
     pub(crate) machine: String,
     pub(crate) rounds: u32,
-    /// Milliseconds of every repetition, by work and who did it.
+    /// Milliseconds of every repetition, by benchmark and side.
     pub(crate) times: BTreeMap<(String, Side), Vec<f64>>,
-    /// What the works gave natively.
+    /// The values of the benchmarks natively.
     pub(crate) values: BTreeMap<String, Values>,
     pub(crate) agreements: Vec<Agreement>,
     pub(crate) trials: Vec<Trial>,
@@ -52,14 +52,14 @@ impl Times {
 }
 
 impl Measured {
-    /// The times of one side at one work.
+    /// The times of one side at one benchmark.
     pub(crate) fn times(&self, work: &str, side: Side) -> anyhow::Result<Times> {
         let times = self.times.get(&(work.to_owned(), side));
         Times::of(times.with_context(|| format!("{side:?} was not asked for {work}"))?)
     }
 
-    /// The same, of each repetition of a round the fastest over all rounds: a round does the same work as the one before, so what
-    /// remains is the work's own, without the machine's other business.
+    /// As [`times`](Self::times), each repetition of a round the fastest over all rounds: rounds do the same
+    /// work, so the fastest time is free of other load on the machine.
     pub(crate) fn quiet_times(&self, work: &str, side: Side) -> anyhow::Result<Times> {
         let times = self.times.get(&(work.to_owned(), side));
         let times = times.with_context(|| format!("{side:?} was not asked for {work}"))?;
@@ -73,7 +73,7 @@ impl Measured {
         Times::of(&fastest)
     }
 
-    /// A number that a work gave.
+    /// A value of a benchmark.
     pub(crate) fn number(&self, work: &str, name: &str) -> anyhow::Result<f64> {
         self.values.get(work).with_context(|| format!("no values of {work}"))?.number(name)
     }

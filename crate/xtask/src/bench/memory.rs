@@ -1,4 +1,4 @@
-//! How much memory the command line and the page take.
+//! Memory of the command line and of the page.
 
 use std::process::{Command, Stdio};
 use std::time::Duration;
@@ -15,7 +15,7 @@ const PLAYED_S: u32 = 20;
 /// Bytes in use.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Memory {
-    /// The most that `mapless run` had in memory at a time; Linux alone tells.
+    /// Peak memory of `mapless run`; known on Linux alone.
     pub(crate) command_line: Option<u64>,
     /// JavaScript and wasm of the page and its worker, while it plays.
     pub(crate) page: u64,

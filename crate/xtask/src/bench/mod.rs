@@ -1,7 +1,8 @@
-//! mapless against its peers and against real time, written up in `docs/BENCHMARKS.md`.
+//! mapless against its peers and against real time, written to `docs/BENCHMARKS.md`.
 //!
-//! Four programs hold the pieces of work ready: ours natively, in Node and in Chromium, and the peers' in Python. They are asked
-//! in turn, a few repetitions at a time, so that what else the machine does falls on all of them.
+//! Four programs hold the benchmarks ready: ours natively, in Node and in Chromium, and the peers' in Python.
+//! They are asked in turn, a few repetitions at a time, so that other load on the machine affects all of
+//! them.
 
 mod agreement;
 mod environment;
@@ -23,7 +24,7 @@ const OURS: &[Side] = &[Side::Native, Side::Node, Side::Chromium];
 const ALL: &[Side] = &[Side::Native, Side::Peer, Side::Node, Side::Chromium];
 const NATIVE: &[Side] = &[Side::Native];
 
-/// The pieces of work, each with its repetitions in a round and who does it.
+/// The benchmarks, each with its repetitions in a round and its sides.
 const WORKS: &[(&str, usize, &[Side])] = &[
     ("posterior-200", 2, ALL),
     ("posterior-400", 1, ALL),
@@ -36,7 +37,7 @@ const WORKS: &[(&str, usize, &[Side])] = &[
     ("peak", 5, NATIVE),
 ];
 
-/// How the cost grows: name of the line, and the works by their size.
+/// Growth of the cost: name of the line, and the benchmarks by their size.
 pub(crate) const COSTS: &[(&str, &[(&str, f64)])] = &[
     (
         "posterior over n",
@@ -107,7 +108,7 @@ pub(crate) fn run(sh: &Shell, rounds: u32) -> anyhow::Result<()> {
         }
         println!("round {round} of {rounds}");
     }
-    // The drives have gone equally far everywhere.
+    // The drives are equally far on every side.
     let drives: Vec<_> = OURS
         .iter()
         .map(|side| runner(&mut runners, *side)?.values("drive"))

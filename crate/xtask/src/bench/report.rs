@@ -7,7 +7,7 @@ use super::measured::{Measured, Times};
 use super::runner::Side;
 use mapless_figures::plot::{Line, Plot, Scale};
 
-/// A comparison with a peer: what, our work, the peer's work, its name, and the ratio aimed at.
+/// A comparison with a peer: description, our benchmark, the peer's, its name, and the target ratio.
 const AGAINST_PEERS: &[(&str, &str, &str, &str, Option<f64>)] = &[
     (
         "posterior, mean and variance on 360 × 30, n = 1823, m = 200",
@@ -35,7 +35,7 @@ const AGAINST_PEERS: &[(&str, &str, &str, &str, Option<f64>)] = &[
     ("the same, level ground", "scan-level-1000", "scan-level-1000", "Embree", Some(1.0)),
 ];
 
-/// Works that run as wasm, with their headings.
+/// Benchmarks that run as wasm, with their headings.
 const AS_WASM: &[(&str, &str)] = &[
     ("drive", "planner step along drives"),
     ("tick-full", "planner step, 28 800 returns within 7 m, 5760 cells"),
@@ -47,9 +47,9 @@ const AS_WASM: &[(&str, &str)] = &[
     ("scan-level-1000", "scan, level ground"),
 ];
 
-/// Most that wasm may take, as a multiple of the native time.
+/// Largest allowed time of wasm, as a multiple of the native time.
 const MOST_WASM: f64 = 3.0;
-/// Most that 99 of 100 planner steps may take, milliseconds.
+/// Largest allowed 99th percentile of the planner's steps, milliseconds.
 const MOST_STEP_MS: [(Side, f64); 2] = [(Side::Native, 10.0), (Side::Chromium, 30.0)];
 /// A trial must run this many times faster than real time.
 const TIMES_REAL_TIME: f64 = 10.0;

@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use anyhow::{Context as _, bail, ensure};
 
-/// Who does the work.
+/// A side of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Side {
     /// mapless on this machine.
@@ -19,7 +19,7 @@ pub(crate) enum Side {
     Chromium,
 }
 
-/// What a piece of work gave, by name; `None` for what does not exist.
+/// The values of a benchmark, by name; `None` for a value that does not exist.
 #[derive(Clone, Debug, Default, PartialEq, serde::Deserialize)]
 pub(crate) struct Values(BTreeMap<String, Vec<Option<f64>>>);
 
@@ -67,7 +67,7 @@ impl Runner {
         Ok(Self { side, child, requests, answers })
     }
 
-    /// Runs the work `repetitions` times; gives the time of each in milliseconds.
+    /// Runs the benchmark `repetitions` times; returns the time of each in milliseconds.
     pub(crate) fn times(&mut self, work: &str, repetitions: usize) -> anyhow::Result<Vec<f64>> {
         match self.ask(&format!("{work} {repetitions}"))? {
             Answer::Ms(times) if times.len() == repetitions => Ok(times),
@@ -75,7 +75,7 @@ impl Runner {
         }
     }
 
-    /// What the last run of the work gave.
+    /// The values of the last run of the benchmark.
     pub(crate) fn values(&mut self, work: &str) -> anyhow::Result<Values> {
         match self.ask(&format!("{work} values"))? {
             Answer::Values(values) => Ok(values),

@@ -1,4 +1,4 @@
-//! Which modules of a crate use each other in a circle.
+//! Circles of modules in a crate.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -6,10 +6,10 @@ use std::path::Path;
 
 use crate::source::{Module, read};
 
-/// A way through re-exports longer than this leads nowhere.
+/// Longest chain of re-exports that is followed.
 const MOST_REEXPORTS: usize = 16;
 
-/// A line of one module that names what another defines.
+/// A line of one module that names an item of another.
 struct Arrow {
     from: usize,
     to: usize,
@@ -19,12 +19,13 @@ struct Arrow {
 
 /// Every circle in the crate with this root file, each as a text that names its files and lines.
 ///
-/// A module *uses* another when its source, outside tests, has a path to what the other defines; a path through
-/// re-exports leads to the definition, and `mod` alone is no use. A module and its submodules are one room: they may
-/// use each other. Two modules of different rooms are compared by the rooms that stand side by side in the module that
-/// holds both, and there no room may come back to itself. So with `a`, `a/x`, `a/y` and `b`, `a` and `a/x` may use each
-/// other, `a/x` and `a/y` only one the other, and nothing in `b` may use anything in `a` if anything in `a` uses
-/// anything in `b`. The crate root stands beside the modules in it, as a room of its own.
+/// A module *uses* another if its source, outside tests, has a path to an item that the other defines; a path
+/// through re-exports leads to the definition, and `mod` alone is no use. A module and its submodules are one
+/// room: they may use each other. Two modules of different rooms are compared by the rooms that are siblings
+/// in the module that holds both, and no chain of uses among siblings may return to its first room. So with
+/// `a`, `a/x`, `a/y` and `b`: `a` and `a/x` may use each other, `a/x` and `a/y` in one direction only, and
+/// nothing in `b` may use anything in `a` if anything in `a` uses anything in `b`. The crate root is a
+/// sibling of the modules in it, as a room of its own.
 pub(crate) fn circles(root: &Path) -> Vec<String> {
     let modules = read(root);
     let mut levels: BTreeMap<Option<usize>, Vec<(Arrow, [usize; 2])>> = BTreeMap::new();
@@ -45,7 +46,7 @@ fn arrows(modules: &[Module]) -> Vec<Arrow> {
             let Some(to) = defining_module(modules, from, &mention.path, MOST_REEXPORTS) else { continue };
             let through = mention.path.first().and_then(|first| module.imports.get(first));
             let imported = through.and_then(|import| defining_module(modules, from, import, MOST_REEXPORTS));
-            // The import says so already.
+            // The import counts already.
             if imported != Some(to) {
                 arrows.push(Arrow { from, to, line: mention.line, path: mention.path.join("::") });
             }
@@ -54,14 +55,14 @@ fn arrows(modules: &[Module]) -> Vec<Arrow> {
     arrows
 }
 
-/// The module that defines what a path within the module `from` names, if it is of this crate.
+/// The module that defines the item at a path within the module `from`, if it is of this crate.
 fn defining_module(modules: &[Module], from: usize, path: &[String], reexports: usize) -> Option<usize> {
     let (first, rest) = path.split_first()?;
     match first.as_str() {
         "crate" => definition(modules, 0, rest, reexports),
         "self" => definition(modules, from, rest, reexports),
         "super" => definition(modules, modules[from].parent?, rest, reexports),
-        // A name by itself came by an import, which has been counted, or was defined here.
+        // A single name was imported, which has been counted, or was defined here.
         _ if rest.is_empty() && reexports == MOST_REEXPORTS => None,
         _ => definition(modules, from, path, reexports),
     }
@@ -75,7 +76,7 @@ fn definition(modules: &[Module], module: usize, path: &[String], reexports: usi
         return definition(modules, here.parent?, rest, reexports);
     }
     if let Some(&child) = here.children.get(first) {
-        // What is not found there comes from a macro or another crate, by way of the child.
+        // A name that is not found there comes from a macro or another crate, through the child.
         return definition(modules, child, rest, reexports).or(Some(child));
     }
     if here.items.contains(first) {
@@ -92,7 +93,7 @@ fn definition(modules: &[Module], module: usize, path: &[String], reexports: usi
     })
 }
 
-/// Where an import leads; one of another crate's name, as `use toml;`, leads out.
+/// The target of an import; that of another crate's name, as `use toml;`, is outside.
 fn imported(
     modules: &[Module],
     module: usize,
@@ -106,8 +107,8 @@ fn imported(
     defining_module(modules, module, path, reexports)
 }
 
-/// The module that holds both ends of an arrow, `None` for the crate itself, and the two rooms side by side in it that the
-/// arrow joins; none where one end is within the other.
+/// The module that holds both ends of an arrow, `None` for the crate itself, and the two sibling rooms in it
+/// that the arrow joins; `None` if one end is within the other.
 fn rooms(modules: &[Module], arrow: &Arrow) -> Option<(Option<usize>, [usize; 2])> {
     let (from, to) = (rooms_above(modules, arrow.from), rooms_above(modules, arrow.to));
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
@@ -158,7 +159,7 @@ fn circles_among(modules: &[Module], arrows: &[(Arrow, [usize; 2])], folder: &Pa
                 }
             }
             for ((from, line, to), paths) in lines {
-                // A String takes whatever is written to it.
+                // Writing to a String cannot fail.
                 let _ = writeln!(text, "  {from}:{line} uses {to}: {}", paths.join(", "));
             }
             text

@@ -39,7 +39,7 @@ fn no_crate_of_the_workspace_has_a_circle() {
 /// The circles of a crate made of these files, in a folder called `name`.
 fn circles_of(name: &str, files: &[(&str, &str)]) -> Vec<String> {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("modules").join(name);
-    // What an earlier run left there may be another crate.
+    // An earlier run may have left another crate.
     let _ = fs::remove_dir_all(&folder);
     for (file, text) in files {
         let path = folder.join(file);

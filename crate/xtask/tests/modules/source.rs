@@ -1,4 +1,4 @@
-//! The modules of one crate, read from its source: what each defines, imports and names.
+//! The modules of one crate, read from its source: their items, imports and mentions.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 
-/// A path as it stands in the source.
+/// A path in the source.
 #[derive(Clone, Debug)]
 pub(crate) struct Mention {
     pub(crate) line: usize,
@@ -18,15 +18,15 @@ pub(crate) struct Mention {
 #[derive(Debug, Default)]
 pub(crate) struct Module {
     pub(crate) file: PathBuf,
-    /// The module that holds this one, and all that hold that one; the crate root has none.
+    /// The module that holds this one; the crate root has none.
     pub(crate) parent: Option<usize>,
     /// Modules of their own, by name.
     pub(crate) children: BTreeMap<String, usize>,
     /// Names of the items defined here.
     pub(crate) items: BTreeSet<String>,
-    /// What a name stands for that `use` brings here.
+    /// Paths of the names that `use` imports here.
     pub(crate) imports: BTreeMap<String, Vec<String>>,
-    /// Modules whose names all are brought here.
+    /// Modules imported with `*`.
     pub(crate) globs: Vec<Vec<String>>,
     /// Every path outside tests.
     pub(crate) mentions: Vec<Mention>,

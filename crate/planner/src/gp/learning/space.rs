@@ -1,4 +1,4 @@
-//! The coordinates in which learning climbs.
+//! The coordinates of learning.
 
 use glam::DVec2;
 
@@ -8,7 +8,8 @@ use crate::gp::hyperparameters::{Hyperparameters, LogGradient};
 use crate::gp::kernel::RationalQuadratic;
 use crate::math::optimiser::Bounds;
 
-/// The coordinates learned: logarithms of the hyperparameters, then inducing inputs over the starting length-scales.
+/// The coordinates learned: logarithms of the hyperparameters, then inducing inputs over the starting
+/// length-scales.
 pub(super) struct Space<'a> {
     from: &'a Hyperparameters,
     inducing: &'a [DVec2],
@@ -71,7 +72,8 @@ impl<'a> Space<'a> {
         bounds
     }
 
-    /// The hyperparameters at `x`, and the inducing inputs into `moved`; a coordinate that has not moved keeps its bits.
+    /// The hyperparameters at `x`, and the inducing inputs into `moved`; a coordinate that has not moved
+    /// keeps its bits.
     pub(super) fn read(&self, x: &[f64], moved: &mut [DVec2]) -> Hyperparameters {
         let at = |k: usize, from: f64| {
             let [lowest, highest] = self.ranges[k];

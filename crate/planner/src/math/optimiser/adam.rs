@@ -1,4 +1,4 @@
-//! Adam inside a box; the best place visited counts.
+//! Adam inside a box (Kingma and Ba 2015, <https://arxiv.org/abs/1412.6980>); the best place visited counts.
 
 use super::{Bounds, NEGLIGIBLE_SLOPE, Objective, Optimum, Place, Stop};
 
@@ -7,7 +7,7 @@ const FIRST_RATE: f64 = 0.1;
 const LAST_RATE: f64 = 1e-4;
 const PATIENCE: u32 = 8;
 
-/// Climbs from `start` for at most `budget` evaluations, the first one made already.
+/// Maximises from `start` with at most `budget` evaluations, the first one made already.
 pub(super) fn maximise(start: Place, bounds: &Bounds, budget: u32, mut objective: impl Objective) -> Optimum {
     let n = start.x.len();
     let started = start.value;

@@ -1,4 +1,5 @@
-//! Limited-memory BFGS inside a box: an active set of bounds, and a backtracking search along the projected path.
+//! Limited-memory BFGS inside a box: an active set of bounds, and a backtracking search along the projected
+//! path.
 
 use super::{Bounds, NEGLIGIBLE_GAIN, NEGLIGIBLE_SLOPE, Objective, Optimum, Place, Stop};
 
@@ -11,7 +12,7 @@ const SUFFICIENT_GAIN: f64 = 1e-4;
 /// Shortest step of a search, as a share of the first.
 const SHORTEST_SHARE: f64 = 1e-9;
 
-/// Climbs from `here` for at most `budget` evaluations, the first one made already.
+/// Maximises from `here` with at most `budget` evaluations, the first one made already.
 pub(super) fn maximise(
     mut here: Place,
     bounds: &Bounds,
@@ -60,7 +61,8 @@ pub(super) fn maximise(
                         next.value = value;
                         break Some(gain);
                     }
-                    // The parabola through value, slope and this value, kept within a tenth and a half.
+                    // The maximum of the parabola through value, slope and this value, between a tenth and a
+                    // half of the step.
                     let best = 0.5 * linear / (linear - gain);
                     share *= if best.is_finite() { best.clamp(0.1, 0.5) } else { 0.5 };
                 }
@@ -93,7 +95,7 @@ pub(super) fn maximise(
     }
 }
 
-/// A step and how much the slope fell along it.
+/// A step and the decrease of the slope along it.
 struct Curvature {
     step: Vec<f64>,
     bend: Vec<f64>,
@@ -121,7 +123,7 @@ fn quasi_newton_direction(memory: &[Curvature], slope: &[f64], direction: &mut [
         used.push((pair, curvature, along));
     }
     let Some(scale) = scale else {
-        // NaN tells the caller that nothing is known.
+        // NaN marks an unknown direction.
         direction.fill(f64::NAN);
         return;
     };
