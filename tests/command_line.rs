@@ -122,7 +122,7 @@ fn json_has_every_name_and_the_same_seed_gives_the_same_digest() {
 }
 
 #[test]
-fn the_paper_preset_drives_another_way_to_a_named_outcome() {
+fn the_paper_preset_drives_another_path_to_a_named_outcome() {
     let folder = Folder::new();
     let output = folder.run("meadow-drive.toml", &["--json", "--planner", "paper"]);
     let result: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -152,11 +152,11 @@ fn any_planner_drives_with_the_same_report_and_log() {
 }
 
 #[test]
-fn truth_stands_in_for_perception() {
+fn ground_truth_replaces_perception() {
     let folder = Folder::new();
     let perceived = folder.json(&[]);
-    let told = folder.json(&["--truth", "both"]);
-    assert_ne!(told["digest"], perceived["digest"]);
+    let overridden = folder.json(&["--truth", "both"]);
+    assert_ne!(overridden["digest"], perceived["digest"]);
     assert_eq!(folder.json(&["--truth", "none"])["digest"], perceived["digest"]);
     refused(
         &folder.run("meadow-drive.toml", &["--planner", "putn", "--truth", "ground"]),

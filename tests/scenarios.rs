@@ -84,7 +84,7 @@ fn driving_straight_at_the_goal_fails() {
 }
 
 #[test]
-fn a_safe_way_to_the_goal_exists() {
+fn a_safe_path_to_the_goal_exists() {
     for (name, LoadedScenario { scenario, terrain }) in loaded() {
         let Scenario { start, goal_m, robot, .. } = scenario;
         let from = PlanPose { position_m: start.position_m, yaw_rad: start.heading_rad };

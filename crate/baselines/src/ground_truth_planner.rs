@@ -162,7 +162,7 @@ mod tests {
 
     const PERIOD: Duration = Duration::from_millis(100);
 
-    fn standing(field: &HeightField, place: DVec2, yaw_rad: f64) -> Pose {
+    fn pose_on(field: &HeightField, place: DVec2, yaw_rad: f64) -> Pose {
         let attitude = attitude_on(field, place, yaw_rad, &Default::default()).unwrap();
         Pose::from_roll_pitch_yaw(
             place.extend(attitude.height_m),
@@ -176,7 +176,7 @@ mod tests {
     fn the_profile_is_the_true_skyline() {
         let field = field(30.0, |place| 4.0 * undulating(place));
         let (place, yaw_rad) = (DVec2::new(14.0, 16.0), 0.7);
-        let pose = standing(&field, place, yaw_rad);
+        let pose = pose_on(&field, place, yaw_rad);
         let mut navigator =
             GroundTruthPlanner::new(PlannerConfig::default(), Truth::Profile, field.clone()).unwrap();
         navigator.navigate(&[Vec3::new(3.0, 0.0, -0.8)], &pose, &Goal::at(DVec2::new(29.0, 29.0)), PERIOD);
@@ -186,15 +186,15 @@ mod tests {
         let caster = Caster::new(field);
         let profile = navigator.planner().last_step().profile;
         let mut kinds = [0; 3];
-        for (column, told) in profile.iter().enumerate() {
-            match (told, true_skyline(&caster, &sensor, 7.0, column_azimuth_rad(column))) {
-                (Column::Ground { elevation_rad: told }, Skyline::Ground { elevation_rad }) => {
-                    assert!((told - elevation_rad).abs() < 1e-5, "column {column}");
+        for (column, perceived) in profile.iter().enumerate() {
+            match (perceived, true_skyline(&caster, &sensor, 7.0, column_azimuth_rad(column))) {
+                (Column::Ground { elevation_rad: perceived }, Skyline::Ground { elevation_rad }) => {
+                    assert!((perceived - elevation_rad).abs() < 1e-5, "column {column}");
                     kinds[0] += 1;
                 }
                 (Column::Unknown, Skyline::Unknown) => kinds[1] += 1,
                 (Column::Wall, Skyline::Wall) => kinds[2] += 1,
-                (told, truth) => panic!("column {column}: {told:?} is {truth:?}"),
+                (perceived, truth) => panic!("column {column}: {perceived:?} is {truth:?}"),
             }
         }
         assert!(kinds[0] > 100 && kinds[1] > 100, "{kinds:?}");
@@ -211,7 +211,7 @@ mod tests {
         assert_eq!(true_plane(&field, DVec2::new(0.1, 5.0)), None);
 
         // One return is too little for a forecast of any subgoal, unless the ground is overridden.
-        let pose = standing(&field, DVec2::splat(15.0), 0.0);
+        let pose = pose_on(&field, DVec2::splat(15.0), 0.0);
         let reach_m = |truth| {
             let mut navigator =
                 GroundTruthPlanner::new(PlannerConfig::default(), truth, field.clone()).unwrap();

@@ -13,13 +13,13 @@
 mod lattice;
 mod motions;
 mod planner;
-mod standing;
+mod safe_poses;
 #[cfg(test)]
 mod tests;
 
 use lattice::{Lattice, Node};
 pub use planner::Oracle;
-pub(crate) use standing::Standing;
+pub(crate) use safe_poses::SafePoses;
 
 use glam::DVec2;
 use mapless_world::{ConfigError, HeightField, HuskyConfig};
@@ -126,11 +126,11 @@ pub fn shortest_path(
     goal_m: DVec2,
     config: &OracleConfig,
 ) -> Result<OraclePath, OracleError> {
-    let standing = Standing::new(field, robot, config)?;
-    standing.search(start, goal_m, config.cell_m)
+    let safe_poses = SafePoses::new(field, robot, config)?;
+    safe_poses.search(start, goal_m, config.cell_m)
 }
 
-impl Standing<'_> {
+impl SafePoses<'_> {
     /// As [`shortest_path`], on ground that may be searched again.
     pub(crate) fn search(
         &self,

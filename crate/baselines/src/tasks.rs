@@ -4,7 +4,7 @@
 //! goal roughly, the others any direction. Tasks that the oracle cannot solve are drawn again, so every task
 //! has a safe path. Task K of a seed is the same however many tasks there are.
 
-use crate::oracle::{OracleConfig, OracleError, OraclePath, PlanPose, Standing};
+use crate::oracle::{OracleConfig, OracleError, OraclePath, PlanPose, SafePoses};
 use glam::DVec2;
 use mapless_world::generate::{Difficulty, terrain_recipe};
 use mapless_world::random::{Sequence, key};
@@ -123,11 +123,11 @@ impl Task {
             let recipe = terrain_recipe(&name.to_string(), difficulty, terrain_seed);
             let no_import = &mut |file: &str| Err(format!("{file}: expected no import"));
             let terrain = load_terrain_bytes(&format!("{name}.toml"), recipe.as_bytes(), no_import)?;
-            let standing = Standing::new(&terrain.field, &robot, &config)?;
+            let safe_poses = SafePoses::new(&terrain.field, &robot, &config)?;
             let mut draw = Sequence::new(key(terrain_seed, 1));
-            let Some((start, goal_m)) = start_and_goal(&standing, &mut draw) else { continue };
-            let Ok(path) = standing.search(start, goal_m, config.cell_m) else { continue };
-            let straight_is_safe = standing.straight_is_safe(start.position_m, goal_m);
+            let Some((start, goal_m)) = start_and_goal(&safe_poses, &mut draw) else { continue };
+            let Ok(path) = safe_poses.search(start, goal_m, config.cell_m) else { continue };
+            let straight_is_safe = safe_poses.straight_is_safe(start.position_m, goal_m);
             return Ok(Self {
                 name,
                 recipe,
@@ -171,24 +171,24 @@ impl Task {
 }
 
 /// Draws start and goal, rounded as a scenario file has them: two decimals of a metre, three of a radian.
-fn start_and_goal(standing: &Standing, draw: &mut Sequence) -> Option<(PlanPose, DVec2)> {
-    let inside_m = standing.extent_m() - DVec2::splat(2.0 * BORDER_M);
+fn start_and_goal(safe_poses: &SafePoses, draw: &mut Sequence) -> Option<(PlanPose, DVec2)> {
+    let inside_m = safe_poses.extent_m() - DVec2::splat(2.0 * BORDER_M);
     let place = |draw: &mut Sequence| {
         let position_m = DVec2::splat(BORDER_M) + inside_m * DVec2::new(draw.share(), draw.share());
         (position_m * 100.0).round() / 100.0
     };
     // Pairs drawn evenly are mostly near each other.
-    let least_m = draw.between([APART_M[0], MOST_SHARE * standing.extent_m().min_element()]);
+    let least_m = draw.between([APART_M[0], MOST_SHARE * safe_poses.extent_m().min_element()]);
     let apart_m = least_m.min(APART_M[1])..=APART_M[1];
     let (start_m, goal_m) = (0..PLACES).find_map(|_| {
         let (start_m, goal_m) = (place(draw), place(draw));
         let fits = apart_m.contains(&start_m.distance(goal_m));
-        let safe = || [start_m, goal_m].into_iter().all(|at_m| standing.every_heading_is_safe(at_m));
+        let safe = || [start_m, goal_m].into_iter().all(|at_m| safe_poses.every_heading_is_safe(at_m));
         (fits && safe()).then_some((start_m, goal_m))
     })?;
-    let way = goal_m - start_m;
+    let path = goal_m - start_m;
     let heading_rad = if draw.happens(0.5) {
-        libm::atan2(way.y, way.x) + draw.between([-0.3, 0.3])
+        libm::atan2(path.y, path.x) + draw.between([-0.3, 0.3])
     } else {
         draw.between([-TAU / 2.0, TAU / 2.0])
     };

@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn over_waypoints_the_straight_way_has_legs_and_no_shortest_path_is_known() {
+    fn over_waypoints_the_straight_distance_has_legs_and_no_shortest_path_is_known() {
         let text = "planners = [\"default\"]\nroutes = [\"routes/*.toml\"]\nseeds = [1]\n";
         let route = |scenario: &str| plan(RECIPE, scenario, text).unwrap().routes.swap_remove(0);
         let straight = route(SCENARIO);

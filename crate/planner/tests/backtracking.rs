@@ -29,7 +29,7 @@ fn drive(planner: &mut Planner, to_x_m: f64) {
 }
 
 #[test]
-fn it_goes_back_from_where_it_stands_steeper_than_it_was_told_and_on_again_a_metre_back() {
+fn it_backtracks_from_ground_steeper_than_predicted_and_drives_on_after_a_metre() {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
     drive(&mut planner, 3.0);
     let steep_rad = 0.75;
@@ -62,13 +62,13 @@ fn it_turns_back_the_sooner_the_faster_the_ground_gets_steeper() {
 }
 
 #[test]
-fn a_robot_that_has_not_driven_has_no_way_back() {
+fn a_robot_that_has_not_driven_cannot_backtrack() {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
     assert_ne!(step(&mut planner, 0.0, 0.75).0, Status::Backtracking);
 }
 
 #[test]
-fn without_patience_it_goes_on_where_it_would_have_turned_back() {
+fn beyond_its_budget_it_drives_on_where_it_would_have_backtracked() {
     let PlannerConfig { robot: limits, state_lattice: forecast, .. } = PlannerConfig::default();
     let steep_rad =
         limits.pitch_limit_rad - 0.5 * (forecast.escape_margin_rad + forecast.impatient_margin_rad);

@@ -122,7 +122,7 @@ fn a_goal_in_sight_is_driven_to_and_arrived_at() {
 }
 
 /// A step of a planner whose terrain is overridden.
-fn step_told(goal_m: DVec2, ground: impl Fn(DVec2) -> Option<Plane>) -> (Status, Option<Subgoal>) {
+fn step_overridden(goal_m: DVec2, ground: impl Fn(DVec2) -> Option<Plane>) -> (Status, Option<Subgoal>) {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
     let overrides = PerceptionOverride { terrain: Some(&ground), ..PerceptionOverride::default() };
     planner.set_goal(Goal::at(goal_m));
@@ -131,9 +131,9 @@ fn step_told(goal_m: DVec2, ground: impl Fn(DVec2) -> Option<Plane>) -> (Status,
 }
 
 #[test]
-fn a_goal_where_it_may_not_stand_is_driven_to_within_its_tolerance() {
+fn an_unsafe_goal_is_driven_to_within_its_tolerance() {
     let goal_m = DVec2::new(3.0, 1.0);
-    let (status, chosen) = step_told(goal_m, |place_m| {
+    let (status, chosen) = step_overridden(goal_m, |place_m| {
         let steep = (place_m - goal_m).length() < 0.4;
         let gradient = if steep { DVec2::splat(2.0) } else { DVec2::ZERO };
         Some(Plane { height_m: 0.0, gradient, gradient_deviation: 0.0 })
@@ -145,7 +145,7 @@ fn a_goal_where_it_may_not_stand_is_driven_to_within_its_tolerance() {
 
 #[test]
 fn on_a_hilltop_whose_flanks_it_cannot_see_it_drives_to_the_edge() {
-    let (status, chosen) = step_told(AHEAD, |place_m| {
+    let (status, chosen) = step_overridden(AHEAD, |place_m| {
         let plane = Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 };
         (place_m.length() < 1.7).then_some(plane)
     });

@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn time_ends_after_so_many_times_the_straight_way_and_a_minute() {
+    fn time_ends_after_a_multiple_of_the_straight_time_and_a_minute() {
         let mut checker = ProgressChecker::new(at(0.0), 100, 1.0, 20.0);
         let last = 100 + 60 + 48 * 20_u32;
         assert!((100..=last).all(|second| checker.check(at(f64::from(second)), second.into()).is_none()));

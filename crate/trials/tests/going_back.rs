@@ -50,7 +50,7 @@ fn going_back_and_on_gives_the_same_digest() {
 }
 
 #[test]
-fn looking_farther_than_the_planner_minds_changes_nothing() {
+fn a_longer_sensor_range_than_the_planner_uses_changes_nothing() {
     for preset in Preset::ALL {
         let (mut near, mut far) = (trial_of(SCENARIO, preset), trial_of(SCENARIO, preset));
         for _ in 0..60 {

@@ -22,7 +22,7 @@ fn add_rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 /// Whether a line is too wide because of a comment: one of its own, or one behind code. Slashes within
 /// quotation marks are no comment, and neither is a wide string.
 fn has_wide_comment(line: &str) -> bool {
-    let is_in_code = |at: usize| line[..at].matches('"').count() % 2 == 0;
+    let is_in_code = |at: usize| line[..at].matches('"').count().is_multiple_of(2);
     line.chars().count() > MAX_WIDTH
         && (line.trim_start().starts_with("//") || line.match_indices(" // ").any(|(at, _)| is_in_code(at)))
 }

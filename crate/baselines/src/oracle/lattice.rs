@@ -1,7 +1,7 @@
 //! The graph that the oracle searches.
 
 use super::motions::{HEADINGS, Motion, drives, heading_rad};
-use super::standing::Standing;
+use super::safe_poses::SafePoses;
 use super::{OracleError, PlanPose};
 use glam::DVec2;
 use mapless::math::angle::difference_rad;
@@ -64,7 +64,7 @@ enum Verdict {
 
 /// Places and headings, and the motions between them.
 pub(super) struct Lattice<'a> {
-    standing: &'a Standing<'a>,
+    safe_poses: &'a SafePoses<'a>,
     start: PlanPose,
     /// From one place to the next along the first axis, in the world frame.
     cell: DVec2,
@@ -81,7 +81,7 @@ pub(super) struct Lattice<'a> {
 impl<'a> Lattice<'a> {
     /// `goal_m` is at least half a `cell_m` away.
     pub(super) fn new(
-        standing: &'a Standing<'a>,
+        safe_poses: &'a SafePoses<'a>,
         start: PlanPose,
         goal_m: DVec2,
         cell_m: f64,
@@ -90,7 +90,7 @@ impl<'a> Lattice<'a> {
         let count = (path.length() / cell_m).round().max(1.0);
         let cell = path / count;
         let cell_m = cell.length();
-        let extent_m = standing.extent_m();
+        let extent_m = safe_poses.extent_m();
         let corners =
             [DVec2::ZERO, DVec2::new(extent_m.x, 0.0), DVec2::new(0.0, extent_m.y), extent_m].map(|corner| {
                 (corner - start.position_m).rotate(DVec2::new(cell.x, -cell.y)) / (cell_m * cell_m)
@@ -105,7 +105,7 @@ impl<'a> Lattice<'a> {
         let drives = drives(CHECK_M / cell_m);
         let cost = |motion: &Motion| (motion.length() * cell_m * MICROMETRES).ceil() as u64;
         Ok(Self {
-            standing,
+            safe_poses,
             start,
             cell,
             axis_rad: libm::atan2(cell.y, cell.x),
@@ -147,9 +147,9 @@ impl<'a> Lattice<'a> {
             return None;
         }
         let (motion, origin_m) = (&self.drives[from][index], self.position_m(node));
-        let (_, on_the_way) = motion.poses.split_last()?;
-        let safe = on_the_way.iter().all(|&(offset, yaw_rad)| {
-            self.standing.is_safe(origin_m + self.cell.rotate(offset), self.axis_rad + yaw_rad)
+        let (_, along) = motion.poses.split_last()?;
+        let safe = along.iter().all(|&(offset, yaw_rad)| {
+            self.safe_poses.is_safe(origin_m + self.cell.rotate(offset), self.axis_rad + yaw_rad)
         });
         safe.then_some((end, self.costs[from][index]))
     }
@@ -158,7 +158,7 @@ impl<'a> Lattice<'a> {
         let end = Node { heading, ..node };
         let position_m = self.position_m(node);
         let safe = self.is_safe(end)
-            && self.turn_rad(node, end).all(|yaw_rad| self.standing.is_safe(position_m, yaw_rad));
+            && self.turn_rad(node, end).all(|yaw_rad| self.safe_poses.is_safe(position_m, yaw_rad));
         let angle_rad = difference_rad(self.yaw_rad(end), self.yaw_rad(node)).abs();
         let share = angle_rad * HEADINGS.len() as f64 / std::f64::consts::TAU;
         safe.then_some((end, (TURN_COST_M * share * MICROMETRES).ceil() as u64))
@@ -182,7 +182,7 @@ impl<'a> Lattice<'a> {
             Verdict::Safe => true,
             Verdict::Unsafe => false,
             Verdict::Unknown => {
-                let safe = self.standing.is_safe(self.position_m(node), self.yaw_rad(node));
+                let safe = self.safe_poses.is_safe(self.position_m(node), self.yaw_rad(node));
                 self.verdicts[index] = if safe { Verdict::Safe } else { Verdict::Unsafe };
                 safe
             }

@@ -237,12 +237,12 @@ proptest! {
     ) {
         let field = hilly(&hills);
         let robot = HuskyConfig::default();
-        let standing = Standing::new(&field, &robot, &OracleConfig::default()).unwrap();
+        let safe_poses = SafePoses::new(&field, &robot, &OracleConfig::default()).unwrap();
         for (x, y, yaw_rad) in places {
             let at_m = DVec2::new(x, y);
             let safe = attitude_on(&field, at_m, yaw_rad, &robot)
                 .is_some_and(|tilt| tilt.roll_rad.abs() <= 0.524 - 0.08 && tilt.pitch_rad.abs() <= 0.785 - 0.08);
-            prop_assert_eq!(standing.is_safe(at_m, yaw_rad), safe, "{} {}", at_m, yaw_rad);
+            prop_assert_eq!(safe_poses.is_safe(at_m, yaw_rad), safe, "{} {}", at_m, yaw_rad);
         }
     }
 }

@@ -47,12 +47,12 @@ impl PartialOrd for Queued {
 #[must_use]
 pub fn search(map: &VoxelMap, prices: &Prices, start: usize, goal: usize) -> Option<Vec<usize>> {
     let count = map.nodes().len();
-    let mut way_price = vec![f64::INFINITY; count];
+    let mut path_cost = vec![f64::INFINITY; count];
     let mut queued_at = vec![f64::INFINITY; count];
     let mut parent = vec![NO_PARENT; count];
     let mut queue = BinaryHeap::new();
     let mut age = 0;
-    way_price[start] = 0.0;
+    path_cost[start] = 0.0;
     queued_at[start] = octile(map, start, goal);
     queue.push(Reverse(Queued { estimate: queued_at[start], age, node: start as u32 }));
     while let Some(Reverse(Queued { estimate, node, .. })) = queue.pop() {
@@ -62,15 +62,15 @@ pub fn search(map: &VoxelMap, prices: &Prices, start: usize, goal: usize) -> Opt
             continue;
         }
         if here == goal {
-            return Some(way_back(&parent, here));
+            return Some(path_to(&parent, here));
         }
         queued_at[here] = f64::NEG_INFINITY;
         for (there, length) in neighbours(map, here) {
-            let price = way_price[here] + length * 0.5 * (prices.price[here] + prices.price[there]);
-            if price >= way_price[there] {
+            let price = path_cost[here] + length * 0.5 * (prices.price[here] + prices.price[there]);
+            if price >= path_cost[there] {
                 continue;
             }
-            way_price[there] = price;
+            path_cost[there] = price;
             parent[there] = node;
             let estimate = price + octile(map, there, goal) + prices.priority[here];
             // A queued node is only moved up; one that was taken before is queued again.
@@ -84,7 +84,7 @@ pub fn search(map: &VoxelMap, prices: &Prices, start: usize, goal: usize) -> Opt
     None
 }
 
-fn way_back(parent: &[u32], goal: usize) -> Vec<usize> {
+fn path_to(parent: &[u32], goal: usize) -> Vec<usize> {
     let mut nodes = vec![goal];
     let mut here = goal;
     while parent[here] != NO_PARENT {

@@ -284,11 +284,11 @@ mod tests {
     }
 
     #[test]
-    fn the_routes_that_are_lost_are_named_with_what_the_ways_climb() {
-        let driven = |planner, route, pitch_rad, rate_cm_s, way_m| TrialRow {
+    fn the_routes_that_are_lost_are_named_with_their_climb() {
+        let driven = |planner, route, pitch_rad, rate_cm_s, path_m| TrialRow {
             max_abs_pitch_rad: Some(pitch_rad),
             mean_elevation_rate_cm_s: Some(rate_cm_s),
-            distance_m: Some(way_m),
+            distance_m: Some(path_m),
             sim_time_s: Some(100.0),
             ..row(planner, route, "none", 1, "reached")
         };
@@ -313,8 +313,8 @@ mod tests {
     fn planners_are_compared_on_what_both_reach() {
         let names: Vec<String> = (0..20).map(|index| format!("hard-1-{index:04}")).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let driven = |planner, route, outcome, way_m| TrialRow {
-            distance_m: Some(way_m),
+        let driven = |planner, route, outcome, path_m| TrialRow {
+            distance_m: Some(path_m),
             ..row(planner, route, "none", 1, outcome)
         };
         let rows = vec![

@@ -324,7 +324,7 @@ mod tests {
     use crate::testing::{results, row};
 
     #[test]
-    fn many_routes_are_told_by_what_their_names_begin_with() {
+    fn many_routes_are_grouped_by_the_beginning_of_their_names() {
         let names: Vec<String> = (0..30)
             .map(|index| format!("{}-1-{index:04}", ["hard", "moderate", "easy"][index % 3]))
             .collect();
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn a_campaign_of_combinations_alone_says_nothing_of_planners_as_they_are() {
+    fn a_campaign_of_combinations_alone_says_nothing_of_unchanged_planners() {
         let varied = |planner, outcome| TrialRow {
             parameters: "planner.decision.steepness_weight=0.5".to_owned(),
             ..row(planner, "a", "none", 1, outcome)

@@ -13,9 +13,9 @@ const MEASURES: [(&str, &str, usize); 9] = [
     ("slope, 99 %", "°", 1),
     ("ground beyond the roll limit", "%", 1),
     ("ground beyond the pitch limit", "%", 1),
-    ("straight way", "m", 1),
+    ("straight distance", "m", 1),
     ("oracle's path", "m", 1),
-    ("path / straight way", "", 3),
+    ("path / straight distance", "", 3),
 ];
 
 /// Collects the measures of every task.
@@ -68,7 +68,7 @@ impl Summary {
         }
         let (tasks, drawn) = (self.values[0].len(), self.drawn);
         format!(
-            "{}\n\n{tasks} tasks; the oracle solved {tasks} of {drawn} drawn ({:.0} %). The straight way is safe in {} of {tasks}.",
+            "{}\n\n{tasks} tasks; the oracle solved {tasks} of {drawn} drawn ({:.0} %). The straight line is safe in {} of {tasks}.",
             table.trim_fmt(),
             100.0 * tasks as f64 / f64::from(drawn),
             self.straight_is_safe

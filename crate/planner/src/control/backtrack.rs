@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn it_stands_before_it_goes_back_and_goes_over_where_it_came_to_stand() {
+    fn it_brakes_before_it_backtracks_and_passes_the_pose_where_it_stopped() {
         let (mut backtrack, mut robot) = driven(20);
         let poses = backtrack_all(&mut backtrack, &mut robot, 0.8);
         let turned_at_m = poses.iter().map(|pose| pose.position_m.x).fold(0.0, f64::max);
@@ -484,7 +484,7 @@ mod tests {
     }
 
     #[test]
-    fn having_gone_all_the_way_back_it_still_knows_that_place() {
+    fn after_backtracking_to_the_first_pose_it_still_knows_that_pose() {
         let (mut backtrack, mut robot) = driven(10);
         for _ in 0..5 {
             backtrack_all(&mut backtrack, &mut robot, 0.0);
@@ -503,7 +503,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_has_not_driven_or_was_carried_has_no_way_back() {
+    fn a_robot_that_has_not_driven_or_was_carried_has_no_trajectory() {
         assert_eq!(Backtrack::new().begin(DVec2::ZERO), None);
         let (mut backtrack, _) = driven(100);
         let carried = pose(DVec2::splat(9.0), 0.0);

@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn what_it_heads_for_stays_a_candidate_until_it_is_there() {
+    fn the_committed_target_stays_a_candidate_until_arrival() {
         let mut committed = CommittedTarget::default();
         assert_eq!(reconsider(&mut committed, 0.0, 9.0), Ok(None));
         assert_eq!(committed.commit(&subgoal(5.0), &pose(0.0), STEP), None);
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn where_no_way_leads_any_more_is_told_once() {
+    fn an_unreachable_target_is_reported_once() {
         let mut committed = CommittedTarget::default();
         committed.commit(&subgoal(5.0), &pose(0.0), STEP);
         assert_eq!(reconsider(&mut committed, 0.0, 3.0), Err(DVec2::new(5.0, 0.0)));

@@ -45,17 +45,17 @@ impl DetourBudget {
 mod tests {
     use super::*;
 
-    fn lost_after_m(straight_m: f64) -> f64 {
-        let mut patience = DetourBudget::new(DVec2::ZERO, DVec2::X * straight_m);
+    fn spent_after_m(straight_m: f64) -> f64 {
+        let mut budget = DetourBudget::new(DVec2::ZERO, DVec2::X * straight_m);
         let to_and_fro = |k: i32| DVec2::Y * 0.5 * f64::from(k % 2);
-        let lost: Vec<_> = (1..1000).filter(|&k| patience.is_spent_now(to_and_fro(k))).collect();
-        assert_eq!(lost.len(), 1, "it is lost once");
-        0.5 * f64::from(lost[0])
+        let spent: Vec<_> = (1..1000).filter(|&k| budget.is_spent_now(to_and_fro(k))).collect();
+        assert_eq!(spent.len(), 1, "it is spent once");
+        0.5 * f64::from(spent[0])
     }
 
     #[test]
-    fn patience_is_lost_once_after_twice_the_straight_way() {
-        assert!((lost_after_m(30.0) - 60.0).abs() < 1e-9);
-        assert!((lost_after_m(1.0) - 20.0).abs() < 1e-9);
+    fn the_budget_is_spent_once_after_twice_the_straight_distance() {
+        assert!((spent_after_m(30.0) - 60.0).abs() < 1e-9);
+        assert!((spent_after_m(1.0) - 20.0).abs() < 1e-9);
     }
 }

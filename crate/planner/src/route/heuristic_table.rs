@@ -95,13 +95,13 @@ mod tests {
     const HERE_M: DVec2 = DVec2::new(0.5, 0.5);
 
     #[test]
-    fn what_was_learned_holds_around_its_place_and_only_grows() {
+    fn a_correction_holds_around_its_place_and_only_grows() {
         let mut memory = HeuristicTable::new(STEP_M);
         let straight_m = (GOAL_M - HERE_M).length();
         memory.learn(HERE_M, GOAL_M, 40.0);
         assert!(memory.correction_m(HERE_M) < 1e-12, "less than the straight distance is no news");
-        for (told_m, known_m) in [(10.0, 10.0), (5.0, 10.0), (12.0, 12.0)] {
-            memory.learn(HERE_M, GOAL_M, straight_m + told_m);
+        for (learned_m, known_m) in [(10.0, 10.0), (5.0, 10.0), (12.0, 12.0)] {
+            memory.learn(HERE_M, GOAL_M, straight_m + learned_m);
             assert!((memory.correction_m(HERE_M) - known_m).abs() < 1e-12);
         }
         assert!((memory.correction_m(HERE_M + DVec2::splat(0.24)) - 12.0).abs() < 1e-12);
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_raised_grows_each_time_and_only_around() {
+    fn raised_corrections_add_up_and_only_nearby() {
         let mut memory = HeuristicTable::new(STEP_M);
         memory.learn(HERE_M, GOAL_M, (GOAL_M - HERE_M).length() + 3.0);
         for times in 1..=3 {

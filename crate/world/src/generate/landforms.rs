@@ -62,8 +62,8 @@ impl Site {
         let reach_m = 0.75 * self.side_m;
         let count = (2.0 * reach_m / draw.between([8.0, 14.0])).round();
         let at = |index: u32, draw: &mut Sequence| {
-            let way_m = reach_m * (2.0 * f64::from(index) / count - 1.0);
-            middle + along * way_m + aside * (offset_m + draw.between([-3.0, 3.0]))
+            let along_m = reach_m * (2.0 * f64::from(index) / count - 1.0);
+            middle + along * along_m + aside * (offset_m + draw.between([-3.0, 3.0]))
         };
         (0..=count as u32).map(|index| at(index, draw)).collect()
     }
@@ -124,8 +124,8 @@ fn terraces_with_ramps(site: &Site, draw: &mut Sequence, tables: &mut Writer) {
         let radius_m = draw.between([1.2, 2.5]) * site.side_m;
         let height_m = draw.between([0.5, 1.6]);
         let flank_m = STEP_SLOPE * height_m / site.slope(draw);
-        let way_m = site.side_m * ((f64::from(step) + draw.between([0.3, 0.7])) / f64::from(steps) - 0.5);
-        let centre = middle + uphill * (way_m + radius_m);
+        let along_m = site.side_m * ((f64::from(step) + draw.between([0.3, 0.7])) / f64::from(steps) - 0.5);
+        let centre = middle + uphill * (along_m + radius_m);
         tables.plateau(centre, height_m, radius_m, flank_m);
         for _ in 0..draw.whole([2, 4]) {
             let angle_rad = draw.between([-0.35, 0.35]) * site.side_m / radius_m;

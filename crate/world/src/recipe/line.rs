@@ -56,8 +56,8 @@ impl Line {
         let tangent = |i: usize| {
             let before = i.saturating_sub(1);
             let after = (i + 1).min(points.len() - 1);
-            let way: f64 = (before..after).map(|k| points[k].distance(points[k + 1])).sum();
-            (points[after] - points[before]) / way
+            let chord_m: f64 = (before..after).map(|k| points[k].distance(points[k + 1])).sum();
+            (points[after] - points[before]) / chord_m
         };
         let mut vertices = vec![points[0]];
         for (i, pair) in points.windows(2).enumerate() {
@@ -171,7 +171,8 @@ fn nearest(pieces: &[Piece], at: DVec2, reach_m: f64) -> Option<Nearest> {
 
 /// The interval of an ascending list that holds an arc length, and the share of it that lies before.
 fn locate(arc_lengths_m: &[f64], along_m: f64) -> (usize, f64) {
-    let index = arc_lengths_m.partition_point(|&way| way <= along_m).clamp(1, arc_lengths_m.len() - 1) - 1;
+    let index =
+        arc_lengths_m.partition_point(|&vertex_m| vertex_m <= along_m).clamp(1, arc_lengths_m.len() - 1) - 1;
     let length = (arc_lengths_m[index + 1] - arc_lengths_m[index]).max(f64::MIN_POSITIVE);
     (index, ((along_m - arc_lengths_m[index]) / length).clamp(0.0, 1.0))
 }

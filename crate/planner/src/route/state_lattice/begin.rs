@@ -18,7 +18,7 @@ impl StateLattice {
     /// Connects the robot's pose to the first known places in each direction that it may turn to.
     pub(super) fn begin(&mut self) {
         let count = FIRST_DIRECTIONS as i32;
-        let standing = Slopes::facing(self.attitude.gradient, self.first_direction(self.facing));
+        let here = Slopes::facing(self.attitude.gradient, self.first_direction(self.facing));
         let most_change_m = self.config.change_cost_m * f64::from(1 << self.changes);
         for (side, sign) in [1, -1].into_iter().enumerate() {
             self.turns[side] = count / 2;
@@ -27,8 +27,7 @@ impl StateLattice {
                 let allowed = self.traversability.most();
                 // If the attitude already exceeds the limits, a turn may not increase the pitch further.
                 let slopes = Slopes::facing(self.attitude.gradient, facing);
-                let steeper =
-                    slopes.across > allowed.across || slopes.along > allowed.along.max(standing.along);
+                let steeper = slopes.across > allowed.across || slopes.along > allowed.along.max(here.along);
                 if turn > 0 && steeper {
                     self.turns[side] = turn - 1;
                     break;

@@ -42,7 +42,7 @@ fn set_out(lattice: &mut StateLattice, goal_m: DVec2, path: &mut Vec<PathPoint>)
 }
 
 #[test]
-fn on_level_ground_the_way_is_straight() {
+fn on_level_ground_the_path_is_straight() {
     let mut lattice = lattice();
     lattice.search(&level, &pose(0.0, 0.0), STEP);
     let mut path = Vec::new();
@@ -57,7 +57,7 @@ fn on_level_ground_the_way_is_straight() {
 }
 
 #[test]
-fn a_way_leads_around_what_is_too_steep() {
+fn a_path_leads_around_a_bank_that_is_too_steep() {
     let mut lattice = lattice();
     lattice.search(&bank, &pose(0.0, 0.0), STEP);
     let beyond_m = DVec2::new(5.0, 0.0);
@@ -73,7 +73,7 @@ fn a_way_leads_around_what_is_too_steep() {
 }
 
 #[test]
-fn a_way_leads_around_a_knoll_that_it_could_cross() {
+fn a_path_leads_around_a_knoll_that_it_could_cross() {
     // 0.8 m high and two metres around its top; nowhere near the limits.
     let knoll = |place_m: DVec2| {
         let from_top_m = place_m - DVec2::new(3.0, 0.0);
@@ -139,7 +139,7 @@ fn ground_that_no_beam_reaches_is_bridged_unless_its_ends_say_it_is_steep() {
 }
 
 #[test]
-fn on_a_slope_too_steep_to_turn_on_the_way_back_is_in_reverse() {
+fn on_a_slope_too_steep_to_turn_the_path_back_is_in_reverse() {
     let steep = DVec2::new(libm::tan(0.6), 0.0);
     let mut lattice = lattice();
     lattice.search(&|place_m| plane(place_m, steep), &pose(0.0, 0.6), STEP);
@@ -170,7 +170,7 @@ fn a_turn_keeps_the_least_margin_in_roll_and_in_pitch() {
 }
 
 #[test]
-fn ground_with_the_least_margin_is_crossed_where_nothing_else_leads_on() {
+fn ground_with_the_least_margin_is_crossed_if_no_other_path_exists() {
     let config = PlannerConfig::default();
     let steep = libm::tan(config.robot.pitch_limit_rad - config.state_lattice.escape_margin_rad - 0.005);
     let slope = |place_m: DVec2, half_width_m: f64| {
@@ -189,7 +189,7 @@ fn ground_with_the_least_margin_is_crossed_where_nothing_else_leads_on() {
 }
 
 #[test]
-fn the_frontier_is_where_what_was_seen_ends_and_not_right_here() {
+fn the_frontier_borders_on_unseen_ground_away_from_the_robot() {
     let mut lattice = lattice();
     let edge = |place_m: DVec2| level(place_m).filter(|_| place_m.x < 3.1);
     let here_m = DVec3::new(2.0, 0.0, 0.0);
@@ -203,7 +203,7 @@ fn the_frontier_is_where_what_was_seen_ends_and_not_right_here() {
 }
 
 #[test]
-fn what_remains_leads_out_of_a_pocket_and_grows_towards_its_end() {
+fn the_cost_to_go_leads_out_of_a_pocket_and_grows_towards_its_end() {
     // Walls ahead and on both sides; the goal is behind the wall ahead.
     let pocket = |place_m: DVec2| {
         let wall = (2.4..3.6).contains(&place_m.x) && place_m.y.abs() < 4.1
@@ -220,14 +220,14 @@ fn what_remains_leads_out_of_a_pocket_and_grows_towards_its_end() {
     let out_m = (DVec2::new(-2.5, 3.5) - goal_m).length() + 2.5 + 3.5;
     assert!(left_m(DVec2::ZERO) > out_m && left_m(DVec2::ZERO) < out_m + 6.0, "{}", left_m(DVec2::ZERO));
     assert!(left_m(DVec2::new(2.0, 0.0)) > left_m(DVec2::ZERO) + 1.5);
-    for (end, told_m) in &ends {
+    for (end, given_m) in &ends {
         let place_m = lattice.frontier().find(|(other, _)| other == end).unwrap().1;
-        assert!(left_m(place_m) <= told_m + 2e-3);
+        assert!(left_m(place_m) <= given_m + 2e-3);
     }
 }
 
 #[test]
-fn what_turned_out_steeper_than_told_is_left_aside() {
+fn ground_steeper_than_predicted_is_avoided() {
     let mut lattice = lattice();
     let mut path = Vec::new();
     let goal_m = DVec2::new(4.0, 0.0);
@@ -247,7 +247,7 @@ fn what_turned_out_steeper_than_told_is_left_aside() {
 }
 
 #[test]
-fn ground_that_looks_alike_is_left_aside_near_a_surprise_and_for_a_while() {
+fn inflated_variance_makes_similar_ground_nearby_dearer_for_a_while() {
     // Ground that keeps its margin with one deviation, and not with two; a path on it costs more where the
     // variance is inflated.
     let rough = |_: DVec2| Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.25 });
@@ -256,17 +256,17 @@ fn ground_that_looks_alike_is_left_aside_near_a_surprise_and_for_a_while() {
         let reached = lattice.to(DVec2::new(4.0, y_m))?;
         Some(lattice.follow(reached, &mut Vec::new()).mean_risk)
     };
-    let doubted = |lattice: &mut StateLattice, y_m: f64| risk(lattice, y_m).is_none_or(|risk| risk > 0.1);
+    let is_dearer = |lattice: &mut StateLattice, y_m: f64| risk(lattice, y_m).is_none_or(|risk| risk > 0.1);
     let mut lattice = lattice();
-    assert!(!doubted(&mut lattice, 0.0));
+    assert!(!is_dearer(&mut lattice, 0.0));
     for _ in 0..2 {
         lattice.inflate_variance_ahead(DVec2::X);
     }
-    assert!(doubted(&mut lattice, 0.0));
-    assert!(!doubted(&mut lattice, 8.0), "far from there nothing is doubted");
+    assert!(is_dearer(&mut lattice, 0.0));
+    assert!(!is_dearer(&mut lattice, 8.0), "far from there no variance is inflated");
     let after_m = (1..).map(|k| 16.0 * f64::from(k)).find(|_| {
-        let near = doubted(&mut lattice, 0.0);
-        doubted(&mut lattice, 8.0);
+        let near = is_dearer(&mut lattice, 0.0);
+        is_dearer(&mut lattice, 8.0);
         !near
     });
     assert!((15.0..100.0).contains(&after_m.unwrap()), "{after_m:?} m");
@@ -289,7 +289,7 @@ fn ground_that_gets_steeper_fast_slows_the_robot_before_it_is_steep() {
 }
 
 #[test]
-fn a_robot_that_finishes_its_metre_minds_the_ground_there_and_not_only_that_on_its_way() {
+fn tilt_utilisation_covers_the_current_leg_and_the_new_path() {
     let mut lattice = lattice();
     let mut path = Vec::new();
     lattice.search(&bank, &Pose { position_m: DVec3::new(1.2, 0.0, 0.0), ..pose(0.0, 0.0) }, STEP);
@@ -301,7 +301,7 @@ fn a_robot_that_finishes_its_metre_minds_the_ground_there_and_not_only_that_on_i
 }
 
 #[test]
-fn what_was_steeper_than_told_is_tried_again_where_nothing_else_leads_on() {
+fn ground_steeper_than_predicted_is_tried_again_if_no_other_path_exists() {
     let corridor =
         |place_m: DVec2| plane(place_m, DVec2::new(0.0, if place_m.y.abs() < 0.6 { 0.0 } else { 1.5 }));
     let mut lattice = lattice();
@@ -321,7 +321,7 @@ fn what_was_steeper_than_told_is_tried_again_where_nothing_else_leads_on() {
 }
 
 #[test]
-fn what_costs_a_change_is_not_done_for_less() {
+fn the_cost_of_a_change_keeps_the_side_of_an_obstacle() {
     // Either side of a narrow obstacle costs the same; the second search keeps to the side of the first.
     let post = |place_m: DVec2| {
         plane(
@@ -341,7 +341,7 @@ fn what_costs_a_change_is_not_done_for_less() {
 }
 
 #[test]
-fn each_change_of_mind_nearby_makes_the_next_one_dearer() {
+fn each_change_of_direction_nearby_doubles_the_cost_of_the_next() {
     let mut lattice = lattice();
     let mut path = Vec::new();
     let (ahead_m, behind_m) = (DVec2::X, -DVec2::X);
@@ -370,34 +370,34 @@ fn each_change_of_mind_nearby_makes_the_next_one_dearer() {
 }
 
 #[test]
-fn it_finishes_the_metre_it_set_out_on_unless_that_is_not_safe_any_more() {
+fn it_finishes_its_leg_unless_that_is_no_longer_safe() {
     let mut lattice = lattice();
     let mut path = Vec::new();
     let at = |x_m: f64| Pose { position_m: DVec3::new(x_m, 0.0, 0.0), ..pose(0.0, 0.0) };
-    let mut heads_for = |ground: &dyn TerrainQuery, here_x_m: f64, goal_x_m: f64| {
+    let mut target_x = |ground: &dyn TerrainQuery, here_x_m: f64, goal_x_m: f64| {
         lattice.search(ground, &at(here_x_m), STEP);
         set_out(&mut lattice, DVec2::new(goal_x_m, 0.0), &mut path).position_m.x
     };
     let ahead = |x_m: f64| (x_m - 1.0).abs() < 1e-9;
-    assert!((heads_for(&level, 0.0, 4.0) - 4.0).abs() < 1e-9);
+    assert!((target_x(&level, 0.0, 4.0) - 4.0).abs() < 1e-9);
     for here_x_m in [0.1, 0.5, 0.8] {
-        assert!(ahead(heads_for(&level, here_x_m, -4.0)), "from {here_x_m} m");
+        assert!(ahead(target_x(&level, here_x_m, -4.0)), "from {here_x_m} m");
     }
-    assert!(heads_for(&level, 0.9, -4.0) < 0.0, "it has driven the metre");
-    assert!(heads_for(&level, -0.2, 4.0) > 0.0);
-    assert!(heads_for(&level, 0.1, -4.0) > 0.0);
+    assert!(target_x(&level, 0.9, -4.0) < 0.0, "it has driven the metre");
+    assert!(target_x(&level, -0.2, 4.0) > 0.0);
+    assert!(target_x(&level, 0.1, -4.0) > 0.0);
     // Steep from 0.7 m on: seen after the leg was begun.
-    let brink = |place_m: DVec2| plane(place_m, DVec2::X * if place_m.x > 0.7 { 2.0 } else { 0.0 });
+    let drop = |place_m: DVec2| plane(place_m, DVec2::X * if place_m.x > 0.7 { 2.0 } else { 0.0 });
     let mut lattice = super::tests::lattice();
     lattice.search(&level, &at(0.0), STEP);
     set_out(&mut lattice, DVec2::new(4.0, 0.0), &mut path);
     lattice.clear();
-    lattice.search(&brink, &at(0.0), STEP);
+    lattice.search(&drop, &at(0.0), STEP);
     assert!(set_out(&mut lattice, DVec2::new(-4.0, 0.0), &mut path).position_m.x < 0.0);
 }
 
 #[test]
-fn a_place_too_near_to_drive_to_is_where_it_stands() {
+fn a_place_too_near_to_drive_to_counts_as_its_own() {
     let mut lattice = lattice();
     let here_m = DVec2::new(0.1, -0.2);
     lattice.search(&level, &Pose { position_m: here_m.extend(0.0), ..pose(0.0, 0.0) }, STEP);
@@ -410,7 +410,7 @@ fn a_place_too_near_to_drive_to_is_where_it_stands() {
 }
 
 #[test]
-fn what_is_guessed_to_be_steep_is_bridged_as_what_is_not_seen() {
+fn uncertain_steep_ground_is_bridged_like_unseen_ground() {
     // From a knoll: ground seen from four metres on, and extrapolated up to there.
     let flank = |deviation: f64| {
         move |place_m: DVec2| {
@@ -428,7 +428,7 @@ fn what_is_guessed_to_be_steep_is_bridged_as_what_is_not_seen() {
 }
 
 #[test]
-fn a_smaller_margin_opens_what_is_a_little_steeper() {
+fn a_smaller_margin_admits_slightly_steeper_ground() {
     let mut lattice = lattice();
     // Obliquely, at 26.6 degrees, the robot climbs 42.7 degrees and rolls 24.7.
     let bank =
@@ -446,7 +446,7 @@ proptest! {
 
     /// On any ground, no path leads over an unsafe place or along an unsafe heading.
     #[test]
-    fn every_way_keeps_its_margin(
+    fn every_path_keeps_its_margin(
         waves in prop::collection::vec((-0.9..0.9_f64, -0.9..0.9_f64, 0.0..6.3_f64), 3),
         bearing in 0.0..6.3_f64,
     ) {

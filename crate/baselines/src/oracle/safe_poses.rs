@@ -11,7 +11,7 @@ const HEADINGS: u32 = 16;
 const STRAIGHT_STEP_M: f64 = 0.125;
 
 /// The ground, and the tilt allowed on it.
-pub(crate) struct Standing<'a> {
+pub(crate) struct SafePoses<'a> {
     field: &'a HeightField,
     robot: &'a HuskyConfig,
     max_roll_rad: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Standing<'a> {
     gentle: Vec<bool>,
 }
 
-impl<'a> Standing<'a> {
+impl<'a> SafePoses<'a> {
     pub(crate) fn new(
         field: &'a HeightField,
         robot: &'a HuskyConfig,
