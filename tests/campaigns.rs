@@ -1,4 +1,5 @@
-//! `mapless trials` through the real binary: resumed after kills, in shards and with several jobs, always the same bytes.
+//! `mapless trials` through the real binary: resumed after kills, in shards and with several jobs, always the
+//! same bytes.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -143,8 +144,9 @@ fn jobs_shards_and_kills_change_no_byte() {
     assert_eq!(timing.lines().count(), TRIALS + 1);
 }
 
-/// Starts the campaign ten times and kills it each time before its end: in turn at any moment of its first 100 ms and soon after the next trial
-/// was written, the last times with pieces of a line behind it as a power failure may leave them.
+/// Starts the campaign ten times and kills it each time before its end: in turn at any moment of its first
+/// 100 ms and soon after the next trial was written, the last times with pieces of a line behind it as a
+/// power failure may leave them.
 fn kill_ten_times(folder: &Folder) {
     // A small generator of its own, so that a failure can be repeated.
     let mut state = 0x2545_f491_4f6c_dd1d_u64;

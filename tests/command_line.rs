@@ -47,7 +47,8 @@ impl Folder {
         serde_json::from_slice(&output.stdout).unwrap()
     }
 
-    /// Runs a scenario that cannot run: code 1, nothing on stdout, a message that begins as given and says more.
+    /// Runs a scenario that cannot run: code 1, nothing on stdout, a message that begins as given and says
+    /// more.
     fn refuses(&self, text: &str, begin: &str, needles: &[&str]) {
         self.write("bad.toml", text);
         refused(&self.run("bad.toml", &["--json"]), begin, needles);

@@ -65,7 +65,8 @@ fn beams() -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// Level ground 0.8 m below the sensor, hidden or cut off where `range_m` of azimuth and elevation says otherwise.
+/// Level ground 0.8 m below the sensor, hidden or cut off where `range_m` of azimuth and elevation says
+/// otherwise.
 fn scan(range_m: impl Fn(f64, f64) -> Option<f64>) -> String {
     let mut text = String::from("x,y,z\n");
     for (azimuth, elevation) in beams() {

@@ -1,8 +1,8 @@
-//! Every scenario gives the recorded trajectory, to the bit. The browser tests of `mapless-wasm` compare with the same
-//! file, so a pass of both shows that native and wasm agree.
+//! Every scenario gives the recorded trajectory, to the bit. The browser tests of `mapless-wasm` compare with
+//! the same file, so a pass of both shows that native and wasm agree.
 //!
-//! After a change that is meant to change trajectories, `MAPLESS_RECORD_DIGESTS=1 cargo test -p mapless-tests --test
-//! digests` records them anew.
+//! After a change that is meant to change trajectories, `MAPLESS_RECORD_DIGESTS=1 cargo test -p mapless-tests
+//! --test digests` records them anew.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 

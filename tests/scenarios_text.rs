@@ -1,4 +1,5 @@
-//! The scenarios of the repository as text, so that they run where there are no files, and their trajectory digests.
+//! The scenarios of the repository as text, so that they run where there are no files, and their trajectory
+//! digests.
 
 use std::collections::BTreeMap;
 
@@ -59,8 +60,8 @@ impl Bundled {
         Ok(trial)
     }
 
-    /// Drives the trial and compares how it went: the goal reached within the limits of tilt, over a path of a possible
-    /// length, with the recorded digest.
+    /// Drives the trial and compares how it went: the goal reached within the limits of tilt, over a path of
+    /// a possible length, with the recorded digest.
     ///
     /// # Errors
     /// What is another.

@@ -7,7 +7,8 @@ use crate::terrain::{Terrain, TerrainError, TerrainFault};
 /// Loads a terrain from the bytes of a file. The extension of `file` decides the format:
 ///
 /// - `.toml`: a recipe; see [`crate::recipe`] for its tables.
-/// - `.png`: 16-bit greyscale, first row north, one grey level = 1 mm; spacing from pHYs in metres, otherwise 0.25 m.
+/// - `.png`: 16-bit greyscale, first row north, one grey level = 1 mm; spacing from pHYs in metres, otherwise
+///   0.25 m.
 /// - `.asc`: ESRI ASCII grid.
 /// - `.tif`, `.tiff`: GeoTIFF with one band of heights in metres.
 ///
