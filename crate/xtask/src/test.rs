@@ -59,6 +59,7 @@ const STAGES: &[Stage] = &[
     Stage { title: "clippy", parts: &[Part::Lint], run: clippy },
     Stage { title: "clippy for wasm", parts: &[Part::Lint], run: clippy_wasm },
     Stage { title: "documentation", parts: &[Part::Lint], run: documentation },
+    Stage { title: "package", parts: &[Part::Lint], run: package },
     // The page's types include those of the wasm bindings, which the build makes.
     Stage { title: "build of the page", parts: &[Part::Lint, Part::Page], run: build_page },
     Stage { title: "lint and types of the page", parts: &[Part::Lint], run: check_page },
@@ -159,6 +160,12 @@ fn clippy_wasm(sh: &Shell) -> anyhow::Result<Count> {
 
 fn documentation(sh: &Shell) -> anyhow::Result<Count> {
     check(cmd!(sh, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "--deny warnings"))
+}
+
+/// Packs the crate that is published, and builds what is packed as somebody else's machine would.
+fn package(sh: &Shell) -> anyhow::Result<Count> {
+    // What is not committed is packed, too, and all that it needs is there: the stages before have built it.
+    check(cmd!(sh, "cargo package --package mapless --allow-dirty --offline"))
 }
 
 fn build_page(sh: &Shell) -> anyhow::Result<Count> {
