@@ -1,8 +1,8 @@
 //! Reads TOML into structs.
 //!
-//! The `toml` crate parses the text. Its own way from there into structs lets every struct be written as a list, a string
-//! or a date too, and compiles all of that once for each struct: a third of the page's wasm. Here a struct is a table.
-//! Messages are those of the `toml` crate, with line, column and the line itself.
+//! The `toml` crate parses the text. Its own way from there into structs lets every struct be written as a
+//! list, a string or a date too, and compiles all of that once for each struct: a third of the page's wasm.
+//! Here a struct is a table. Messages are those of the `toml` crate, with line, column and the line itself.
 //!
 //! ```
 //! #[derive(serde::Deserialize)]

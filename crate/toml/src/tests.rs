@@ -135,7 +135,8 @@ fn without_carets(message: String) -> String {
 }
 
 proptest! {
-    /// A byte of a good document changed, left out or doubled: the same value or the same fault as with the toml crate.
+    /// A byte of a good document changed, left out or doubled: the same value or the same fault as with the
+    /// toml crate.
     #[test]
     fn damaged_documents_are_judged_alike(at in 0..GOOD.len(), byte in 0x09..0x7f_u8, how in 0..3) {
         let mut bytes = GOOD.as_bytes().to_vec();
