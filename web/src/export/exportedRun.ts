@@ -1,7 +1,7 @@
 /** A run as its files describe it. */
 
 import { MOTION, POSE } from '../bindings/columns.ts';
-import type { Activity, Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { RunRecord } from '../run/record.ts';
 
 /** A run as it was at one moment: its files take a while to write, and meanwhile it goes on. */
@@ -33,7 +33,7 @@ export function trajectoryCsv({ frame, record }: Run): string {
 }
 
 /** In the order of the record's codes. */
-const ACTIVITIES: readonly Activity[] = ['driving', 'arrived', 'looking', 'stopped', 'retreating'];
+const ACTIVITIES = ['driving', 'arrived', 'looking', 'stopped', 'retreating'];
 
 /** Six decimals, with the sign of a negative zero, as the command line writes them. */
 function decimals(value: number): string {
