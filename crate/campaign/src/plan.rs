@@ -162,8 +162,9 @@ fn expand(campaign: &Campaign, routes: &[Route]) -> Vec<TrialSpec> {
                     {
                         continue;
                     }
-                    let config = config
-                        .and_then(|config| config.validate().map(|()| config).map_err(|e| e.to_string()));
+                    let config = config.and_then(|config| {
+                        config.validate("planner").map(|()| config).map_err(|e| e.to_string())
+                    });
                     let config = Arc::new(config);
                     let parameters = parameters::name(variation);
                     trials.extend(seeds.iter().map(|&seed| TrialSpec {

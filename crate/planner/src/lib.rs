@@ -39,7 +39,6 @@
 pub mod config;
 pub mod control;
 pub mod decision;
-mod error;
 pub mod gp;
 pub mod math;
 mod navigator;
@@ -56,7 +55,7 @@ mod testing;
 pub use config::PlannerConfig;
 pub use control::controller::Command;
 pub use decision::step::{PerceptionOverride, Status, Step, StopReason};
-pub use error::ConfigError;
+pub use mapless_parameters::ConfigError;
 pub use navigator::{Decision, Navigator};
 pub use planner::Planner;
 pub use robot_model::RobotModel;

@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use glam::{DVec2, DVec3, Vec3};
+use mapless_parameters::ConfigError;
 
 use crate::config::{CostModel, DecisionConfig, PlannerConfig, StateLatticeConfig};
 use crate::control::backtrack::{Backtrack, BacktrackCommand};
@@ -13,7 +14,6 @@ use crate::decision::cost::{self, Situation};
 use crate::decision::detour_budget::DetourBudget;
 use crate::decision::step::{PerceptionOverride, Status, Step, StopReason};
 use crate::decision::subgoals::{Subgoal, bearing_rad};
-use crate::error::ConfigError;
 use crate::gp::jitter::GpError;
 use crate::math::angle::wrap_rad;
 use crate::pose::Pose;
@@ -76,7 +76,7 @@ impl Planner {
     /// # Errors
     /// [`ConfigError`] for a value that makes no sense.
     pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
-        config.validate()?;
+        config.validate("planner")?;
         let lattice =
             StateLattice::new(config.state_lattice, &config.robot, config.perception.surface_radius_m);
         Ok(Self {
@@ -266,9 +266,10 @@ impl Planner {
 
     /// Minds steep ground as configured or, without patience, less: on ways and in the choice.
     fn scale_slope_cost(&mut self, patient: bool) {
-        let StateLatticeConfig { escape_margin_rad, impatient_margin_rad, .. } = self.config.state_lattice;
+        let StateLatticeConfig { recovery_margin_rad, over_budget_margin_rad, .. } =
+            self.config.state_lattice;
         let (share, least_margin_rad) =
-            if patient { (1.0, escape_margin_rad) } else { (IMPATIENT_SHARE, impatient_margin_rad) };
+            if patient { (1.0, recovery_margin_rad) } else { (IMPATIENT_SHARE, over_budget_margin_rad) };
         self.lattice.scale_slope_cost(share);
         self.lattice.keep_margin(least_margin_rad);
         let DecisionConfig { steepness_weight, climb_weight, .. } = self.config.decision;

@@ -23,5 +23,6 @@ pub use places::StartPose;
 pub use profile_accuracy::{ColumnKind, ProfileAccuracy, profile_accuracy};
 #[cfg(not(target_arch = "wasm32"))]
 pub use scenario::LoadedScenario;
+pub use scenario::renamed_keys::{current_path, current_value};
 pub use scenario::{Preset, Scenario, ScenarioError, ScenarioFault};
 pub use trial::{Trial, TrialError};

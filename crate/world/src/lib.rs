@@ -12,7 +12,6 @@
 
 mod attitude;
 mod caster;
-mod config;
 pub mod generate;
 mod height_field;
 mod husky;
@@ -28,9 +27,9 @@ mod vlp16;
 
 pub use attitude::{Attitude, attitude_on, world_from_body};
 pub use caster::Caster;
-pub use config::ConfigError;
 pub use height_field::{FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M};
 pub use husky::{DriveCommand, DriveError, Husky, HuskyConfig, HuskyState};
+pub use mapless_parameters::ConfigError;
 pub use sculpt::{Brush, BrushKind, SampleRect, Stroke, StrokeError};
 pub use skyline::{Skyline, true_skyline};
 pub use slopes::SlopeDistribution;

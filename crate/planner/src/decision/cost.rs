@@ -71,7 +71,7 @@ pub(crate) fn choose(
         cost.distance *= config.distance_weight;
         cost.steepness *= config.steepness_weight;
         cost.commitment *= config.commitment_weight;
-        cost.dead_end *= config.dead_end_weight;
+        cost.dead_end *= config.correction_weight;
         let total = cost.total();
         if best.is_none_or(|(_, least)| total < least) {
             best = Some((index, total));

@@ -113,7 +113,7 @@ impl TraversabilityMap {
             tilt_limits: *limits,
             limits: Slopes::of_limits(limits, 0.0),
             allowed: Slopes::of_limits(limits, config.tilt_margin_rad),
-            most: Slopes::of_limits(limits, config.escape_margin_rad),
+            most: Slopes::of_limits(limits, config.recovery_margin_rad),
             half,
             centre: IVec2::ZERO,
             places: vec![UNKNOWN; side * side],
@@ -200,7 +200,7 @@ impl TraversabilityMap {
                     });
                     let was_negative_obstacle =
                         self.planes[slot].index == world && self.planes[slot].is_negative_obstacle;
-                    let is_negative_obstacle = self.config.avoids_edges
+                    let is_negative_obstacle = self.config.avoids_negative_obstacles
                         && footprint_slopes.iter().any(Option::is_none)
                         && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
                     self.planes[slot] = Known { index: world, plane, footprint_slopes, is_negative_obstacle };
@@ -214,7 +214,7 @@ impl TraversabilityMap {
         for index in 0..self.places.len() {
             let offset = self.offset(index);
             let known = self.planes[self.slot(self.centre + offset)];
-            let is_at_cliff = self.config.avoids_edges && self.is_beside_missing(offset);
+            let is_at_cliff = self.config.avoids_negative_obstacles && self.is_beside_missing(offset);
             self.places[index] = match known.plane {
                 Some(plane) if known.index == self.centre + offset => {
                     let place_m = self.position_m(offset);
@@ -262,13 +262,13 @@ impl TraversabilityMap {
 
     /// How many standard deviations of slopes are allowed for at a place.
     pub(crate) fn deviations_at(&self, place_m: DVec2) -> f64 {
-        (1.0 + self.doubt_at(place_m)) * self.config.deviations
+        (1.0 + self.doubt_at(place_m)) * self.config.slope_deviations
     }
 
     /// The risk of standing on slopes, with what is allowed for what is uncertain of them, at a distance from the robot; infinite where
     /// that is not safe.
     pub(crate) fn risk_on(&self, slopes: &Slopes, uncertain: f64, caution: Caution, away_m: f64) -> f64 {
-        let escapes = caution == Caution::Escape && away_m < self.config.escape_m;
+        let escapes = caution == Caution::Escape && away_m < self.config.recovery_radius_m;
         let (allowed, uncertain) = if escapes { (&self.most, 0.0) } else { (&self.allowed, uncertain) };
         let share = slopes.share_of(&self.limits);
         if slopes.within(allowed, uncertain) {
