@@ -12,7 +12,6 @@
 
 mod attitude;
 mod caster;
-mod config;
 pub mod generate;
 mod height_field;
 mod husky;
@@ -32,13 +31,13 @@ mod vlp16;
 
 pub use attitude::{Attitude, attitude_on, world_from_body};
 pub use caster::Caster;
-pub use config::ConfigError;
 pub use height_field::{FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M};
 pub use husky::{DriveCommand, DriveError, Husky, HuskyState};
 pub use husky_config::HuskyConfig;
 #[cfg(not(target_arch = "wasm32"))]
 pub use load::load_terrain;
 pub use load::load_terrain_bytes;
+pub use mapless_parameters::ConfigError;
 pub use sculpt::{Brush, BrushKind, SampleRect, Stroke, StrokeError, StrokeKind, StrokeTable};
 pub use sensor_pose::SensorPose;
 pub use skyline::{Skyline, true_skyline};
