@@ -19,6 +19,7 @@ use crate::math::angle::wrap_rad;
 use crate::pose::Pose;
 use crate::route::heuristic_table::HeuristicTable;
 use crate::route::state_lattice::{PathPoint, ReachedState, StateLattice, length_m};
+use crate::skyline::beam_grid::BeamGrid;
 use crate::skyline::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad};
 use crate::skyline::perception::Perception;
 use crate::skyline::profile::ElevationProfile;
@@ -36,6 +37,8 @@ const LEARN_SPACING_M: f64 = 0.5;
 const LEAST_BACK_M: f64 = 0.3;
 /// A robot that has lost its patience minds steep ground by this share.
 const IMPATIENT_SHARE: f64 = 0.25;
+/// Under the robot the ground is taken for known at places no farther apart than this.
+const WHEEL_GROUND_M: f64 = 0.35;
 /// What the robot cannot get to lies this much farther from the goal than it seemed, with the places around it.
 const IN_VAIN_M: f64 = 7.0;
 const IN_VAIN_HALF_SIDE_M: f64 = 1.0;
@@ -77,11 +80,12 @@ impl Planner {
     /// [`ConfigError`] for a value that makes no sense.
     pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
         config.validate()?;
+        let grid = BeamGrid::new(&config.sensor);
         let lattice =
             StateLattice::new(config.state_lattice, &config.robot, config.perception.surface_radius_m);
         Ok(Self {
-            observed: OccupancySurface::new(config.perception.surface_radius_m),
-            perception: Perception::new(config.perception),
+            perception: Perception::new(config.perception, &grid),
+            observed: OccupancySurface::new(config.perception.surface_radius_m, grid),
             profile: Vec::new(),
             segments: Vec::new(),
             subgoals: Vec::new(),
@@ -113,7 +117,7 @@ impl Planner {
 
     /// Forgets everything seen, learned and driven, as after a change of the world.
     pub fn reset(&mut self) {
-        self.perception.reset(self.config.perception);
+        self.perception.reset(self.config.perception, self.observed.grid());
         self.ground.clear();
         self.lattice.clear();
         self.backtrack.clear();
@@ -437,19 +441,23 @@ impl Planner {
         self.ground.advance();
         let world_from_robot = pose.world_from_robot();
         let sensor = pose.position_m + world_from_robot * self.config.sensor.offset_m();
-        self.ground.looked_from(sensor, world_from_robot.z_axis);
+        let mount = self.config.sensor.robot_from_sensor();
+        let world_from_sensor = mount.map_or(world_from_robot, |mount| world_from_robot * mount);
+        self.ground.looked_from(sensor, world_from_sensor);
         let radius_squared = self.config.elevation_window.radius_m * self.config.elevation_window.radius_m;
         for point in points_m {
             let point = point.as_dvec3();
             // Also passes over NaN.
             if point.length_squared() <= radius_squared {
-                self.ground.add(sensor + world_from_robot * point);
+                self.ground.add(sensor + world_from_sensor * point);
             }
         }
         let half_width = 0.5 * self.config.robot.width_m;
-        for x in [-half_width, 0.0, half_width] {
-            for y in [-half_width, 0.0, half_width] {
-                self.ground.add(pose.position_m + world_from_robot * DVec3::new(x, y, 0.0));
+        let parts = (half_width / WHEEL_GROUND_M).ceil() as i32;
+        let place = |part: i32| half_width * (f64::from(part) / f64::from(parts));
+        for x in -parts..=parts {
+            for y in -parts..=parts {
+                self.ground.add(pose.position_m + world_from_robot * DVec3::new(place(x), place(y), 0.0));
             }
         }
     }

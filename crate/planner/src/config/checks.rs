@@ -1,5 +1,7 @@
 //! Checks every value, with its place and what was expected.
 
+use core::f64::consts::{FRAC_PI_2, TAU};
+
 use super::{
     ControllerConfig, DecisionConfig, ElevationWindowConfig, InducingInputs, PerceptionConfig, PlannerConfig,
     SegmentConfig, StateLatticeConfig,
@@ -9,6 +11,7 @@ use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::learning::LearningMode;
 use crate::robot_model::RobotModel;
 use crate::sensor_model::SensorModel;
+use crate::terrain::elevation_window::{MOST_SIDE, side_of};
 
 impl PlannerConfig {
     /// Checks every value.
@@ -70,8 +73,35 @@ impl RobotModel {
 impl SensorModel {
     fn validate(&self) -> Result<(), ConfigError> {
         let place = "planner.sensor";
+        let Self { rings, lowest_elevation_rad: lowest, highest_elevation_rad: highest, .. } = *self;
+        require((2..=1024).contains(&rings), place, "rings", rings, "2 to 1024")?;
+        require((1..=36_000).contains(&self.columns), place, "columns", self.columns, "1 to 36000")?;
+        let in_sight = |elevation: f64| (-FRAC_PI_2..=FRAC_PI_2).contains(&elevation);
+        require(in_sight(lowest), place, "lowest_elevation_rad", lowest, "an angle from -π/2 to π/2 rad")?;
+        let above = in_sight(highest) && highest > lowest;
+        let expected = "an angle above lowest_elevation_rad, at most π/2 rad";
+        require(above, place, "highest_elevation_rad", highest, expected)?;
+        let fov = self.horizontal_fov_rad;
+        require(
+            fov > 0.0 && fov <= TAU,
+            place,
+            "horizontal_fov_rad",
+            fov,
+            "an angle above 0, at most 2π rad",
+        )?;
+        not_negative(self.min_range_m, place, "min_range_m")?;
+        let farther = self.max_range_m > self.min_range_m;
+        require(farther, place, "max_range_m", self.max_range_m, "more than min_range_m")?;
         positive(self.height_m, place, "height_m")?;
-        require(self.forward_m.is_finite(), place, "forward_m", self.forward_m, "a number")
+        for (name, value) in [("forward_m", self.forward_m), ("left_m", self.left_m)] {
+            require(value.is_finite(), place, name, value, "a number")?;
+        }
+        for (name, value) in
+            [("roll_rad", self.roll_rad), ("pitch_rad", self.pitch_rad), ("yaw_rad", self.yaw_rad)]
+        {
+            require(value.abs() <= TAU, place, name, value, "an angle from -2π to 2π rad")?;
+        }
+        Ok(())
     }
 }
 
@@ -126,13 +156,12 @@ impl ElevationWindowConfig {
         let place = "planner.elevation_window";
         positive(self.radius_m, place, "radius_m")?;
         positive(self.cell_m, place, "cell_m")?;
-        // Two different places inside the window must not share a slot.
         require(
-            self.cell_m * crate::terrain::elevation_window::SIDE as f64 > 2.0 * self.radius_m,
+            side_of(self) <= MOST_SIDE,
             place,
             "cell_m",
             self.cell_m,
-            "cells large enough that 96 of them span twice radius_m",
+            "cells so large that a thousand of them span twice radius_m",
         )?;
         not_negative(self.curvature_per_m, place, "curvature_per_m")?;
         require(self.memory_ticks > 0, place, "memory_ticks", self.memory_ticks, "at least 1")

@@ -9,7 +9,7 @@ use crate::decision::subgoals::{
 use crate::pose::Pose;
 use crate::route::forecast::{Forecast, ReachEnd};
 use crate::route::state_lattice::{PathPoint, ReachedState, StateLattice};
-use crate::skyline::occupancy::{LOWEST_ELEVATION_RAD, column_of};
+use crate::skyline::occupancy::column_of;
 use crate::skyline::profile::Column;
 use crate::skyline::segments::Segment;
 
@@ -31,7 +31,7 @@ impl Candidates<'_> {
             if !carries_subgoals(segment, config.robot.width_m, &config.segments) {
                 continue;
             }
-            let elevation_rad = segment.elevation_rad.unwrap_or(LOWEST_ELEVATION_RAD);
+            let elevation_rad = segment.elevation_rad.unwrap_or(config.sensor.lowest_elevation_rad);
             for azimuth_rad in spread_azimuths(segment, config.robot.width_m, &config.segments) {
                 let skyline_m = world_position_m(pose, &config.sensor, azimuth_rad, elevation_rad, radius_m);
                 let mut subgoal = Subgoal {

@@ -13,17 +13,20 @@ use glam::{DVec2, DVec3, IVec2};
 
 use crate::config::{ElevationWindowConfig, PlannerConfig};
 use crate::math::elementary::floor;
+use crate::sensor_model::SensorModel;
 use crate::terrain::plane::{Moments, Plane};
 use crate::terrain::slopes::Slopes;
 use cliffs::{MOST_VIEWS, View};
 
-/// Cells per side of the window.
-pub(crate) const SIDE: usize = 96;
+/// Cells per side of the window, at least and at most, and how many more than its radius needs.
+const LEAST_SIDE: usize = 96;
+pub(crate) const MOST_SIDE: usize = 1024;
+const SPARE_CELLS: usize = 6;
 /// Returns that a cell averages before new ones begin to outweigh old ones.
 const MOST_RETURNS: f64 = 30.0;
-/// ElevationWindow around a place that carries the robot: its four wheels are within the first distance. Where the rings of a
-/// scan lie further apart than that, a wider plane stands in.
-const FOOTPRINT_RADII_M: [f64; 3] = [0.5, 0.8, 1.2];
+/// Ground around a place that carries the robot: its four wheels are within the footprint's radius. Where the rings of a scan lie
+/// further apart than that, a wider plane stands in.
+const FOOTPRINT_RADII: [f64; 3] = [1.0, 1.6, 2.4];
 
 /// What a search asks of the ground.
 pub(crate) trait TerrainQuery {
@@ -68,6 +71,11 @@ pub(crate) struct ElevationWindow {
     config: ElevationWindowConfig,
     wheelbase_m: f64,
     track_m: f64,
+    footprint_m: f64,
+    /// Spacing of the places that are asked for.
+    step_m: f64,
+    sensor: SensorModel,
+    side: usize,
     tick: u64,
     cells: Vec<Option<ElevationCell>>,
     /// From where the last scans were taken, the newest last.
@@ -76,14 +84,19 @@ pub(crate) struct ElevationWindow {
 
 impl ElevationWindow {
     pub(crate) fn new(config: &PlannerConfig) -> Self {
-        let PlannerConfig { elevation_window, robot, .. } = *config;
+        let PlannerConfig { elevation_window, robot, sensor, .. } = *config;
         let views = VecDeque::with_capacity(MOST_VIEWS);
+        let side = side_of(&elevation_window);
         Self {
             config: elevation_window,
             wheelbase_m: robot.wheelbase_m,
             track_m: robot.track_m,
+            footprint_m: robot.footprint_radius_m(),
+            step_m: config.state_lattice.step_m,
+            sensor,
+            side,
             tick: 0,
-            cells: vec![None; SIDE * SIDE],
+            cells: vec![None; side * side],
             views,
         }
     }
@@ -102,7 +115,8 @@ impl ElevationWindow {
     pub(crate) fn add(&mut self, point_m: DVec3) {
         let index = self.index_of(point_m.truncate());
         let tick = self.tick;
-        let slot = &mut self.cells[slot_of(index)];
+        let slot = self.slot_of(index);
+        let slot = &mut self.cells[slot];
         match slot {
             Some(cell) if cell.index == index && tick - cell.seen_tick <= self.config.memory_ticks => {
                 cell.returns = (cell.returns + 1.0).min(MOST_RETURNS);
@@ -115,7 +129,7 @@ impl ElevationWindow {
 
     fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
         let moments = self.moments_near(place_m, radius_m, |_| true);
-        let plane = moments.plane()?;
+        let plane = moments.plane(self.footprint_m)?;
         let unseen = self.config.curvature_per_m * moments.distance_m();
         Some(Plane { gradient_deviation: libm::hypot(plane.gradient_deviation, unseen), ..plane })
     }
@@ -136,10 +150,10 @@ impl ElevationWindow {
     fn cells_near(&self, place_m: DVec2, radius_m: f64) -> impl Iterator<Item = &ElevationCell> {
         let reach = DVec2::splat(radius_m);
         let (low, high) = (self.index_of(place_m - reach), self.index_of(place_m + reach));
-        let rows = (low.y..=high.y).map(|y| (y, &self.cells[slot_of(IVec2::new(0, y))..][..SIDE]));
+        let rows = (low.y..=high.y).map(|y| (y, &self.cells[self.slot_of(IVec2::new(0, y))..][..self.side]));
         rows.flat_map(move |(y, row)| {
             (low.x..=high.x).filter_map(move |x| {
-                let cell = row[slot_of(IVec2::new(x, 0))].as_ref()?;
+                let cell = row[self.slot_of(IVec2::new(x, 0))].as_ref()?;
                 let near = (cell.mean_m.truncate() - place_m).length_squared() <= radius_m * radius_m;
                 (near && cell.index == IVec2::new(x, y) && self.is_fresh(cell)).then_some(cell)
             })
@@ -154,11 +168,21 @@ impl ElevationWindow {
         let cells = place_m / self.config.cell_m;
         IVec2::new(floor(cells.x), floor(cells.y))
     }
+
+    fn slot_of(&self, index: IVec2) -> usize {
+        let side = self.side as i32;
+        (index.y.rem_euclid(side) * side + index.x.rem_euclid(side)) as usize
+    }
+
+    /// The radii within which the ground around a place is looked for, the narrowest first.
+    fn footprint_radii_m(&self) -> [f64; 3] {
+        FOOTPRINT_RADII.map(|times| times * self.footprint_m)
+    }
 }
 
 impl TerrainQuery for ElevationWindow {
     fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
-        FOOTPRINT_RADII_M.iter().find_map(|&radius_m| self.plane_within(place_m, radius_m))
+        self.footprint_radii_m().into_iter().find_map(|radius_m| self.plane_within(place_m, radius_m))
     }
 
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes> {
@@ -170,9 +194,10 @@ impl TerrainQuery for ElevationWindow {
     }
 }
 
-fn slot_of(index: IVec2) -> usize {
-    let side = SIDE as i32;
-    (index.y.rem_euclid(side) * side + index.x.rem_euclid(side)) as usize
+/// So many cells to a side that no two places inside the window share a slot.
+pub(crate) fn side_of(config: &ElevationWindowConfig) -> usize {
+    let spanned = (2.0 * config.radius_m / config.cell_m).ceil() as usize;
+    spanned.saturating_add(SPARE_CELLS).max(LEAST_SIDE)
 }
 
 #[cfg(test)]
