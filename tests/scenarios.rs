@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use glam::DVec2;
 use mapless_baselines::{NavigatorKind, OracleConfig, PlanPose, shortest_path};
 use mapless_trials::{LoadedScenario, Outcome, Scenario, Trial};
-use mapless_world::{HuskyConfig, attitude_on, load_terrain};
+use mapless_world::{RobotConfig, attitude_on, load_terrain};
 
 const SCENARIOS: [&str; 10] =
     ["cht-ab", "cht-ac", "cht-ad", "cht-ae", "cht-ba", "cht-bd", "gsb", "ht", "ml", "vta"];
@@ -106,7 +106,7 @@ fn start_and_goal_are_nearly_level() {
                 let offset = (DVec2::new(f64::from(step % 25), f64::from(step / 25)) - 12.0) * 0.25;
                 if offset.length() <= 3.0 {
                     let tilt =
-                        attitude_on(&terrain.field, centre + offset, 0.0, &HuskyConfig::default()).unwrap();
+                        attitude_on(&terrain.field, centre + offset, 0.0, &RobotConfig::default()).unwrap();
                     let inclination_rad = libm::acos(libm::cos(tilt.pitch_rad) * libm::cos(tilt.roll_rad));
                     assert!(
                         inclination_rad < 0.15,

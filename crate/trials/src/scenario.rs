@@ -13,7 +13,7 @@
 
 use glam::DVec2;
 use mapless::PlannerConfig;
-use mapless_world::{HuskyConfig, SensorConfig, TerrainError};
+use mapless_world::{RobotConfig, SensorConfig, TerrainError};
 
 use crate::places::{self, StartPose};
 
@@ -82,7 +82,7 @@ pub struct Scenario {
     /// The sensor.
     pub sensor: SensorConfig,
     /// The robot.
-    pub robot: HuskyConfig,
+    pub robot: RobotConfig,
     /// What the `[planner]` section sets.
     pub(crate) planner: toml::Table,
 }
@@ -131,7 +131,7 @@ struct File {
     #[serde(default)]
     sensor: SensorConfig,
     #[serde(default)]
-    robot: HuskyConfig,
+    robot: RobotConfig,
 }
 
 /// The sections of a scenario file that set parameters.

@@ -4,8 +4,7 @@ mod shown;
 
 use glam::DVec2;
 use mapless::gp::learning::LearningMode;
-use mapless::skyline::occupancy::{COLUMNS, RINGS};
-use mapless::skyline::surface::ROWS;
+use mapless::skyline::occupancy::COLUMNS;
 use mapless_trials::{History, Preset, Scenario, StartPose, Trial, parameters};
 use mapless_world::{HeightField, SensorPose};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -130,6 +129,7 @@ impl Session {
     /// ticks; then x, y of each waypoint.
     pub fn scene(&self) -> Vec<f64> {
         let config = self.now.trial.planner_config();
+        let grid = self.now.trial.step().observed.grid();
         let StartPose { position_m, heading_rad } = self.now.trial.start();
         let goal_m = self.now.trial.goal_m();
         let mut values = vec![
@@ -143,8 +143,8 @@ impl Session {
             config.perception.surface_radius_m,
             config.sensor.height_m,
             COLUMNS as f64,
-            ROWS as f64,
-            RINGS as f64,
+            grid.rows() as f64,
+            grid.rings() as f64,
             config.robot.width_m,
             config.segments.safety_margin_m,
             config.segments.max_slope_rad,

@@ -1,4 +1,4 @@
-//! The simulated world of `mapless`: terrain, a VLP-16 laser scanner and a Husky robot.
+//! The simulated world of `mapless`: terrain, a LiDAR and a wheeled robot.
 //!
 //! World frame: x east, y north, z up, with the origin at the south-west corner of the terrain. Robot frame: x
 //! forward, y left, z up. Pitch is positive nose-up, roll positive with the left side up, yaw positive
@@ -15,26 +15,26 @@ mod caster;
 mod config;
 pub mod generate;
 mod height_field;
-mod husky;
 mod import;
 mod level_places;
+mod lidar;
 pub mod random;
 pub mod recipe;
+mod robot;
 mod sculpt;
 mod skyline;
 mod slopes;
 mod terrain;
-mod vlp16;
 
 pub use attitude::{Attitude, attitude_on, world_from_body};
 pub use caster::Caster;
 pub use config::ConfigError;
 pub use height_field::{FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M};
-pub use husky::{DriveCommand, DriveError, Husky, HuskyConfig, HuskyState};
+pub use lidar::{Lidar, Scan, SensorConfig, SensorPose};
+pub use robot::{DriveCommand, DriveError, Robot, RobotConfig, RobotState};
 pub use sculpt::{Brush, BrushKind, SampleRect, Stroke, StrokeError};
 pub use skyline::{Skyline, true_skyline};
 pub use slopes::SlopeDistribution;
 #[cfg(not(target_arch = "wasm32"))]
 pub use terrain::load_terrain;
 pub use terrain::{Terrain, TerrainError, TerrainFault, load_terrain_bytes};
-pub use vlp16::{RING_COUNT, Scan, SensorConfig, SensorPose, Vlp16, ring_elevation_rad};

@@ -2,7 +2,6 @@
 
 use glam::DVec2;
 use js_sys::{Float32Array, Uint8Array};
-use mapless::skyline::occupancy::RINGS;
 use mapless::{Navigator as _, Status, StopReason};
 use mapless_world::SensorPose;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -125,8 +124,9 @@ impl Session {
     pub fn observed(&mut self, out: &Float32Array) {
         self.scratch.clear();
         self.scratch.resize(out.length() as usize, f32::NAN);
-        for cell in self.now.trial.step().observed.cells() {
-            if let Some(place) = self.scratch.get_mut(cell.column * RINGS + cell.ring) {
+        let observed = self.now.trial.step().observed;
+        for cell in observed.cells() {
+            if let Some(place) = self.scratch.get_mut(cell.column * observed.rings() + cell.ring) {
                 *place = cell.occupancy_m as f32;
             }
         }

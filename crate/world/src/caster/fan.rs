@@ -1,7 +1,7 @@
 //! Rays of one azimuth, from the lowest elevation to the highest.
 
 use super::{Caster, Trace};
-use crate::vlp16::SensorPose;
+use crate::lidar::SensorPose;
 use glam::DVec3;
 
 /// The rays of a sensor at one azimuth, cast in ascending order of elevation.

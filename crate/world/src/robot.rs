@@ -1,4 +1,5 @@
-//! A kinematic Husky A200: unicycle motion with limited speeds and accelerations, resting on four wheels.
+//! A kinematic robot that turns by the difference of its wheels' speeds: unicycle motion with limited speeds and accelerations,
+//! resting on four wheels.
 
 use crate::attitude::{Attitude, attitude_on, world_from_body};
 use crate::config::{ConfigError, positive, within};
@@ -11,7 +12,9 @@ use thiserror::Error;
 /// Dimensions and limits of the robot; the defaults are those of a Clearpath Husky A200.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct HuskyConfig {
+pub struct RobotConfig {
+    /// Overall length of the body, in metres.
+    pub length_m: f64,
     /// Distance between front and rear axle, in metres.
     pub wheelbase_m: f64,
     /// Distance between left and right wheel centres, in metres.
@@ -20,6 +23,10 @@ pub struct HuskyConfig {
     pub wheel_radius_m: f64,
     /// Overall width over the wheels, in metres.
     pub width_m: f64,
+    /// Height of the belly above the contact plane, in metres.
+    pub ground_clearance_m: f64,
+    /// Highest vertical step that the wheels climb, in metres.
+    pub max_step_m: f64,
     /// Largest speed forward or backward, in m/s.
     pub max_speed_m_s: f64,
     /// Largest turn rate to either side, in rad/s.
@@ -34,13 +41,24 @@ pub struct HuskyConfig {
     pub pitch_limit_rad: f64,
 }
 
-impl Default for HuskyConfig {
+impl Default for RobotConfig {
     fn default() -> Self {
+        Self::husky()
+    }
+}
+
+impl RobotConfig {
+    /// Clearpath Husky A200.
+    #[must_use]
+    pub fn husky() -> Self {
         Self {
+            length_m: 0.99,
             wheelbase_m: 0.512,
             track_m: 0.571,
             wheel_radius_m: 0.165,
             width_m: 0.685,
+            ground_clearance_m: 0.13,
+            max_step_m: 0.165,
             max_speed_m_s: 1.0,
             max_turn_rate_rad_s: 1.0,
             max_acceleration_m_s2: 1.0,
@@ -49,18 +67,49 @@ impl Default for HuskyConfig {
             pitch_limit_rad: 0.785,
         }
     }
-}
 
-impl HuskyConfig {
+    /// Clearpath Jackal J100, as fast as the Husky.
+    #[must_use]
+    pub fn jackal() -> Self {
+        Self {
+            length_m: 0.508,
+            wheelbase_m: 0.262,
+            track_m: 0.376,
+            wheel_radius_m: 0.098,
+            width_m: 0.43,
+            ground_clearance_m: 0.065,
+            max_step_m: 0.098,
+            ..Self::husky()
+        }
+    }
+
+    /// Clearpath Warthog, as fast as the Husky.
+    #[must_use]
+    pub fn warthog() -> Self {
+        Self {
+            length_m: 1.52,
+            wheelbase_m: 0.914,
+            track_m: 1.1,
+            wheel_radius_m: 0.3,
+            width_m: 1.38,
+            ground_clearance_m: 0.254,
+            max_step_m: 0.3,
+            ..Self::husky()
+        }
+    }
+
     /// Checks every value.
     ///
     /// # Errors
     /// [`ConfigError`] names the first field outside its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
+        within("length_m", self.length_m, 0.1, 10.0)?;
         within("wheelbase_m", self.wheelbase_m, 0.1, 5.0)?;
         within("track_m", self.track_m, 0.1, 5.0)?;
         within("wheel_radius_m", self.wheel_radius_m, 0.01, 2.0)?;
         within("width_m", self.width_m, self.track_m, 6.0)?;
+        within("ground_clearance_m", self.ground_clearance_m, 0.01, 2.0)?;
+        within("max_step_m", self.max_step_m, 0.0, 2.0)?;
         positive("max_speed_m_s", self.max_speed_m_s)?;
         positive("max_turn_rate_rad_s", self.max_turn_rate_rad_s)?;
         positive("max_acceleration_m_s2", self.max_acceleration_m_s2)?;
@@ -93,7 +142,7 @@ pub struct DriveCommand {
 
 /// Where the robot is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HuskyState {
+pub struct RobotState {
     /// Position of the middle of the wheelbase in the world's plan view, in metres.
     pub position: DVec2,
     /// Heading, counter-clockwise from east, in radians; not wrapped, so that turns can be counted.
@@ -131,37 +180,37 @@ pub enum DriveError {
 
 /// The robot.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Husky {
-    config: HuskyConfig,
-    state: HuskyState,
+pub struct Robot {
+    config: RobotConfig,
+    state: RobotState,
 }
 
-impl Husky {
+impl Robot {
     /// Puts a robot at rest on the ground. The configuration must have been validated.
     ///
     /// # Errors
     /// [`DriveError::LeftTerrain`] when a wheel is off the terrain.
     pub fn new(
-        config: HuskyConfig,
+        config: RobotConfig,
         field: &HeightField,
         position: DVec2,
         yaw_rad: f64,
     ) -> Result<Self, DriveError> {
         let attitude =
             attitude_on(field, position, yaw_rad, &config).ok_or(DriveError::LeftTerrain { position })?;
-        let state = HuskyState { position, yaw_rad, speed_m_s: 0.0, turn_rate_rad_s: 0.0, attitude };
+        let state = RobotState { position, yaw_rad, speed_m_s: 0.0, turn_rate_rad_s: 0.0, attitude };
         Ok(Self { config, state })
     }
 
     /// The robot's dimensions and limits.
     #[must_use]
-    pub fn config(&self) -> &HuskyConfig {
+    pub fn config(&self) -> &RobotConfig {
         &self.config
     }
 
     /// Where it is and how it moves.
     #[must_use]
-    pub fn state(&self) -> &HuskyState {
+    pub fn state(&self) -> &RobotState {
         &self.state
     }
 
@@ -210,7 +259,7 @@ impl Husky {
         let yaw_rad = state.yaw_rad + 2.0 * half_turn;
         let attitude =
             attitude_on(field, position, yaw_rad, config).ok_or(DriveError::LeftTerrain { position })?;
-        self.state = HuskyState { position, yaw_rad, speed_m_s: speed, turn_rate_rad_s: turn_rate, attitude };
+        self.state = RobotState { position, yaw_rad, speed_m_s: speed, turn_rate_rad_s: turn_rate, attitude };
         Ok(())
     }
 }
@@ -233,7 +282,7 @@ mod tests {
         HeightField::new(101, 101, 0.5, vec![0.0; 101 * 101]).unwrap()
     }
 
-    fn drive(husky: &mut Husky, field: &HeightField, speed_m_s: f64, turn_rate_rad_s: f64, seconds: f64) {
+    fn drive(husky: &mut Robot, field: &HeightField, speed_m_s: f64, turn_rate_rad_s: f64, seconds: f64) {
         let command = DriveCommand { speed_m_s, turn_rate_rad_s };
         for _ in 0..(seconds / 0.02).round() as usize {
             husky.step(command, 0.02, field).unwrap();
@@ -243,7 +292,7 @@ mod tests {
     #[test]
     fn drives_a_circle_of_the_commanded_radius() {
         let field = flat();
-        let mut husky = Husky::new(HuskyConfig::default(), &field, DVec2::splat(25.0), 0.3).unwrap();
+        let mut husky = Robot::new(RobotConfig::default(), &field, DVec2::splat(25.0), 0.3).unwrap();
         drive(&mut husky, &field, 0.8, 0.4, 2.0);
         let begin = *husky.state();
         let (sin, cos) = libm::sincos(begin.yaw_rad);
@@ -257,7 +306,7 @@ mod tests {
     #[test]
     fn accelerates_within_its_limits() {
         let field = flat();
-        let mut husky = Husky::new(HuskyConfig::default(), &field, DVec2::splat(25.0), 0.0).unwrap();
+        let mut husky = Robot::new(RobotConfig::default(), &field, DVec2::splat(25.0), 0.0).unwrap();
         let command = DriveCommand { speed_m_s: 9.0, turn_rate_rad_s: -9.0 };
         husky.step(command, 0.1, &field).unwrap();
         assert!((husky.state().speed_m_s - 0.1).abs() < 1e-12);
@@ -271,7 +320,7 @@ mod tests {
     fn climbs_at_the_speed_of_its_wheels() {
         let heights = (0..101 * 101).map(|i| (i % 101) as f32 * 0.25).collect();
         let field = HeightField::new(101, 101, 0.5, heights).unwrap();
-        let mut husky = Husky::new(HuskyConfig::default(), &field, DVec2::splat(10.0), 0.0).unwrap();
+        let mut husky = Robot::new(RobotConfig::default(), &field, DVec2::splat(10.0), 0.0).unwrap();
         drive(&mut husky, &field, 0.5, 0.0, 1.0);
         let before = husky.position();
         drive(&mut husky, &field, 0.5, 0.0, 4.0);
@@ -282,7 +331,7 @@ mod tests {
     #[test]
     fn an_error_leaves_the_robot_as_it_was() {
         let field = flat();
-        let mut husky = Husky::new(HuskyConfig::default(), &field, DVec2::new(49.5, 25.0), 0.0).unwrap();
+        let mut husky = Robot::new(RobotConfig::default(), &field, DVec2::new(49.5, 25.0), 0.0).unwrap();
         let command = DriveCommand { speed_m_s: 1.0, turn_rate_rad_s: 0.0 };
         let (error, last) = loop {
             let before = husky.clone();
@@ -295,13 +344,13 @@ mod tests {
         let nan = DriveCommand { speed_m_s: f64::NAN, turn_rate_rad_s: 0.0 };
         assert!(matches!(husky.step(nan, 0.1, &field), Err(DriveError::NotFinite { .. })));
         assert!(husky.step(command, -0.1, &field).is_err());
-        assert!(Husky::new(HuskyConfig::default(), &field, DVec2::new(-1.0, 0.0), 0.0).is_err());
+        assert!(Robot::new(RobotConfig::default(), &field, DVec2::new(-1.0, 0.0), 0.0).is_err());
     }
 
     #[test]
     fn wheels_stand_one_radius_above_the_ground() {
         let field = flat();
-        let husky = Husky::new(HuskyConfig::default(), &field, DVec2::splat(25.0), 1.0).unwrap();
+        let husky = Robot::new(RobotConfig::default(), &field, DVec2::splat(25.0), 1.0).unwrap();
         let state = husky.state();
         let wheels = husky.config().wheel_centres(state.position, state.yaw_rad, &state.attitude);
         assert!(wheels.iter().all(|wheel| (wheel.z - 0.165).abs() < 1e-12));
@@ -311,20 +360,22 @@ mod tests {
 
     #[test]
     fn configuration_is_checked() {
-        assert_eq!(HuskyConfig::default().validate(), Ok(()));
-        let bad = HuskyConfig { max_speed_m_s: f64::NAN, ..HuskyConfig::default() };
+        for robot in [RobotConfig::husky(), RobotConfig::jackal(), RobotConfig::warthog()] {
+            assert_eq!(robot.validate(), Ok(()));
+        }
+        let bad = RobotConfig { max_speed_m_s: f64::NAN, ..RobotConfig::default() };
         assert_eq!(bad.validate().unwrap_err().field, "max_speed_m_s");
-        let narrow = HuskyConfig { width_m: 0.3, ..HuskyConfig::default() };
+        let narrow = RobotConfig { width_m: 0.3, ..RobotConfig::default() };
         assert_eq!(narrow.validate().unwrap_err().field, "width_m");
-        assert!(mapless_toml::from_str::<HuskyConfig>("wheel_base_m = 1.0").is_err());
-        assert_eq!(mapless_toml::from_str::<HuskyConfig>("").unwrap(), HuskyConfig::default());
+        assert!(mapless_toml::from_str::<RobotConfig>("wheel_base_m = 1.0").is_err());
+        assert_eq!(mapless_toml::from_str::<RobotConfig>("").unwrap(), RobotConfig::default());
     }
 
     proptest! {
         #[test]
         fn one_long_step_is_many_short_ones(speed_m_s in -1.0..1.0f64, turn_rate_rad_s in -1.0..1.0f64) {
             let field = flat();
-            let mut short = Husky::new(HuskyConfig::default(), &field, DVec2::splat(25.0), 0.0).unwrap();
+            let mut short = Robot::new(RobotConfig::default(), &field, DVec2::splat(25.0), 0.0).unwrap();
             drive(&mut short, &field, speed_m_s, turn_rate_rad_s, 2.0);
             let mut long = short.clone();
             drive(&mut short, &field, speed_m_s, turn_rate_rad_s, 4.0);
