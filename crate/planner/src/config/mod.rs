@@ -1,6 +1,7 @@
 //! Every parameter of the planner, with its unit and the paper's value.
 
 mod checks;
+mod for_robot;
 mod presets;
 
 use crate::gp::kernel::RationalQuadratic;

@@ -165,9 +165,9 @@ mod tests {
 
     fn look_on_the_way(ground: &mut ElevationWindow, from_m: DVec2, pitch_rad: f64) {
         let sensor = ground.sensor;
-        for step in 0..=10 {
+        for step in 0..=60 {
             ground.advance();
-            let at_m = (from_m * (1.0 - 0.1 * f64::from(step))).extend(sensor.height_m);
+            let at_m = (from_m * (1.0 - f64::from(step) / 60.0)).extend(sensor.height_m);
             ground.looked_from(at_m, DMat3::from_rotation_y(-pitch_rad - sensor.pitch_rad));
         }
     }
