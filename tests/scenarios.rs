@@ -10,7 +10,7 @@ use glam::DVec2;
 use mapless_baselines::{NavigatorKind, OracleConfig, PlanPose, shortest_path};
 use mapless_tests::scenarios_text;
 use mapless_trials::{LoadedScenario, Outcome, Scenario, Trial};
-use mapless_world::{HuskyConfig, attitude_on};
+use mapless_world::{RobotConfig, attitude_on};
 
 fn terrains() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../terrains")
@@ -84,7 +84,7 @@ fn start_and_goal_are_nearly_level() {
                 let offset = (DVec2::new(f64::from(step % 25), f64::from(step / 25)) - 12.0) * 0.25;
                 if offset.length() <= 3.0 {
                     let tilt =
-                        attitude_on(&terrain.field, centre + offset, 0.0, &HuskyConfig::default()).unwrap();
+                        attitude_on(&terrain.field, centre + offset, 0.0, &RobotConfig::default()).unwrap();
                     let inclination_rad = libm::acos(libm::cos(tilt.pitch_rad) * libm::cos(tilt.roll_rad));
                     assert!(
                         inclination_rad < 0.15,

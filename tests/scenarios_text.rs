@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use mapless_trials::{Outcome, Preset, Scenario, Trial};
-use mapless_world::HuskyConfig;
+use mapless_world::RobotConfig;
 
 /// A scenario with its terrain.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +71,7 @@ impl Bundled {
         if trial.outcome() != Some(Outcome::Reached) {
             return Err(format!("{}: {:?} instead of reached", self.name, trial.outcome()));
         }
-        let (metrics, robot) = (trial.metrics(), HuskyConfig::default());
+        let (metrics, robot) = (trial.metrics(), RobotConfig::default());
         let straight_m = trial.start().position_m.distance(trial.goal_m());
         let is_possible = metrics.max_abs_roll_rad <= robot.roll_limit_rad
             && metrics.max_abs_pitch_rad <= robot.pitch_limit_rad

@@ -20,7 +20,7 @@ pub use planner::Oracle;
 pub(crate) use standing::Standing;
 
 use glam::DVec2;
-use mapless_world::{ConfigError, HeightField, HuskyConfig};
+use mapless_world::{ConfigError, HeightField, RobotConfig};
 use pathfinding::directed::astar::astar;
 
 /// What the oracle allows itself.
@@ -118,7 +118,7 @@ pub enum OracleError {
 /// [`OracleError`]: no path, start or goal off the terrain or too steep, or a bad configuration.
 pub fn shortest_path(
     field: &HeightField,
-    robot: &HuskyConfig,
+    robot: &RobotConfig,
     start: PlanPose,
     goal_m: DVec2,
     config: &OracleConfig,

@@ -39,6 +39,7 @@
 pub mod config;
 pub mod control;
 pub mod decision;
+mod for_robot;
 mod goal;
 pub mod gp;
 pub mod math;

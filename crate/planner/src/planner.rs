@@ -15,6 +15,7 @@ use crate::goal::Goal;
 use crate::gp::GpError;
 use crate::math::angle::difference_rad;
 use crate::pose::{FrameChange, Pose};
+use crate::skyline::beam_grid::BeamGrid;
 use crate::skyline::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad};
 use crate::skyline::perception::Perception;
 use crate::skyline::profile::ElevationProfile;
@@ -88,9 +89,10 @@ impl Planner {
     /// [`ConfigError`] for a value that makes no sense.
     pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
         config.validate("planner")?;
+        let grid = BeamGrid::new(&config.sensor);
         Ok(Self {
-            observed: OccupancySurface::new(config.perception.surface_radius_m),
-            perception: Perception::new(config.perception),
+            perception: Perception::new(config.perception, &grid),
+            observed: OccupancySurface::new(config.perception.surface_radius_m, grid),
             profile: Vec::new(),
             segments: Vec::new(),
             policy: Policy::new(&config),
@@ -144,7 +146,7 @@ impl Planner {
 
     /// Forgets everything seen, learned and driven, as after a change of the world, and the goal.
     pub fn reset(&mut self) {
-        self.perception.reset(self.config.perception);
+        self.perception.reset(self.config.perception, self.observed.grid());
         self.policy.get_mut().forget_terrain();
         self.goal = None;
     }

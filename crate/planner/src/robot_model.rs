@@ -66,8 +66,28 @@ impl RobotModel {
         }
     }
 
+    /// Ground within this distance of a place carries the robot there, whichever way it faces: its four wheels stand a little
+    /// inside.
+    pub fn footprint_radius_m(&self) -> f64 {
+        let half_diagonal_m = 0.5 * libm::hypot(self.wheelbase_m, self.track_m);
+        0.1 * ((half_diagonal_m + 0.1) / 0.1).ceil()
+    }
+
     fn check_axles(&self, place: &str) -> Result<(), ConfigError> {
         let fits = self.wheelbase_m <= self.length_m;
         ConfigError::require(fits, place, "wheelbase_m", self.wheelbase_m, "at most length_m")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_footprint_holds_the_wheels() {
+        let radius_m = |robot: RobotModel| robot.footprint_radius_m();
+        assert_eq!(radius_m(RobotModel::husky()).to_bits(), 0.5_f64.to_bits());
+        assert!((radius_m(RobotModel::jackal()) - 0.4).abs() < 1e-12);
+        assert!((radius_m(RobotModel::warthog()) - 0.9).abs() < 1e-12);
     }
 }

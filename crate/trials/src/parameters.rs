@@ -3,7 +3,7 @@
 
 use mapless::PlannerConfig;
 pub use mapless_parameters::{Kind, Parameter, Value};
-use mapless_world::{HuskyConfig, SensorConfig};
+use mapless_world::{RobotConfig, SensorConfig};
 
 use crate::scenario::{Preset, Scenario, ScenarioFault};
 
@@ -28,7 +28,7 @@ pub struct Valued {
 }
 
 /// All groups, in the order of the method, with the values of these configurations.
-pub fn groups(planner: &PlannerConfig, sensor: &SensorConfig, robot: &HuskyConfig) -> Vec<Group> {
+pub fn groups(planner: &PlannerConfig, sensor: &SensorConfig, robot: &RobotConfig) -> Vec<Group> {
     /// One group: its table, its title, and the configuration that its parameters are in.
     macro_rules! groups {
         ($($table:literal $title:literal $type:ty = $config:expr;)*) => {
@@ -61,7 +61,7 @@ pub fn groups(planner: &PlannerConfig, sensor: &SensorConfig, robot: &HuskyConfi
         "planner.robot" "Robot as the planner knows it; follows the robot unless set" RobotModel = planner.robot;
         "planner.sensor" "Sensor as the planner knows it; follows the sensor unless set" SensorModel = planner.sensor;
         "sensor" "Sensor" SensorConfig = sensor;
-        "robot" "Robot" HuskyConfig = robot;
+        "robot" "Robot" RobotConfig = robot;
     }
 }
 
@@ -135,7 +135,7 @@ mod tests {
         let mut expected = Vec::new();
         paths(&Table::try_from(PlannerConfig::default()).unwrap(), "planner", &mut expected);
         paths(&Table::try_from(SensorConfig::default()).unwrap(), "sensor", &mut expected);
-        paths(&Table::try_from(HuskyConfig::default()).unwrap(), "robot", &mut expected);
+        paths(&Table::try_from(RobotConfig::default()).unwrap(), "robot", &mut expected);
         let groups = of_preset(Preset::Default);
         let mut found: Vec<String> =
             all(&groups).map(|(table, one)| format!("{table}.{}", one.parameter.name)).collect();
@@ -201,7 +201,7 @@ mod tests {
     fn the_papers_values_are_those_of_the_paper_preset() {
         let mut paper = PlannerConfig::paper();
         paper.perception.learning = LearningConfig::paper();
-        let groups = groups(&paper, &SensorConfig::default(), &HuskyConfig::default());
+        let groups = groups(&paper, &SensorConfig::default(), &RobotConfig::default());
         let mut given = 0;
         for (table, Valued { parameter, value }) in all(&groups) {
             let Some(paper) = parameter.paper else { continue };

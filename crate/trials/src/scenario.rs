@@ -14,8 +14,8 @@
 pub(crate) mod renamed_keys;
 
 use glam::DVec2;
-use mapless::PlannerConfig;
-use mapless_world::{HuskyConfig, SensorConfig, TerrainError};
+use mapless::{PlannerConfig, RobotModel, SensorModel};
+use mapless_world::{RobotConfig, SensorConfig, TerrainError};
 
 use crate::places::{self, StartPose};
 use renamed_keys::RENAMED_KEYS;
@@ -87,7 +87,7 @@ pub struct Scenario {
     /// The sensor.
     pub sensor: SensorConfig,
     /// The robot.
-    pub robot: HuskyConfig,
+    pub robot: RobotConfig,
     /// What the `[planner]` section sets.
     pub(crate) planner: toml::Table,
 }
@@ -136,7 +136,7 @@ struct File {
     #[serde(default)]
     sensor: SensorConfig,
     #[serde(default)]
-    robot: HuskyConfig,
+    robot: RobotConfig,
 }
 
 /// The sections of a scenario file that set parameters.
@@ -205,21 +205,45 @@ impl Scenario {
     /// # Errors
     /// The value that does not fit the preset.
     pub fn planner_config(&self, preset: Preset) -> Result<PlannerConfig, ScenarioFault> {
-        let mut config = preset.planner_config();
-        config.sensor.forward_m = self.sensor.forward_m;
-        config.sensor.height_m = self.sensor.height_m;
-        config.robot.width_m = self.robot.width_m;
-        config.robot.wheelbase_m = self.robot.wheelbase_m;
-        // The simulated robot has no length of its own.
-        config.robot.length_m = config.robot.length_m.max(self.robot.wheelbase_m);
-        config.robot.track_m = self.robot.track_m;
-        config.robot.roll_limit_rad = self.robot.roll_limit_rad;
-        config.robot.pitch_limit_rad = self.robot.pitch_limit_rad;
-
+        let config = preset.planner_config().fitted_to(sensor_model(&self.sensor), robot_model(&self.robot));
         let config: PlannerConfig = overridden(&config, &self.planner, "planner")?;
         config.validate("planner").map_err(|e| ScenarioFault::Value(e.to_string()))?;
         Ok(config)
     }
+}
+
+/// What the planner is told of a sensor.
+fn sensor_model(sensor: &SensorConfig) -> SensorModel {
+    let mut model = SensorModel::default();
+    model.rings = sensor.rings;
+    model.lowest_elevation_rad = sensor.lowest_elevation_rad;
+    model.highest_elevation_rad = sensor.highest_elevation_rad;
+    model.columns = sensor.columns;
+    model.horizontal_fov_rad = sensor.horizontal_fov_rad;
+    model.min_range_m = sensor.min_range_m;
+    model.max_range_m = sensor.max_range_m;
+    model.forward_m = sensor.forward_m;
+    model.left_m = sensor.left_m;
+    model.height_m = sensor.height_m;
+    model.roll_rad = sensor.roll_rad;
+    model.pitch_rad = sensor.pitch_rad;
+    model.yaw_rad = sensor.yaw_rad;
+    model
+}
+
+/// What the planner is told of a robot.
+fn robot_model(robot: &RobotConfig) -> RobotModel {
+    let mut model = RobotModel::default();
+    model.length_m = robot.length_m;
+    model.width_m = robot.width_m;
+    model.wheelbase_m = robot.wheelbase_m;
+    model.track_m = robot.track_m;
+    model.wheel_radius_m = robot.wheel_radius_m;
+    model.ground_clearance_m = robot.ground_clearance_m;
+    model.max_step_m = robot.max_step_m;
+    model.roll_limit_rad = robot.roll_limit_rad;
+    model.pitch_limit_rad = robot.pitch_limit_rad;
+    model
 }
 
 /// `config` with the values of `over`; `section` names the place in errors.

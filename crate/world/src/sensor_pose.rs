@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-/// Where the sensor is. Its axes are those of the robot.
+/// Where the sensor is. Its axes are those of the robot, turned by its mount.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorPose {
     /// World position, in metres.

@@ -3,7 +3,7 @@
 use super::{OracleConfig, OracleError, PlanPose};
 use glam::DVec2;
 use mapless_parameters::{Check, ConfigError, Value};
-use mapless_world::{HeightField, HuskyConfig, attitude_on};
+use mapless_world::{HeightField, RobotConfig, attitude_on};
 use std::f64::consts::TAU;
 
 /// Headings tried before a place is called too steep, or safe for every heading.
@@ -14,7 +14,7 @@ const STRAIGHT_STEP_M: f64 = 0.125;
 /// The ground, and how far the robot may tilt on it.
 pub(crate) struct Standing<'a> {
     field: &'a HeightField,
-    robot: &'a HuskyConfig,
+    robot: &'a RobotConfig,
     max_roll_rad: f64,
     max_pitch_rad: f64,
     /// For each cell of the ground whether a robot may stand anywhere in it with every heading, because no ground within
@@ -25,7 +25,7 @@ pub(crate) struct Standing<'a> {
 impl<'a> Standing<'a> {
     pub(crate) fn new(
         field: &'a HeightField,
-        robot: &'a HuskyConfig,
+        robot: &'a RobotConfig,
         config: &OracleConfig,
     ) -> Result<Self, OracleError> {
         robot.validate("robot")?;
@@ -128,7 +128,7 @@ fn safe_gradient(max_roll_rad: f64, max_pitch_rad: f64) -> f64 {
 }
 
 /// For each cell whether the ground is at most as steep as `gradient` wherever a wheel of a robot in the cell may be.
-fn gentle_cells(field: &HeightField, robot: &HuskyConfig, gradient: f64) -> Vec<bool> {
+fn gentle_cells(field: &HeightField, robot: &RobotConfig, gradient: f64) -> Vec<bool> {
     let (columns, rows) = (field.columns() - 1, field.rows() - 1);
     let heights_m = field.heights_m();
     let most_m2 = (gradient * field.cell_m()) * (gradient * field.cell_m());

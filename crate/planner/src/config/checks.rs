@@ -2,7 +2,7 @@
 
 use mapless_parameters::ConfigError;
 
-use super::{ElevationWindowConfig, InducingInputs, PerceptionConfig, PlannerConfig, WINDOW_CELLS};
+use super::{ElevationWindowConfig, InducingInputs, MOST_CELLS_PER_SIDE, PerceptionConfig, PlannerConfig};
 use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::learning::LearningMode;
 
@@ -51,14 +51,13 @@ impl PerceptionConfig {
 }
 
 impl ElevationWindowConfig {
-    /// Two different places inside the window must not share a slot.
     pub(super) fn check_span(&self, place: &str) -> Result<(), ConfigError> {
         ConfigError::require(
-            self.cell_m * WINDOW_CELLS as f64 > 2.0 * self.radius_m,
+            self.cells_per_side() <= MOST_CELLS_PER_SIDE,
             place,
             "cell_m",
             self.cell_m,
-            "cells large enough that 96 of them span twice radius_m",
+            "cells so large that a thousand of them span twice radius_m",
         )
     }
 }
@@ -101,8 +100,8 @@ mod tests {
     #[test]
     fn a_window_that_its_cells_do_not_span_is_refused() {
         let mut config = PlannerConfig::default();
-        config.elevation_window.cell_m = 0.1;
-        assert!(fault(&config).starts_with("planner.elevation_window.cell_m = 0.1: expected cells"));
+        config.elevation_window.cell_m = 0.01;
+        assert!(fault(&config).starts_with("planner.elevation_window.cell_m = 0.01: expected cells"));
     }
 
     #[test]

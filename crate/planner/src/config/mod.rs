@@ -222,10 +222,18 @@ parameters! {
     }
 }
 
-/// Cells on a side of the elevation window.
-pub(crate) const WINDOW_CELLS: usize = 96;
+/// Cells on a side of the elevation window, at least and at most, and how many more than its radius needs.
+const LEAST_CELLS_PER_SIDE: usize = 96;
+const MOST_CELLS_PER_SIDE: usize = 1024;
+const SPARE_CELLS: usize = 6;
 
 impl ElevationWindowConfig {
+    /// So many cells to a side that no two places inside the window share a slot.
+    pub(crate) fn cells_per_side(&self) -> usize {
+        let spanned = (2.0 * self.radius_m / self.cell_m).ceil() as usize;
+        spanned.saturating_add(SPARE_CELLS).max(LEAST_CELLS_PER_SIDE)
+    }
+
     /// Time after which ground that is not seen again is forgotten.
     pub(crate) fn memory(&self) -> Duration {
         Duration::from_secs_f64(self.memory_s)
