@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -166,9 +166,8 @@ fn kill_ten_times(folder: &Folder) {
         if round % 2 == 0 {
             thread::sleep(Duration::from_millis(random() % 100));
         } else {
-            let begun = Instant::now();
             while folder.journalled("killed") <= before {
-                assert!(begun.elapsed() < Duration::from_secs(30), "round {round} got nowhere");
+                assert_eq!(child.try_wait().unwrap(), None, "round {round} wrote no trial");
                 thread::sleep(Duration::from_millis(5));
             }
             thread::sleep(Duration::from_millis(random() % 20));

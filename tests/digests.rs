@@ -21,9 +21,9 @@ fn every_scenario_reaches_its_goal_with_the_recorded_digest() {
         let mut done = Vec::new();
         while let Some(scenario) = SCENARIOS.get(next.fetch_add(1, Ordering::Relaxed)) {
             if record {
-                let (outcome, digest) = scenario.run().unwrap();
-                assert_eq!(outcome, Outcome::Reached, "{}", scenario.name);
-                done.push((scenario.name, digest));
+                let trial = scenario.drive().unwrap();
+                assert_eq!(trial.outcome(), Some(Outcome::Reached), "{}", scenario.name);
+                done.push((scenario.name, trial.digest()));
             } else {
                 scenario.check().unwrap_or_else(|difference| panic!("{difference}"));
             }

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use mapless::PlannerConfig;
 use mapless_trials::{ProfileAccuracy, TrialError, profile_accuracy};
-use mapless_world::{Caster, HeightField, HuskyConfig, SensorConfig, load_terrain, load_terrain_bytes};
+use mapless_world::{Caster, HeightField, RobotConfig, SensorConfig, load_terrain, load_terrain_bytes};
 
 const POSES: usize = 25;
 
 fn measure(field: HeightField) -> Result<ProfileAccuracy, TrialError> {
-    let (sensor, robot) = (SensorConfig::default(), HuskyConfig::default());
+    let (sensor, robot) = (SensorConfig::default(), RobotConfig::default());
     let caster = Caster::new(field);
     profile_accuracy(&caster, &sensor, &robot, &PlannerConfig::default(), POSES, 5)
 }

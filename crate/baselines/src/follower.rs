@@ -140,7 +140,7 @@ pub(crate) fn length_m(points_m: &[DVec2]) -> f64 {
 mod tests {
     use super::*;
     use glam::DVec3;
-    use mapless_world::{DriveCommand, HeightField, Husky, HuskyConfig};
+    use mapless_world::{DriveCommand, HeightField, Robot, RobotConfig};
     use proptest::prelude::*;
 
     const PERIOD: Duration = Duration::from_millis(100);
@@ -159,7 +159,7 @@ mod tests {
     /// Drives a Husky on level ground along the path; gives its positions, ten a second.
     fn drive(path_m: &[DVec2], start: Pose, goal_m: DVec2, seconds: f64) -> Vec<DVec2> {
         let field = HeightField::new(61, 61, 1.0, vec![0.0; 61 * 61]).unwrap();
-        let mut husky = Husky::new(HuskyConfig::default(), &field, start.plan_m(), start.yaw_rad).unwrap();
+        let mut husky = Robot::new(RobotConfig::default(), &field, start.plan_m(), start.yaw_rad).unwrap();
         let mut follower = follower(path_m);
         let mut places_m = vec![start.plan_m()];
         for _ in 0..(seconds / PERIOD_S) as usize {

@@ -108,7 +108,7 @@ fn true_plane(field: &HeightField, place_m: DVec2) -> Option<Plane> {
         points_m[count] = (place_m + offset).extend(field.height_m(place_m + offset)?);
         count += 1;
     }
-    Plane::fit(place_m, &points_m[..count])
+    Plane::fit(place_m, &points_m[..count], FOOTPRINT_RADIUS_M)
 }
 
 impl Navigator for GroundTruthPlanner {
@@ -119,8 +119,9 @@ impl Navigator for GroundTruthPlanner {
         let radius_m = config.perception.surface_radius_m;
         let world_from_sensor = pose.world_from_robot();
         let position = pose.position_m + world_from_sensor * config.sensor.offset_m();
+        let between_rad = [config.sensor.lowest_elevation_rad, config.sensor.highest_elevation_rad];
         let sensor = SensorPose { position, world_from_sensor };
-        let profile = |azimuth_rad| match true_skyline(caster, &sensor, radius_m, azimuth_rad) {
+        let profile = |azimuth_rad| match true_skyline(caster, &sensor, radius_m, azimuth_rad, between_rad) {
             Skyline::Unknown => Column::Unknown,
             Skyline::Ground { elevation_rad } => Column::Ground { elevation_rad },
             Skyline::Wall => Column::Wall,
@@ -156,6 +157,7 @@ impl Navigator for GroundTruthPlanner {
 mod tests {
     use super::*;
     use crate::testing::{field, undulating};
+    use core::f64::consts::PI;
     use glam::DVec3;
     use mapless::skyline::occupancy::column_azimuth_rad;
     use mapless_world::{SensorConfig, attitude_on};
@@ -187,7 +189,10 @@ mod tests {
         let profile = navigator.planner().last_step().profile;
         let mut kinds = [0; 3];
         for (column, perceived) in profile.iter().enumerate() {
-            match (perceived, true_skyline(&caster, &sensor, 7.0, column_azimuth_rad(column))) {
+            match (
+                perceived,
+                true_skyline(&caster, &sensor, 7.0, column_azimuth_rad(column), [-PI / 12.0, PI / 12.0]),
+            ) {
                 (Column::Ground { elevation_rad: perceived }, Skyline::Ground { elevation_rad }) => {
                     assert!((perceived - elevation_rad).abs() < 1e-5, "column {column}");
                     kinds[0] += 1;

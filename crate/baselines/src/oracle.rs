@@ -22,7 +22,7 @@ pub use planner::Oracle;
 pub(crate) use safe_poses::SafePoses;
 
 use glam::DVec2;
-use mapless_world::{ConfigError, HeightField, HuskyConfig};
+use mapless_world::{ConfigError, HeightField, RobotConfig};
 use pathfinding::directed::astar::astar;
 
 /// Parameters of the oracle.
@@ -70,7 +70,7 @@ impl OraclePath {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OracleError {
     /// A configuration value is outside its range.
-    #[error("oracle.{0}")]
+    #[error(transparent)]
     Config(#[from] ConfigError),
     /// Start or goal is off the terrain; the start needs all wheels on it.
     #[error("{what} = ({:.3}, {:.3}) m: expected a place on the terrain, which spans (0, 0) to ({:.3}, {:.3}) m", place_m.x, place_m.y, extent_m.x, extent_m.y)]
@@ -121,7 +121,7 @@ pub enum OracleError {
 /// [`OracleError`]: no path, start or goal off the terrain or too steep, or a bad configuration.
 pub fn shortest_path(
     field: &HeightField,
-    robot: &HuskyConfig,
+    robot: &RobotConfig,
     start: PlanPose,
     goal_m: DVec2,
     config: &OracleConfig,

@@ -8,7 +8,7 @@ use crate::oracle::{OracleConfig, OracleError, OraclePath, PlanPose, SafePoses};
 use glam::DVec2;
 use mapless_world::generate::{Difficulty, terrain_recipe};
 use mapless_world::random::{Sequence, key};
-use mapless_world::{HuskyConfig, Terrain, TerrainError, load_terrain_bytes};
+use mapless_world::{RobotConfig, Terrain, TerrainError, load_terrain_bytes};
 use std::f64::consts::TAU;
 use std::fmt;
 use std::str::FromStr;
@@ -116,7 +116,7 @@ impl Task {
     /// [`TaskError::Unsolved`] when a hundred draws bring none with a safe path.
     pub fn generate(name: TaskName) -> Result<Self, TaskError> {
         let TaskName { difficulty, seed, index } = name;
-        let (robot, config) = (HuskyConfig::default(), OracleConfig::default());
+        let (robot, config) = (RobotConfig::default(), OracleConfig::default());
         for drawn in 1..=MOST_DRAWN {
             let place = key(key(seed, difficulty as u64), u64::from(index));
             let terrain_seed = key(place, u64::from(drawn));
@@ -239,7 +239,7 @@ mod tests {
             assert_eq!(task, Task::generate(name).unwrap());
             assert_ne!(task.recipe, Task::generate(TaskName { index: 1, ..name }).unwrap().recipe);
             assert!((APART_M[0]..=APART_M[1]).contains(&task.straight_m()));
-            let (robot, config) = (HuskyConfig::default(), OracleConfig::default());
+            let (robot, config) = (RobotConfig::default(), OracleConfig::default());
             let path = shortest_path(&task.terrain.field, &robot, task.start, task.goal_m, &config);
             assert_eq!(path, Ok(task.path));
         }

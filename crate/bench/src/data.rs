@@ -5,8 +5,9 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use mapless::PlannerConfig;
 use mapless::gp::hyperparameters::Hyperparameters;
+use mapless::skyline::beam_grid::BeamGrid;
 use mapless::skyline::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad, column_of};
-use mapless_world::{Caster, HeightField, RING_COUNT, SensorPose, random, ring_elevation_rad};
+use mapless_world::{Caster, HeightField, SensorConfig, SensorPose, random};
 
 use crate::BenchError;
 
@@ -32,9 +33,11 @@ fn scan(range_m: impl Fn(f64, usize) -> Option<f64>) -> Vec<Vec3> {
     let mut points = Vec::new();
     for column in 0..SCAN_COLUMNS {
         let azimuth = f64::from(column) * (TAU / f64::from(SCAN_COLUMNS)) - PI;
-        for ring in 0..RING_COUNT {
+        for ring in 0..SensorConfig::default().rings {
             if let Some(range_m) = range_m(azimuth, ring) {
-                points.push((beam(azimuth, ring_elevation_rad(ring)) * range_m).as_vec3());
+                points.push(
+                    (beam(azimuth, SensorConfig::default().ring_elevation_rad(ring)) * range_m).as_vec3(),
+                );
             }
         }
     }
@@ -52,7 +55,7 @@ pub(crate) fn beam(azimuth_rad: f64, elevation_rad: f64) -> DVec3 {
 /// sixth, which makes 1823 occupied cells.
 pub(crate) fn level_scan() -> Vec<Vec3> {
     scan(|azimuth, ring| {
-        let downward = -libm::sin(ring_elevation_rad(ring));
+        let downward = -libm::sin(SensorConfig::default().ring_elevation_rad(ring));
         if downward <= 0.0 {
             return None;
         }
@@ -68,7 +71,7 @@ pub(crate) fn level_scan() -> Vec<Vec3> {
 /// cells.
 pub(crate) fn full_scan() -> Vec<Vec3> {
     scan(|azimuth, ring| {
-        let elevation = ring_elevation_rad(ring);
+        let elevation = SensorConfig::default().ring_elevation_rad(ring);
         let wall = 6.0 * (1.0 + 0.02 * libm::sin(5.0 * azimuth)) / libm::cos(elevation);
         let downward = -libm::sin(elevation);
         Some(if downward > 0.0 { wall.min(SENSOR_HEIGHT_M / downward) } else { wall })
@@ -77,7 +80,9 @@ pub(crate) fn full_scan() -> Vec<Vec3> {
 
 /// The training data of a scan: directions of its occupied cells, radians, and their occupancy, metres.
 pub(crate) fn regression(points_m: &[Vec3]) -> (Vec<DVec2>, Vec<f64>) {
-    let mut observed = OccupancySurface::new(PlannerConfig::default().perception.surface_radius_m);
+    let config = PlannerConfig::default();
+    let mut observed =
+        OccupancySurface::new(config.perception.surface_radius_m, BeamGrid::new(&config.sensor));
     observed.project(points_m);
     observed.cells().iter().map(|cell| (cell.direction_rad(), cell.occupancy_m)).unzip()
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::DVec2;
 use mapless::gp::hyperparameters::Hyperparameters;
-use mapless_world::{Caster, RING_COUNT, SensorConfig, ring_elevation_rad};
+use mapless_world::{Caster, SensorConfig};
 
 use crate::BenchError;
 use crate::data::{
@@ -52,7 +52,7 @@ pub fn write_inputs(folder: &Path) -> Result<(), BenchError> {
         sensors_m.insert(name, sensor_pose(&Caster::new(field)).position.to_array());
     }
     let sensor = SensorConfig::default();
-    write_f32(folder, "directions", &directions(sensor.columns))?;
+    write_f32(folder, "directions", &directions(&sensor))?;
     let inputs = Inputs {
         hyperparameters: hyperparameters(),
         inputs: arrays(&inputs),
@@ -69,12 +69,12 @@ pub fn write_inputs(folder: &Path) -> Result<(), BenchError> {
 }
 
 /// Unit vectors of the beams of an upright sensor that faces east, in the order of a scan's ranges.
-fn directions(columns: usize) -> Vec<f32> {
-    let mut numbers = Vec::with_capacity(3 * RING_COUNT * columns);
-    for column in 0..columns {
-        let azimuth = column as f64 * (std::f64::consts::TAU / columns as f64) - std::f64::consts::PI;
-        for ring in 0..RING_COUNT {
-            numbers.extend(crate::data::beam(azimuth, ring_elevation_rad(ring)).as_vec3().to_array());
+fn directions(sensor: &SensorConfig) -> Vec<f32> {
+    let mut numbers = Vec::with_capacity(3 * sensor.rings * sensor.columns);
+    for column in 0..sensor.columns {
+        let azimuth = column as f64 * (std::f64::consts::TAU / sensor.columns as f64) - std::f64::consts::PI;
+        for ring in 0..sensor.rings {
+            numbers.extend(crate::data::beam(azimuth, sensor.ring_elevation_rad(ring)).as_vec3().to_array());
         }
     }
     numbers

@@ -5,21 +5,21 @@ use core::time::Duration;
 use glam::{DVec2, DVec3, Vec3};
 use mapless::Pose;
 use mapless::{Goal, Planner, PlannerConfig, Status};
-use mapless_world::{Caster, HeightField, Scan, SensorConfig, SensorPose, Vlp16};
+use mapless_world::{Caster, HeightField, Lidar, Scan, SensorConfig, SensorPose};
 
 use crate::BenchError;
 use crate::data::{full_scan, level_field, level_scan, rugged_field, sensor_pose};
 use crate::work::{Values, Work};
 
 /// The sensor without noise, with this many columns.
-fn exact_sensor(columns: usize) -> Result<Vlp16, BenchError> {
-    Ok(Vlp16::new(SensorConfig { columns, range_noise_m: 0.0, ..SensorConfig::default() })?)
+fn exact_sensor(columns: usize) -> Result<Lidar, BenchError> {
+    Ok(Lidar::new(SensorConfig { columns, range_noise_m: 0.0, ..SensorConfig::default() })?)
 }
 
 /// One revolution of 28 800 beams.
 pub(crate) struct Scanning {
     caster: Caster,
-    sensor: Vlp16,
+    sensor: Lidar,
     pose: SensorPose,
     scan: Scan,
 }

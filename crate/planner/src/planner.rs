@@ -3,6 +3,7 @@
 use core::time::Duration;
 
 use glam::{DVec2, Vec3};
+use mapless_parameters::ConfigError;
 
 use crate::config::{CostModel, PlannerConfig};
 use crate::control::controller::{Command, Controller};
@@ -10,11 +11,11 @@ use crate::decision::forecast_policy::ForecastPolicy;
 use crate::decision::paper_policy::PaperPolicy;
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::step::{PerceptionOverride, Status, Step, StopReason};
-use crate::error::ConfigError;
 use crate::goal::Goal;
 use crate::gp::GpError;
 use crate::math::angle::difference_rad;
 use crate::pose::{FrameChange, Pose};
+use crate::skyline::beam_grid::BeamGrid;
 use crate::skyline::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad};
 use crate::skyline::perception::Perception;
 use crate::skyline::profile::ElevationProfile;
@@ -87,10 +88,11 @@ impl Planner {
     /// # Errors
     /// [`ConfigError`] for a value that makes no sense.
     pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
-        config.validate()?;
+        config.validate("planner")?;
+        let grid = BeamGrid::new(&config.sensor);
         Ok(Self {
-            observed: OccupancySurface::new(config.perception.surface_radius_m),
-            perception: Perception::new(config.perception),
+            perception: Perception::new(config.perception, &grid),
+            observed: OccupancySurface::new(config.perception.surface_radius_m, grid),
             profile: Vec::new(),
             segments: Vec::new(),
             policy: Policy::new(&config),
@@ -144,7 +146,7 @@ impl Planner {
 
     /// Forgets everything seen, learned and driven, as after a change of the world, and the goal.
     pub fn reset(&mut self) {
-        self.perception.reset(self.config.perception);
+        self.perception.reset(self.config.perception, self.observed.grid());
         self.policy.get_mut().forget_terrain();
         self.goal = None;
     }

@@ -127,6 +127,15 @@ impl FrameChange {
         self.turn.rotate(place_m) + self.shift_m.truncate()
     }
 
+    /// A rotation into the old frame as one into the new.
+    pub(crate) fn rotation(&self, rotation: &DMat3) -> DMat3 {
+        DMat3::from_cols(
+            self.vector(rotation.x_axis),
+            self.vector(rotation.y_axis),
+            self.vector(rotation.z_axis),
+        )
+    }
+
     /// A vector in the new frame.
     pub(crate) fn vector(&self, vector: DVec3) -> DVec3 {
         self.turn.rotate(vector.truncate()).extend(vector.z)

@@ -5,6 +5,9 @@ use core::time::Duration;
 use glam::{DVec2, Vec3};
 
 use crate::config::PlannerConfig;
+use crate::sensor_model::SensorModel;
+use crate::skyline::beam_grid::BeamGrid;
+use crate::skyline::occupancy::OccupancySurface;
 use crate::terrain::elevation_window::ElevationWindow;
 
 /// Time between two scans.
@@ -23,6 +26,11 @@ pub(crate) fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> ElevationWindow
         }
     }
     ground
+}
+
+/// An empty surface of a VLP-16 within 7 m.
+pub(crate) fn vlp16_surface() -> OccupancySurface {
+    OccupancySurface::new(7.0, BeamGrid::new(&SensorModel::vlp16()))
 }
 
 /// Returns of an undulating skyline over the columns `from..to`.

@@ -11,7 +11,7 @@ use core::time::Duration;
 use glam::DVec2;
 use mapless::Pose;
 use mapless::{Goal, Planner, PlannerConfig, Status};
-use mapless_world::{Caster, DriveCommand, HeightField, Husky, HuskyConfig, Scan, SensorConfig, Vlp16};
+use mapless_world::{Caster, DriveCommand, HeightField, Lidar, Robot, RobotConfig, Scan, SensorConfig};
 
 thread_local! {
     /// Allocations of this thread; the test harness has threads of its own.
@@ -62,8 +62,8 @@ fn hills() -> HeightField {
 /// Drives for this many steps over the hills; returns the allocations of each step.
 fn drive(ticks: u64) -> Vec<usize> {
     let caster = Caster::new(hills());
-    let sensor = Vlp16::new(SensorConfig::default()).unwrap();
-    let mut husky = Husky::new(HuskyConfig::default(), caster.field(), DVec2::splat(8.0), 0.7).unwrap();
+    let sensor = Lidar::new(SensorConfig::default()).unwrap();
+    let mut husky = Robot::new(RobotConfig::default(), caster.field(), DVec2::splat(8.0), 0.7).unwrap();
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();
     planner.set_goal(Goal::at(DVec2::splat(33.0)));
     let mut scan = Scan::default();

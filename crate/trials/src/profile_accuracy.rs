@@ -9,7 +9,7 @@ use mapless::skyline::profile::Column;
 use mapless::{Goal, Planner, PlannerConfig, Pose, StopReason};
 use mapless_world::random::{key, uniform};
 use mapless_world::{
-    Caster, HuskyConfig, Scan, SensorConfig, SensorPose, Skyline, Vlp16, attitude_on, true_skyline,
+    Caster, Lidar, RobotConfig, Scan, SensorConfig, SensorPose, Skyline, attitude_on, true_skyline,
 };
 
 use crate::trial::TrialError;
@@ -55,15 +55,16 @@ pub struct ProfileAccuracy {
 pub fn profile_accuracy(
     caster: &Caster,
     sensor: &SensorConfig,
-    robot: &HuskyConfig,
+    robot: &RobotConfig,
     planner: &PlannerConfig,
     poses: usize,
     seed: u64,
 ) -> Result<ProfileAccuracy, TrialError> {
     let config = |reason: &dyn std::fmt::Display| TrialError::Config(reason.to_string());
-    let lidar = Vlp16::new(sensor.clone()).map_err(|e| config(&e))?;
+    let lidar = Lidar::new(sensor.clone()).map_err(|e| config(&e))?;
     let mut planner = Planner::new(planner.clone()).map_err(|e| config(&e))?;
     let radius_m = planner.config().perception.surface_radius_m;
+    let between_rad = [sensor.lowest_elevation_rad, sensor.highest_elevation_rad];
     let mut scan = Scan::default();
     let mut sums = Sums::default();
     // Bounds the search on ground without a safe pose.
@@ -84,8 +85,10 @@ pub fn profile_accuracy(
             sums.accuracy.no_perception += 1;
             continue;
         }
+        // The profile is seen along the robot's axes, however the sensor is mounted.
+        let upright = SensorPose { world_from_sensor: pose.world_from_robot(), ..sensor_pose };
         sums.add_pose(step.profile, attempt, |column| {
-            true_skyline(caster, &sensor_pose, radius_m, column_azimuth_rad(column))
+            true_skyline(caster, &upright, radius_m, column_azimuth_rad(column), between_rad)
         });
     }
     Ok(sums.finish())
@@ -94,7 +97,7 @@ pub fn profile_accuracy(
 fn random_pose(
     caster: &Caster,
     sensor: &SensorConfig,
-    robot: &HuskyConfig,
+    robot: &RobotConfig,
     margin_m: f64,
     key_of_pose: u64,
 ) -> Option<(Pose, SensorPose)> {

@@ -8,8 +8,8 @@ use mapless::gp::GpError;
 use mapless::skyline::surface::PredictedSurface;
 use mapless::{Command, Goal, Planner, PlannerConfig, Pose, Step};
 use mapless_world::{
-    Brush, Caster, DriveCommand, DriveError, HeightField, Husky, HuskyConfig, HuskyState, SampleRect, Scan,
-    SensorConfig, Vlp16,
+    Brush, Caster, DriveCommand, DriveError, HeightField, Lidar, Robot, RobotConfig, RobotState, SampleRect,
+    Scan, SensorConfig,
 };
 
 use crate::digest::TrajectoryDigest;
@@ -46,9 +46,9 @@ pub enum TrialError {
 pub struct Trial<N = Planner> {
     /// Shared by copies of the trial until one of them changes its ground.
     caster: Arc<Caster>,
-    sensor: Vlp16,
+    sensor: Lidar,
     scan: Scan,
-    husky: Husky,
+    husky: Robot,
     navigator: N,
     decision: Decision,
     start: StartPose,
@@ -163,7 +163,7 @@ impl<N: Navigator> Trial<N> {
         seed: u64,
     ) -> Result<Self, TrialError> {
         let sensor: SensorConfig = scenario.sensor.clone();
-        let sensor = Vlp16::new(sensor).map_err(|e| TrialError::Config(e.to_string()))?;
+        let sensor = Lidar::new(sensor).map_err(|e| TrialError::Config(e.to_string()))?;
         let husky = place(&field, scenario.robot.clone(), scenario.start)?;
         check_route(&field, &scenario.waypoints_m, scenario.goal_m)?;
         let mut trial = Self {
@@ -364,12 +364,12 @@ impl<N: Navigator> Trial<N> {
     }
 
     /// The sensor.
-    pub fn sensor(&self) -> &Vlp16 {
+    pub fn sensor(&self) -> &Lidar {
         &self.sensor
     }
 
     /// The robot's motion.
-    pub fn robot(&self) -> &HuskyState {
+    pub fn robot(&self) -> &RobotState {
         self.husky.state()
     }
 
@@ -454,8 +454,8 @@ impl<N: Navigator> Trial<N> {
     }
 }
 
-fn place(field: &HeightField, robot: HuskyConfig, start: StartPose) -> Result<Husky, TrialError> {
-    Husky::new(robot, field, start.position_m, start.heading_rad).map_err(|_| TrialError::OffTerrain {
+fn place(field: &HeightField, robot: RobotConfig, start: StartPose) -> Result<Robot, TrialError> {
+    Robot::new(robot, field, start.position_m, start.heading_rad).map_err(|_| TrialError::OffTerrain {
         what: "start",
         place_m: start.position_m,
         extent_m: field.extent_m(),
@@ -475,7 +475,7 @@ fn on_terrain(field: &HeightField, what: &'static str, place_m: DVec2) -> Result
     }
 }
 
-fn sample_of(husky: &Husky) -> Sample {
+fn sample_of(husky: &Robot) -> Sample {
     let state = husky.state();
     let position_m: DVec3 = husky.position();
     Sample {

@@ -1,7 +1,7 @@
 //! The attitude of a rigid body on four wheels on the ground.
 
 use crate::height_field::HeightField;
-use crate::husky_config::HuskyConfig;
+use crate::robot_config::RobotConfig;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Height and tilt of a body that rests on its four wheel contacts.
@@ -27,7 +27,7 @@ pub fn attitude_on(
     field: &HeightField,
     position: DVec2,
     yaw_rad: f64,
-    config: &HuskyConfig,
+    config: &RobotConfig,
 ) -> Option<Attitude> {
     let (sin_yaw, cos_yaw) = libm::sincos(yaw_rad);
     let mut attitude = Attitude::default();
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn signs_follow_the_conventions() {
-        let config = HuskyConfig::default();
+        let config = RobotConfig::default();
         let at = DVec2::new(5.0, 5.0);
         let uphill_east = plane(0.5, 0.0);
         let facing_east = attitude_on(&uphill_east, at, 0.0, &config).unwrap();
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn a_wheel_over_the_border_has_no_attitude() {
-        let config = HuskyConfig::default();
+        let config = RobotConfig::default();
         let field = plane(0.0, 0.0);
         assert!(attitude_on(&field, DVec2::new(0.3, 5.0), 0.0, &config).is_some());
         assert!(attitude_on(&field, DVec2::new(0.2, 5.0), 0.0, &config).is_none());
@@ -114,7 +114,7 @@ mod tests {
         fn on_a_plane_the_body_axes_lie_in_it(
             dzdx in -1.0..1.0f64, dzdy in -1.0..1.0f64, yaw_rad in -3.2..3.2f64,
         ) {
-            let attitude = attitude_on(&plane(dzdx, dzdy), DVec2::new(5.0, 5.0), yaw_rad, &HuskyConfig::default()).unwrap();
+            let attitude = attitude_on(&plane(dzdx, dzdy), DVec2::new(5.0, 5.0), yaw_rad, &RobotConfig::default()).unwrap();
             let rotation = world_from_body(yaw_rad, &attitude);
             let normal = DVec3::new(-dzdx, -dzdy, 1.0).normalize();
             // The samples are f32, so the plane is one to about a micrometre.

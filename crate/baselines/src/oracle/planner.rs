@@ -4,7 +4,7 @@ use super::{OracleConfig, PlanPose, shortest_path};
 use crate::RoutePlanner;
 use glam::DVec2;
 use mapless::Pose;
-use mapless_world::{HeightField, HuskyConfig};
+use mapless_world::{HeightField, RobotConfig};
 
 /// Knows the whole ground, and takes the shortest safe path over it.
 #[derive(Clone, Debug)]
@@ -12,7 +12,7 @@ pub struct Oracle {
     /// The ground.
     pub field: HeightField,
     /// The robot whose attitudes are checked.
-    pub robot: HuskyConfig,
+    pub robot: RobotConfig,
     /// Parameters of the search.
     pub config: OracleConfig,
 }

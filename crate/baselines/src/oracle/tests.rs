@@ -7,7 +7,7 @@ use mapless::Pose;
 use mapless::{Goal, PlannerConfig};
 use mapless_trials::Navigator as _;
 use mapless_world::generate::Difficulty;
-use mapless_world::{DriveCommand, Husky, attitude_on};
+use mapless_world::{DriveCommand, Robot, attitude_on};
 use proptest::prelude::*;
 
 /// A square of 40 m with a height for each place.
@@ -26,11 +26,11 @@ const PERIOD: Duration = Duration::from_millis(100);
 const GOAL_M: DVec2 = DVec2::new(35.0, 21.0);
 
 fn path(field: &HeightField) -> Result<OraclePath, OracleError> {
-    shortest_path(field, &HuskyConfig::default(), START, GOAL_M, &OracleConfig::default())
+    shortest_path(field, &RobotConfig::default(), START, GOAL_M, &OracleConfig::default())
 }
 
 fn within_limits(field: &HeightField, path: &OraclePath) -> bool {
-    let (robot, margin_rad) = (HuskyConfig::default(), OracleConfig::default().margin_rad);
+    let (robot, margin_rad) = (RobotConfig::default(), OracleConfig::default().margin_rad);
     path.poses.iter().all(|pose| {
         let attitude = attitude_on(field, pose.position_m, pose.yaw_rad, &robot).unwrap();
         attitude.roll_rad.abs() <= robot.roll_limit_rad - margin_rad
@@ -40,10 +40,10 @@ fn within_limits(field: &HeightField, path: &OraclePath) -> bool {
 
 /// Drives the path with the kinematic Husky; returns where it ended and its largest tilt utilisation.
 fn drive(field: &HeightField, start: PlanPose, goal_m: DVec2) -> (DVec2, f64) {
-    let robot = HuskyConfig::default();
+    let robot = RobotConfig::default();
     let oracle = Oracle { field: field.clone(), robot: robot.clone(), config: OracleConfig::default() };
     let mut driver = RouteNavigator::new(oracle, &PlannerConfig::default());
-    let mut husky = Husky::new(robot.clone(), field, start.position_m, start.yaw_rad).unwrap();
+    let mut husky = Robot::new(robot.clone(), field, start.position_m, start.yaw_rad).unwrap();
     let mut worst: f64 = 0.0;
     for _ in 0..3000 {
         let state = *husky.state();
@@ -148,7 +148,7 @@ fn without_a_way_there_is_no_path() {
 #[test]
 fn places_and_values_are_checked() {
     let field = ground(|_, _| 0.0);
-    let robot = HuskyConfig::default();
+    let robot = RobotConfig::default();
     let search = |start: PlanPose, goal_m, config: OracleConfig| {
         shortest_path(&field, &robot, start, goal_m, &config).unwrap_err()
     };
@@ -167,7 +167,7 @@ fn places_and_values_are_checked() {
     );
     let wide = OracleConfig { margin_rad: 0.6, ..ok };
     assert!(
-        search(START, GOAL_M, wide).to_string().starts_with("oracle.margin_rad = 0.6: expected a number")
+        search(START, GOAL_M, wide).to_string().starts_with("oracle.margin_rad = 0.6: expected less than")
     );
     let far = HeightField::new(3, 3, 1000.0, vec![0.0; 9]).unwrap();
     let error = shortest_path(&far, &robot, START, GOAL_M, &ok).unwrap_err();
@@ -179,7 +179,7 @@ fn a_goal_at_the_start_is_reached() {
     let field = ground(|_, _| 0.0);
     let goal_m = START.position_m + DVec2::new(0.1, 0.0);
     let config = OracleConfig::default();
-    let path = shortest_path(&field, &HuskyConfig::default(), START, goal_m, &config).unwrap();
+    let path = shortest_path(&field, &RobotConfig::default(), START, goal_m, &config).unwrap();
     assert_eq!((path.poses, path.length_m), (vec![START], 0.0));
 }
 
@@ -236,7 +236,7 @@ proptest! {
         places in prop::collection::vec((0.0..40.0f64, 0.0..40.0f64, -3.2..3.2f64), 200),
     ) {
         let field = hilly(&hills);
-        let robot = HuskyConfig::default();
+        let robot = RobotConfig::default();
         let safe_poses = SafePoses::new(&field, &robot, &OracleConfig::default()).unwrap();
         for (x, y, yaw_rad) in places {
             let at_m = DVec2::new(x, y);

@@ -3,7 +3,7 @@
 use comfy_table::{CellAlignment, Table, presets};
 use mapless_baselines::Task;
 use mapless_world::generate::BANK_REACH_M;
-use mapless_world::{HuskyConfig, SlopeDistribution};
+use mapless_world::{RobotConfig, SlopeDistribution};
 
 /// A measure of a task: its name, its unit and its decimals in the table.
 const MEASURES: [(&str, &str, usize); 9] = [
@@ -30,7 +30,7 @@ impl Summary {
     /// Measures a task, without the bank around its terrain.
     pub(super) fn add(&mut self, task: &Task) {
         let Some(slopes) = SlopeDistribution::of(&task.terrain.field, BANK_REACH_M) else { return };
-        let robot = HuskyConfig::default();
+        let robot = RobotConfig::default();
         let (straight_m, path_m) = (task.straight_m(), task.path.length_m);
         let measured = [
             slopes.relief_m,

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use glam::DVec2;
 use mapless::skyline::occupancy::OccupancySurface;
-use mapless::skyline::surface::{PredictedSurface, ROWS};
+use mapless::skyline::surface::PredictedSurface;
 
 use super::directions::{LEFT, Panel, SIZE, grey};
 use mapless_figures::page::{self, ColourBar};
@@ -36,14 +36,18 @@ impl OccupancyPicture<'_> {
 
         // Half a degree each: a ring reaches a degree to either side of its elevation, half of it beyond the
         // panel's edge.
-        panels[0].paint(&mut svg, 2 * ROWS, |column, row| {
+        panels[0].paint(&mut svg, 2 * self.predicted.rows(), |column, row| {
             let ring = (2 * row + 3) / 8;
             let cell = self.observed.column(column).iter().find(|cell| cell.ring == ring);
             cell.map_or(UNSEEN, |cell| colour(cell.occupancy_m))
         })?;
         let mean_m = &self.predicted.mean_m;
-        panels[1].paint(&mut svg, ROWS, |column, row| colour(mean_m[column * ROWS + row]))?;
-        panels[2].paint(&mut svg, ROWS, |column, row| grey(self.predicted.variance_column(column)[row]))?;
+        panels[1].paint(&mut svg, self.predicted.rows(), |column, row| {
+            colour(mean_m[column * self.predicted.rows() + row])
+        })?;
+        panels[2].paint(&mut svg, self.predicted.rows(), |column, row| {
+            grey(self.predicted.variance_column(column)[row])
+        })?;
 
         let titles = [
             format!(

@@ -9,7 +9,7 @@ use mapless::decision::subgoals::Subgoal;
 use mapless::skyline::occupancy::{COLUMNS, column_azimuth_rad};
 use mapless::skyline::profile::Column;
 use mapless::skyline::segments::{Segment, Verdict};
-use mapless::skyline::surface::{PredictedSurface, ROWS};
+use mapless::skyline::surface::PredictedSurface;
 
 use super::directions::{LEFT, Panel, SIZE, grey};
 use mapless_figures::marks;
@@ -41,7 +41,9 @@ impl VarianceImage<'_> {
             svg,
             r##"<pattern id="unknown" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><rect width="7" height="7" fill="#fff"/><path stroke="#8a8a8a" stroke-width="2" d="M0 0V7"/></pattern>"##
         )?;
-        PANEL.paint(&mut svg, ROWS, |column, row| grey(self.predicted.variance_column(column)[row]))?;
+        PANEL.paint(&mut svg, self.predicted.rows(), |column, row| {
+            grey(self.predicted.variance_column(column)[row])
+        })?;
         for segment in self.step.segments {
             area(&mut svg, segment)?;
         }

@@ -31,6 +31,8 @@ const LEARN_SPACING_M: f64 = 0.5;
 const LEAST_BACKTRACK_M: f64 = 0.3;
 /// Share of the slope costs that counts beyond the detour budget.
 const OVER_BUDGET_SHARE: f64 = 0.25;
+/// Under the robot the ground is taken for known at places no farther apart than this.
+const WHEEL_GROUND_M: f64 = 0.35;
 /// A target that the robot cannot reach, and the places around it, get this much added to their cost-to-go.
 const UNREACHABLE_PENALTY_M: f64 = 7.0;
 const UNREACHABLE_HALF_SIDE_M: f64 = 1.0;
@@ -77,9 +79,12 @@ impl ForecastPolicy {
 
     /// Sets the cost of slopes, on paths and in the choice: as configured, or less beyond the detour budget.
     fn scale_slope_cost(&mut self, within_budget: bool) {
-        let StateLatticeConfig { escape_margin_rad, impatient_margin_rad, .. } = self.lattice_config;
-        let (share, least_margin_rad) =
-            if within_budget { (1.0, escape_margin_rad) } else { (OVER_BUDGET_SHARE, impatient_margin_rad) };
+        let StateLatticeConfig { recovery_margin_rad, over_budget_margin_rad, .. } = self.lattice_config;
+        let (share, least_margin_rad) = if within_budget {
+            (1.0, recovery_margin_rad)
+        } else {
+            (OVER_BUDGET_SHARE, over_budget_margin_rad)
+        };
         self.lattice.scale_slope_cost(share);
         self.lattice.keep_margin(least_margin_rad);
         self.weights.steepness_weight = share * self.configured.steepness_weight;
@@ -289,19 +294,23 @@ impl SubgoalPolicy for ForecastPolicy {
         self.window.advance(elapsed);
         let world_from_robot = pose.world_from_robot();
         let sensor = pose.position_m + world_from_robot * config.sensor.offset_m();
-        self.window.looked_from(sensor, world_from_robot.z_axis);
+        let mount = config.sensor.robot_from_sensor();
+        let world_from_sensor = mount.map_or(world_from_robot, |mount| world_from_robot * mount);
+        self.window.looked_from(sensor, world_from_sensor);
         let radius_squared = config.elevation_window.radius_m * config.elevation_window.radius_m;
         for point in points_m {
             let point = point.as_dvec3();
             // Also skips NaN.
             if point.length_squared() <= radius_squared {
-                self.window.add(sensor + world_from_robot * point);
+                self.window.add(sensor + world_from_sensor * point);
             }
         }
         let half_width = 0.5 * config.robot.width_m;
-        for x in [-half_width, 0.0, half_width] {
-            for y in [-half_width, 0.0, half_width] {
-                self.window.add(pose.position_m + world_from_robot * DVec3::new(x, y, 0.0));
+        let parts = (half_width / WHEEL_GROUND_M).ceil() as i32;
+        let place = |part: i32| half_width * (f64::from(part) / f64::from(parts));
+        for x in -parts..=parts {
+            for y in -parts..=parts {
+                self.window.add(pose.position_m + world_from_robot * DVec3::new(place(x), place(y), 0.0));
             }
         }
     }

@@ -7,7 +7,6 @@ use crate::math::angle::wrap_rad;
 use crate::pose::Pose;
 use crate::route::forecast::Forecast;
 use crate::sensor_model::SensorModel;
-use crate::skyline::occupancy::LOWEST_ELEVATION_RAD;
 use crate::skyline::segments::{Segment, Verdict};
 
 /// The weighted terms of the cost J of one subgoal.
@@ -95,7 +94,7 @@ pub(crate) fn on_segments<'a>(
     let carrying = segments.iter().enumerate();
     let carrying = carrying.filter(move |(_, segment)| carries_subgoals(segment, width_m, &config.segments));
     carrying.flat_map(move |(index, segment)| {
-        let elevation_rad = segment.elevation_rad.unwrap_or(LOWEST_ELEVATION_RAD);
+        let elevation_rad = segment.elevation_rad.unwrap_or(config.sensor.lowest_elevation_rad);
         spread_azimuths(segment, width_m, &config.segments).map(move |azimuth_rad| {
             let skyline_m = world_position_m(pose, &config.sensor, azimuth_rad, elevation_rad, radius_m);
             Subgoal {

@@ -6,7 +6,8 @@ use crate::gp::jitter::GpError;
 use crate::gp::kernel::RationalQuadratic;
 
 /// Hyperparameters of a regression: kernel and noise.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hyperparameters {
     /// The kernel: signal variance, length-scales and alpha.
     pub kernel: RationalQuadratic,

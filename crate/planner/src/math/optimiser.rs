@@ -9,8 +9,8 @@ mod adam;
 mod lbfgs;
 
 /// Why a maximisation ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Stop {
     /// The slope inside the box, or the last gain, is negligible.
     Converged,
@@ -22,14 +22,14 @@ pub enum Stop {
     IllConditioned,
 }
 
+mapless_parameters::choices! {
 /// The method of maximisation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Optimiser {
+    pub enum Optimiser {
     /// Limited-memory BFGS with an active set of bounds and a backtracking search along the projected path.
-    Lbfgs,
+        Lbfgs = "lbfgs",
     /// Adam (Kingma and Ba 2015), whose rate is halved when it stalls; the best place it visited counts.
-    Adam,
+        Adam = "adam",
+    }
 }
 
 /// Lowest and highest values of each coordinate.

@@ -19,13 +19,12 @@ use crate::gp::jitter::{GpError, with_rising_jitter};
 use crate::math::cholesky::{NotPositiveDefinite, cholesky};
 use crate::math::linalg;
 use crate::math::panels::{self, Row, WIDTH};
-use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface, RING_STEP_RAD, RINGS};
-use crate::skyline::surface::{
-    REACH_LENGTH_SCALES, ROW_STEP_RAD, ROWS, ROWS_PER_RING, SECTOR_COLUMNS, SECTORS,
-};
+use crate::skyline::beam_grid::{BeamGrid, RING_STEP_RAD, ROWS_PER_RING};
+use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface};
+use crate::skyline::surface::{REACH_LENGTH_SCALES, ROW_STEP_RAD, SECTOR_COLUMNS, SECTORS};
 
 /// The cells of one column that the process is to be fitted to, one bit for each ring.
-pub(crate) type RingMask = u16;
+pub(crate) type RingMask = u64;
 
 /// The kernel on the lattice.
 #[derive(Clone, Debug)]
@@ -64,6 +63,7 @@ pub(crate) struct Query {
 /// The process and its workspace.
 #[derive(Clone, Debug)]
 pub(crate) struct BeamGp {
+    rings: usize,
     covariances: Covariances,
     noise_variance: f64,
     signal_variance: f64,
@@ -99,20 +99,22 @@ pub(crate) struct BeamGp {
 }
 
 impl BeamGp {
-    pub(crate) fn new(config: &PerceptionConfig) -> Self {
+    pub(crate) fn new(config: &PerceptionConfig, grid: &BeamGrid) -> Self {
+        let rings = grid.rings();
         let [azimuth_scale, elevation_scale] = config.kernel.length_scales_rad;
         let spacing = config.inducing_spacing_length_scales;
         // A stride that does not divide the circle would leave a seam.
         let widest = ((spacing * azimuth_scale / COLUMN_STEP_RAD) as usize).clamp(1, COLUMNS);
         let stride_columns = (1..=widest).rev().find(|s| COLUMNS.is_multiple_of(*s)).unwrap_or(1);
-        let stride_rings = ((spacing * elevation_scale / RING_STEP_RAD) as usize).clamp(1, RINGS);
+        let stride_rings = ((spacing * elevation_scale / RING_STEP_RAD) as usize).clamp(1, rings);
         let reach = (REACH_LENGTH_SCALES * azimuth_scale / COLUMN_STEP_RAD) as usize;
         // Beyond half a turn a window would meet itself.
         let margin_columns = reach.min((COLUMNS - SECTOR_COLUMNS) / 2);
         let positions = (COLUMNS + 2 * margin_columns) / stride_columns + 1;
-        let most_inputs = positions * (RINGS / stride_rings + 1);
+        let most_inputs = positions * (rings / stride_rings + 1);
         Self {
-            covariances: Covariances::new(config, ROWS + ROWS_PER_RING * stride_rings),
+            rings,
+            covariances: Covariances::new(config, grid.rows() + ROWS_PER_RING * stride_rings),
             noise_variance: config.noise_variance_m2,
             signal_variance: config.kernel.variance,
             stride_columns,
@@ -180,7 +182,7 @@ impl BeamGp {
             let near = middle - stride / 2..middle + (stride + 1) / 2;
             let rings = near.fold(0, |rings, unrolled| rings | masks[self.column_at(unrolled)]);
             let mut last_row = None;
-            for ring in (0..RINGS).filter(|ring| rings >> ring & 1 == 1) {
+            for ring in (0..self.rings).filter(|ring| rings >> ring & 1 == 1) {
                 let nearest = (ring + self.stride_rings / 2) / self.stride_rings;
                 let row = ROWS_PER_RING * self.stride_rings * nearest;
                 if last_row != Some(row) {
@@ -383,13 +385,13 @@ mod tests {
     use crate::gp::sparse::SparseGp;
     use crate::skyline::edge_tracer::all_cells;
     use crate::skyline::occupancy::column_azimuth_rad;
-    use crate::skyline::surface::row_elevation_rad;
-    use crate::testing::undulating_scan;
+    use crate::skyline::surface::row_rad;
+    use crate::testing::{undulating_scan, vlp16_surface};
     use glam::DVec2;
 
     proptest::proptest! {
         #[test]
-        fn the_least_rotation_is_the_smallest(masks in proptest::collection::vec(0..3_u16, 1..12)) {
+        fn the_least_rotation_is_the_smallest(masks in proptest::collection::vec(0..3_u64, 1..12)) {
             let rotated = |by: usize| {
                 let mut rotated = masks.clone();
                 rotated.rotate_left(by);
@@ -403,16 +405,16 @@ mod tests {
     #[test]
     fn the_lattice_gives_the_posterior_of_the_dense_process() {
         // Half the circle, so that the process over the whole surface has no seam.
-        let mut observed = OccupancySurface::new(7.0);
+        let mut observed = vlp16_surface();
         observed.project(&undulating_scan(90, 270));
         let config = PlannerConfig::default().perception;
-        let mut gp = BeamGp::new(&config);
+        let mut gp = BeamGp::new(&config, observed.grid());
         gp.observe(&observed, &all_cells(&observed));
 
         let inducing: Vec<DVec2> = (0..gp.inducing_inputs())
             .map(|i| {
                 let column = gp.column_at((gp.positions[i] * gp.stride_columns) as i64);
-                DVec2::new(column_azimuth_rad(column), row_elevation_rad(gp.rows[i]))
+                DVec2::new(column_azimuth_rad(column), row_rad(gp.rows[i]))
             })
             .collect();
         let inputs: Vec<DVec2> = observed.cells().iter().map(|c| c.direction_rad()).collect();
@@ -426,14 +428,14 @@ mod tests {
                 continue;
             }
             let queries: Vec<Query> = (0..SECTOR_COLUMNS)
-                .flat_map(|column| (0..ROWS).map(move |row| Query { column, row }))
+                .flat_map(|column| (0..31).map(move |row| Query { column, row }))
                 .collect();
             let directions: Vec<DVec2> = queries
                 .iter()
                 .map(|q| {
                     let azimuth =
                         column_azimuth_rad((gp.origin + sector * SECTOR_COLUMNS + q.column) % COLUMNS);
-                    DVec2::new(azimuth, row_elevation_rad(q.row))
+                    DVec2::new(azimuth, row_rad(q.row))
                 })
                 .collect();
             let (mut mean, mut variance) = (vec![0.0; queries.len()], vec![0.0; queries.len()]);

@@ -7,11 +7,10 @@
 use crate::config::PerceptionConfig;
 use crate::gp::jitter::GpError;
 use crate::skyline::beam_gp::{BeamGp, Query, RingMask};
-use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface, RING_STEP_RAD, RINGS};
+use crate::skyline::beam_grid::{BeamGrid, RING_STEP_RAD, ROWS_PER_RING};
+use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface};
 use crate::skyline::profile::{Column, ElevationProfile};
-use crate::skyline::surface::{
-    GpDiagnostics, REACH_LENGTH_SCALES, ROW_STEP_RAD, ROWS, ROWS_PER_RING, SECTORS, row_elevation_rad,
-};
+use crate::skyline::surface::{GpDiagnostics, REACH_LENGTH_SCALES, SECTOR_COLUMNS, SECTORS};
 
 /// Rows of a column looked at together.
 const ROWS_AT_ONCE: usize = 4;
@@ -35,17 +34,20 @@ pub(crate) struct EdgeTracer {
     searches: Vec<Search>,
     queries: Vec<Query>,
     variances: Vec<f64>,
+    /// Variances of the sector's rows that were looked at, column by column.
+    seen: Vec<f64>,
 }
 
 impl EdgeTracer {
-    pub(crate) fn new(config: &PerceptionConfig) -> Self {
+    pub(crate) fn new(config: &PerceptionConfig, grid: &BeamGrid) -> Self {
+        let rings = grid.rings();
         let [azimuth_scale, elevation_scale] = config.kernel.length_scales_rad;
         let most = REACH_LENGTH_SCALES * azimuth_scale / COLUMN_STEP_RAD;
         let reach_rings = (0..=(most as usize).min(COLUMNS / 2))
             .map(|columns| {
                 let across = COLUMN_STEP_RAD * columns as f64 / azimuth_scale;
                 let along = (REACH_LENGTH_SCALES * REACH_LENGTH_SCALES - across * across).max(0.0).sqrt();
-                ((along * elevation_scale / RING_STEP_RAD).ceil() as usize).min(RINGS)
+                ((along * elevation_scale / RING_STEP_RAD).ceil() as usize).min(rings)
             })
             .collect();
         Self {
@@ -55,6 +57,7 @@ impl EdgeTracer {
             searches: Vec::new(),
             queries: Vec::new(),
             variances: Vec::new(),
+            seen: vec![0.0; SECTOR_COLUMNS * grid.rows()],
         }
     }
 
@@ -78,20 +81,22 @@ impl EdgeTracer {
             self.searches.clear();
             for (in_sector, column) in gp.sector_columns(sector).enumerate() {
                 if let Some(cell) = observed.column(column).last() {
-                    self.searches.push(Search::new(column, in_sector, ROWS_PER_RING * cell.ring));
+                    let rows = observed.grid().rows_in_view(column, cell.ring);
+                    self.searches.push(Search::new(column, in_sector, ROWS_PER_RING * cell.ring, rows));
                 }
             }
             if self.searches.is_empty() || !gp.enter(sector)? {
                 continue;
             }
             diagnostics.jitter = diagnostics.jitter.max(gp.jitter());
-            self.search_sector(sector, gp, profile);
+            self.search_sector(sector, gp, observed.grid(), profile);
         }
         Ok(diagnostics)
     }
 
     /// Looks at a few rows of every column that is not finished, until all are.
-    fn search_sector(&mut self, sector: usize, gp: &mut BeamGp, profile: &mut [Column]) {
+    fn search_sector(&mut self, sector: usize, gp: &mut BeamGp, grid: &BeamGrid, profile: &mut [Column]) {
+        let all_rows = grid.rows();
         while !self.searches.is_empty() {
             self.queries.clear();
             for search in &self.searches {
@@ -99,14 +104,13 @@ impl EdgeTracer {
                 self.queries.extend(search.next_rows().map(|row| Query { column, row }));
             }
             gp.relative_variances(sector, &self.queries, &mut self.variances);
-            let mut seen = self.queries.iter().zip(&self.variances);
-            let threshold = self.threshold;
+            for (query, &variance) in self.queries.iter().zip(&self.variances) {
+                self.seen[query.column * all_rows + query.row] = variance;
+            }
+            let (seen, threshold) = (&self.seen, self.threshold);
             self.searches.retain_mut(|search| {
-                let rows = search.next_rows().len();
-                for (query, &variance) in seen.by_ref().take(rows) {
-                    search.variances[query.row] = variance;
-                }
-                match search.advance(threshold) {
+                let variances = &seen[search.in_sector * all_rows..][..all_rows];
+                match search.advance(variances, threshold, grid) {
                     Some(found) => {
                         profile[search.column] = found;
                         false
@@ -121,12 +125,13 @@ impl EdgeTracer {
     fn mark_cells(&mut self, observed: &OccupancySurface) {
         self.masks.clear();
         self.masks.resize(COLUMNS, 0);
+        let rings = observed.grid().rings();
         for column in 0..COLUMNS {
             let Some(highest) = observed.column(column).last().map(|cell| cell.ring) else { continue };
             for (apart, &reach) in self.reach_rings.iter().enumerate() {
-                let rings = rings_between(highest.saturating_sub(reach), (highest + reach).min(RINGS - 1));
-                self.masks[(column + apart) % COLUMNS] |= rings;
-                self.masks[(column + COLUMNS - apart) % COLUMNS] |= rings;
+                let near = rings_between(highest.saturating_sub(reach), (highest + reach).min(rings - 1));
+                self.masks[(column + apart) % COLUMNS] |= near;
+                self.masks[(column + COLUMNS - apart) % COLUMNS] |= near;
             }
         }
         for (column, mask) in self.masks.iter_mut().enumerate() {
@@ -137,7 +142,7 @@ impl EdgeTracer {
 
 /// The rings from `low` to `high`, both included.
 fn rings_between(low: usize, high: usize) -> RingMask {
-    (RingMask::MAX << low) & (RingMask::MAX >> (RINGS - 1 - high))
+    (RingMask::MAX << low) & (RingMask::MAX >> (RingMask::BITS as usize - 1 - high))
 }
 
 /// The search for the edge in one column: up from its highest return to the first free row, or down to the first occupied one.
@@ -147,39 +152,46 @@ struct Search {
     /// The column within the sector.
     in_sector: usize,
     start: usize,
-    /// Rows looked at, `begin..end`, with their variances.
+    /// Rows in view.
+    rows: usize,
+    /// Rows looked at, `begin..end`.
     begin: usize,
     end: usize,
     next: (usize, usize),
-    variances: [f64; ROWS],
 }
 
 impl Search {
-    fn new(column: usize, in_sector: usize, start: usize) -> Self {
-        let next = (start, (start + ROWS_AT_ONCE).min(ROWS));
-        Self { column, in_sector, start, begin: start, end: start, next, variances: [1.0; ROWS] }
+    fn new(column: usize, in_sector: usize, start: usize, rows: usize) -> Self {
+        let next = (start, (start + ROWS_AT_ONCE).min(rows));
+        Self { column, in_sector, start, rows, begin: start, end: start, next }
     }
 
     fn next_rows(&self) -> core::ops::Range<usize> {
         self.next.0..self.next.1
     }
 
-    /// Takes note of the rows just looked at; gives the answer, or decides which rows come next.
-    fn advance(&mut self, threshold: f64) -> Option<Column> {
+    /// Takes note of the rows just looked at, which are among `variances` of the column; gives the answer, or decides which rows come next.
+    fn advance(&mut self, variances: &[f64], threshold: f64, grid: &BeamGrid) -> Option<Column> {
         self.begin = self.begin.min(self.next.0);
         self.end = self.end.max(self.next.1);
-        let occupied = |row: &usize| self.variances[*row] < threshold;
+        let occupied = |row: &usize| variances[*row] < threshold;
+        // Between an occupied row and the free one above it.
+        let edge = |row: usize| {
+            let (below, above) = (variances[row], variances[row + 1]);
+            let share = (threshold - below) / (above - below);
+            Column::Ground { elevation_rad: grid.row_elevation_rad(row) + share * grid.row_step_rad() }
+        };
         if occupied(&self.start) {
             if let Some(free) = (self.start..self.end).find(|row| !occupied(row)) {
-                return Some(self.edge(free - 1, threshold));
+                return Some(edge(free - 1));
             }
-            if self.end == ROWS {
-                return Some(Column::Wall);
+            if self.end == self.rows {
+                return Some(grid.out_of_view(self.rows));
             }
-            self.next = (self.end, (self.end + ROWS_AT_ONCE).min(ROWS));
+            self.next = (self.end, (self.end + ROWS_AT_ONCE).min(self.rows));
         } else {
             if let Some(highest) = (self.begin..self.start).rev().find(occupied) {
-                return Some(self.edge(highest, threshold));
+                return Some(edge(highest));
             }
             if self.begin == 0 {
                 return Some(Column::Unknown);
@@ -187,13 +199,6 @@ impl Search {
             self.next = (self.begin.saturating_sub(ROWS_AT_ONCE), self.begin);
         }
         None
-    }
-
-    /// The edge between an occupied row and the free one above it.
-    fn edge(&self, row: usize, threshold: f64) -> Column {
-        let (below, above) = (self.variances[row], self.variances[row + 1]);
-        let share = (threshold - below) / (above - below);
-        Column::Ground { elevation_rad: row_elevation_rad(row) + share * ROW_STEP_RAD }
     }
 }
 
@@ -203,14 +208,14 @@ mod tests {
     use crate::config::PlannerConfig;
     use crate::skyline::perception::Perception;
     use crate::skyline::profile::read_profile;
-    use crate::testing::undulating_scan;
+    use crate::testing::{undulating_scan, vlp16_surface};
     use glam::Vec3;
 
     fn trace(points_m: &[Vec3]) -> (ElevationProfile, ElevationProfile) {
         let config = PlannerConfig::default().perception;
-        let mut observed = OccupancySurface::new(7.0);
+        let mut observed = vlp16_surface();
         observed.project(points_m);
-        let mut perception = Perception::new(config);
+        let mut perception = Perception::new(config, observed.grid());
         let (mut traced, mut read) = (Vec::new(), Vec::new());
         perception.profile(&observed, &mut traced).unwrap();
         let surface = perception.surface(&observed).unwrap();

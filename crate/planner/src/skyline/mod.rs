@@ -2,6 +2,7 @@
 //! segments of that edge (paper, sections V-A and V-B).
 
 pub(crate) mod beam_gp;
+pub mod beam_grid;
 pub(crate) mod edge_tracer;
 pub(crate) mod inducing;
 pub mod occupancy;

@@ -1,8 +1,8 @@
 //! The truncated occupancy surface (paper, section V-A): every return within r_oc becomes a point (α, β) with
 //! occupancy r_oc - r.
 //!
-//! The surface has one cell for each degree of azimuth and each of the sixteen VLP-16 rings; a cell's occupancy is the
-//! mean over its returns, so that every return of a full 28 800-beam scan counts.
+//! The surface has one cell for each degree of azimuth and each row of the sensor's [`BeamGrid`]; a cell's occupancy is the
+//! mean over its returns, so that every return of a scan counts, in whatever order they come.
 
 use core::f64::consts::{PI, TAU};
 use core::ops::Range;
@@ -10,18 +10,16 @@ use core::ops::Range;
 use glam::{DVec2, Vec3};
 
 use crate::math::elementary::floor;
+use crate::skyline::beam_grid::{BeamGrid, RING_STEP_RAD};
 
 /// Columns of the surfaces, one degree each; column `c` is centred on azimuth -π + c · 1°.
 pub const COLUMNS: usize = 360;
-/// Rings of the sensor; ring `r` is centred on elevation -15° + r · 2°.
-pub const RINGS: usize = 16;
-/// Elevation of the lowest ring, and minus that of the highest.
-pub const LOWEST_ELEVATION_RAD: f64 = -PI / 12.0;
 
 pub(crate) const COLUMN_STEP_RAD: f64 = TAU / COLUMNS as f64;
-pub(crate) const RING_STEP_RAD: f64 = PI / 90.0;
+/// Where the Gaussian process sees the lowest row, whatever its elevation: to the process only differences matter.
+pub(crate) const LOWEST_ROW_RAD: f64 = -PI / 12.0;
 
-/// Azimuth of the centre of a column, in the sensor frame, in [-π, π).
+/// Azimuth of the centre of a column, around the sensor's origin from the robot's x axis, in [-π, π).
 pub fn column_azimuth_rad(column: usize) -> f64 {
     -PI + COLUMN_STEP_RAD * column as f64
 }
@@ -36,16 +34,17 @@ pub fn column_of(azimuth_rad: f64) -> usize {
 pub struct Cell {
     /// Azimuth column, 0 to 359.
     pub column: usize,
-    /// Ring, 0 (-15°) to 15 (+15°).
+    /// Row of the grid, the lowest is 0.
     pub ring: usize,
     /// Mean occupancy r_oc - r over the cell's returns, metres, at least 0.
     pub occupancy_m: f64,
 }
 
 impl Cell {
-    /// (azimuth, elevation) of the cell's centre, radians.
+    /// (azimuth, elevation) of the cell's centre where the Gaussian process sees it, radians: as if rows were 2° apart and the lowest
+    /// at -15°, as they are with a VLP-16.
     pub fn direction_rad(&self) -> DVec2 {
-        DVec2::new(column_azimuth_rad(self.column), LOWEST_ELEVATION_RAD + RING_STEP_RAD * self.ring as f64)
+        DVec2::new(column_azimuth_rad(self.column), LOWEST_ROW_RAD + RING_STEP_RAD * self.ring as f64)
     }
 }
 
@@ -53,6 +52,7 @@ impl Cell {
 #[derive(Clone, Debug)]
 pub struct OccupancySurface {
     radius_m: f64,
+    grid: BeamGrid,
     sums_m: Vec<f64>,
     counts: Vec<u32>,
     cells: Vec<Cell>,
@@ -61,35 +61,34 @@ pub struct OccupancySurface {
 
 impl OccupancySurface {
     /// An empty surface of radius r_oc.
-    pub fn new(radius_m: f64) -> Self {
+    pub fn new(radius_m: f64, grid: BeamGrid) -> Self {
+        let cells = COLUMNS * grid.rings();
         Self {
             radius_m,
-            sums_m: vec![0.0; COLUMNS * RINGS],
-            counts: vec![0; COLUMNS * RINGS],
-            cells: Vec::with_capacity(COLUMNS * RINGS),
+            grid,
+            sums_m: vec![0.0; cells],
+            counts: vec![0; cells],
+            cells: Vec::with_capacity(cells),
             column_starts: vec![0; COLUMNS + 1],
         }
     }
 
-    /// Projects a scan: points in the sensor frame, metres. Points beyond r_oc, at the origin, outside the sensor's
-    /// ±16° of elevation or not finite do not belong to the surface and are passed over.
+    /// Projects a scan: points in the sensor frame, metres, in any order. Points beyond r_oc, at the origin, outside the
+    /// grid's elevations or not finite do not belong to the surface and are passed over.
     pub fn project(&mut self, points_m: &[Vec3]) {
         self.sums_m.fill(0.0);
         self.counts.fill(0);
         let radius_squared = self.radius_m * self.radius_m;
         for point in points_m {
-            let point = point.as_dvec3();
+            let point = self.grid.along_robot(point.as_dvec3());
             let range_squared = point.length_squared();
             if !(range_squared > 0.0 && range_squared <= radius_squared) {
                 continue;
             }
             let plan = (point.x * point.x + point.y * point.y).sqrt();
             let elevation = libm::atan2(point.z, plan);
-            let ring = floor((elevation - LOWEST_ELEVATION_RAD) / RING_STEP_RAD + 0.5);
-            if !(0..RINGS as i32).contains(&ring) {
-                continue;
-            }
-            let index = column_of(libm::atan2(point.y, point.x)) * RINGS + ring as usize;
+            let Some(ring) = self.grid.ring_of(elevation) else { continue };
+            let index = column_of(libm::atan2(point.y, point.x)) * self.grid.rings() + ring;
             self.sums_m[index] += self.radius_m - range_squared.sqrt();
             self.counts[index] += 1;
         }
@@ -100,8 +99,8 @@ impl OccupancySurface {
         self.cells.clear();
         for column in 0..COLUMNS {
             self.column_starts[column] = self.cells.len();
-            for ring in 0..RINGS {
-                let index = column * RINGS + ring;
+            for ring in 0..self.grid.rings() {
+                let index = column * self.grid.rings() + ring;
                 if self.counts[index] > 0 {
                     let occupancy_m = self.sums_m[index] / f64::from(self.counts[index]);
                     self.cells.push(Cell { column, ring, occupancy_m });
@@ -114,6 +113,16 @@ impl OccupancySurface {
     /// r_oc.
     pub fn radius_m(&self) -> f64 {
         self.radius_m
+    }
+
+    /// The grid that it is gathered on.
+    pub fn grid(&self) -> &BeamGrid {
+        &self.grid
+    }
+
+    /// Rows of the grid.
+    pub fn rings(&self) -> usize {
+        self.grid.rings()
     }
 
     /// The occupied cells, by column, then by ring.
@@ -135,6 +144,11 @@ impl OccupancySurface {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sensor_model::SensorModel;
+
+    fn surface() -> OccupancySurface {
+        OccupancySurface::new(7.0, BeamGrid::new(&SensorModel::vlp16()))
+    }
 
     fn beam(azimuth_deg: f64, elevation_deg: f64, range_m: f64) -> Vec3 {
         let (sin_a, cos_a) = libm::sincos(azimuth_deg.to_radians());
@@ -148,7 +162,7 @@ mod tests {
 
     #[test]
     fn returns_of_a_cell_are_averaged_and_far_ones_left_out() {
-        let mut surface = OccupancySurface::new(7.0);
+        let mut surface = surface();
         surface.project(&[
             beam(0.2, -11.0, 4.0),
             beam(-0.2, -11.0, 5.0),
@@ -166,7 +180,7 @@ mod tests {
 
     #[test]
     fn the_seam_falls_inside_column_zero() {
-        let mut surface = OccupancySurface::new(7.0);
+        let mut surface = surface();
         surface.project(&[beam(179.8, -1.0, 3.0), beam(-179.8, -1.0, 3.0), beam(180.0, -1.0, 3.0)]);
         assert_eq!(surface.cells().len(), 1);
         assert_eq!(surface.cells()[0].column, 0);
@@ -174,13 +188,33 @@ mod tests {
 
     #[test]
     fn every_vlp16_beam_has_its_cell_and_a_cell_has_five() {
-        let mut surface = OccupancySurface::new(7.0);
+        let mut surface = surface();
         let points: Vec<Vec3> = (0..16)
             .flat_map(|ring| (0..1800).map(move |k| (ring, k)))
             .map(|(ring, k)| beam(-180.0 + 0.2 * f64::from(k), -15.0 + 2.0 * f64::from(ring), 3.0))
             .collect();
         surface.project(&points);
-        assert_eq!(surface.cells().len(), COLUMNS * RINGS);
+        assert_eq!(surface.cells().len(), COLUMNS * 16);
         assert!(surface.counts.iter().all(|&count| count == 5));
+    }
+
+    #[test]
+    fn a_turned_mount_shows_the_ground_where_the_robot_has_it() {
+        let level = SensorModel::vlp16();
+        let mount = SensorModel { roll_rad: 0.1, pitch_rad: -0.2, yaw_rad: 1.0, ..level };
+        let sensor_from_robot = mount.robot_from_sensor().unwrap().transpose();
+        let points = [beam(40.0, -11.0, 4.0), beam(-100.0, -3.0, 5.0)];
+        let mut upright = surface();
+        upright.project(&points);
+        let mut turned = OccupancySurface::new(7.0, BeamGrid::new(&mount));
+        turned.project(&points.map(|point| (sensor_from_robot * point.as_dvec3()).as_vec3()));
+        let elevation_rad =
+            |surface: &OccupancySurface, cell: &Cell| surface.grid().row_elevation_rad(2 * cell.ring);
+        assert_eq!(turned.cells().len(), 2);
+        for (a, b) in upright.cells().iter().zip(turned.cells()) {
+            assert_eq!(a.column, b.column);
+            assert!((a.occupancy_m - b.occupancy_m).abs() < 1e-6);
+            assert!((elevation_rad(&upright, a) - elevation_rad(&turned, b)).abs() <= RING_STEP_RAD);
+        }
     }
 }

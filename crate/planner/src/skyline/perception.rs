@@ -11,12 +11,13 @@ use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::jitter::GpError;
 use crate::gp::learning::{Learner, LearningConfig, LearningMode};
 use crate::skyline::beam_gp::{BeamGp, Query};
+use crate::skyline::beam_grid::BeamGrid;
 use crate::skyline::edge_tracer::{EdgeTracer, all_cells};
 use crate::skyline::inducing::FarthestPoints;
 use crate::skyline::occupancy::OccupancySurface;
 use crate::skyline::profile::{ElevationProfile, read_profile};
 use crate::skyline::surface::{
-    GpDiagnostics, LearnedHyperparameters, PredictedSurface, ROWS, SECTOR_COLUMNS, SECTORS,
+    GpDiagnostics, LearnedHyperparameters, PredictedSurface, SECTOR_COLUMNS, SECTORS,
 };
 use crate::skyline::window_gp::WindowGp;
 
@@ -46,19 +47,21 @@ pub(crate) struct Perception {
 }
 
 impl Process {
-    fn new(config: PerceptionConfig) -> Self {
+    fn new(config: PerceptionConfig, grid: &BeamGrid) -> Self {
         match config.inducing_inputs {
-            InducingInputs::Lattice => Self::Lattice(Box::new(BeamGp::new(&config))),
-            InducingInputs::FarthestPoints => Self::FarthestPoints(Box::new(WindowGp::new(config))),
+            InducingInputs::Lattice => Self::Lattice(Box::new(BeamGp::new(&config, grid))),
+            InducingInputs::FarthestPoints => {
+                Self::FarthestPoints(Box::new(WindowGp::new(config, grid.rows())))
+            }
         }
     }
 }
 
 impl Perception {
-    pub(crate) fn new(config: PerceptionConfig) -> Self {
+    pub(crate) fn new(config: PerceptionConfig, grid: &BeamGrid) -> Self {
         Self {
-            edge: EdgeTracer::new(&config),
-            process: Process::new(config),
+            edge: EdgeTracer::new(&config, grid),
+            process: Process::new(config, grid),
             learner: Learner::new(LearningConfig {
                 // The inducing inputs of one scan are of no use to the next.
                 learn_inducing_inputs: config.learning.learn_inducing_inputs
@@ -68,7 +71,7 @@ impl Perception {
             learned: None,
             farthest_points: FarthestPoints::default(),
             config,
-            surface: PredictedSurface::default(),
+            surface: PredictedSurface::new(grid.rows()),
             diagnostics: GpDiagnostics::default(),
             queries: Vec::new(),
             values: Vec::new(),
@@ -76,9 +79,9 @@ impl Perception {
     }
 
     /// Forgets what was learned: back to the configured hyperparameters.
-    pub(crate) fn reset(&mut self, config: PerceptionConfig) {
+    pub(crate) fn reset(&mut self, config: PerceptionConfig, grid: &BeamGrid) {
         if self.learned.is_some() {
-            *self = Self::new(config);
+            *self = Self::new(config, grid);
         }
     }
 
@@ -132,8 +135,8 @@ impl Perception {
         };
         self.config.kernel = learned.hyperparameters.kernel;
         self.config.noise_variance_m2 = learned.hyperparameters.noise_variance;
-        self.edge = EdgeTracer::new(&self.config);
-        self.process = Process::new(self.config);
+        self.edge = EdgeTracer::new(&self.config, observed.grid());
+        self.process = Process::new(self.config, observed.grid());
         if let Process::FarthestPoints(gp) = &mut self.process
             && self.learner.moves_inducing_inputs()
         {
@@ -158,18 +161,23 @@ impl Perception {
                 self.surface.mean_m.fill(0.0);
                 self.surface.relative_variance.fill(1.0);
                 self.queries.clear();
-                let columns = 0..SECTOR_COLUMNS;
+                let (columns, rows) = (0..SECTOR_COLUMNS, self.surface.rows());
                 self.queries
-                    .extend(columns.flat_map(|column| (0..ROWS).map(move |row| Query { column, row })));
+                    .extend(columns.flat_map(|column| (0..rows).map(move |row| Query { column, row })));
                 for sector in 0..SECTORS {
                     if !gp.enter(sector)? {
                         continue;
                     }
                     self.surface.diagnostics.jitter = self.surface.diagnostics.jitter.max(gp.jitter());
                     gp.relative_variances(sector, &self.queries, &mut self.values);
-                    scatter(&self.values, gp.sector_columns(sector), &mut self.surface.relative_variance);
+                    scatter(
+                        &self.values,
+                        rows,
+                        gp.sector_columns(sector),
+                        &mut self.surface.relative_variance,
+                    );
                     gp.means(&mut self.values);
-                    scatter(&self.values, gp.sector_columns(sector), &mut self.surface.mean_m);
+                    scatter(&self.values, rows, gp.sector_columns(sector), &mut self.surface.mean_m);
                 }
             }
             Process::FarthestPoints(gp) => gp.predict(observed, &mut self.surface)?,
@@ -179,9 +187,9 @@ impl Perception {
 }
 
 /// Copies whole columns of a sector to their places.
-fn scatter(values: &[f64], columns: impl Iterator<Item = usize>, surface: &mut [f64]) {
-    for (values, column) in values.chunks_exact(ROWS).zip(columns) {
-        surface[column * ROWS..(column + 1) * ROWS].copy_from_slice(values);
+fn scatter(values: &[f64], rows: usize, columns: impl Iterator<Item = usize>, surface: &mut [f64]) {
+    for (values, column) in values.chunks_exact(rows).zip(columns) {
+        surface[column * rows..(column + 1) * rows].copy_from_slice(values);
     }
 }
 
@@ -190,13 +198,13 @@ mod tests {
     use super::*;
     use crate::config::PlannerConfig;
     use crate::skyline::profile::Column;
-    use crate::testing::undulating_scan;
+    use crate::testing::{undulating_scan, vlp16_surface};
 
     /// Profiles of two scans, and what was learned from each.
     fn two_scans(config: PerceptionConfig) -> [(ElevationProfile, Option<LearnedHyperparameters>); 2] {
-        let mut perception = Perception::new(config);
+        let mut perception = Perception::new(config, vlp16_surface().grid());
         [(90, 150), (100, 170)].map(|(from, to)| {
-            let mut observed = OccupancySurface::new(7.0);
+            let mut observed = vlp16_surface();
             observed.project(&undulating_scan(from, to));
             let mut profile = Vec::new();
             perception.profile(&observed, &mut profile).unwrap();
@@ -207,7 +215,7 @@ mod tests {
     fn with_mode(mut config: PlannerConfig, mode: LearningMode) -> PerceptionConfig {
         config.perception.learning.mode = mode;
         config.perception.learning.evaluations_per_scan = 6;
-        config.validate().unwrap();
+        config.validate("planner").unwrap();
         config.perception
     }
 
@@ -236,16 +244,16 @@ mod tests {
     #[test]
     fn what_was_learned_is_forgotten_on_a_reset() {
         let config = with_mode(PlannerConfig::default(), LearningMode::EveryScan);
-        let mut perception = Perception::new(config);
+        let mut perception = Perception::new(config, vlp16_surface().grid());
         let learn = |perception: &mut Perception| {
-            let mut observed = OccupancySurface::new(7.0);
+            let mut observed = vlp16_surface();
             observed.project(&undulating_scan(90, 150));
             perception.profile(&observed, &mut Vec::new()).unwrap();
             perception.diagnostics().learned
         };
         let first = learn(&mut perception);
         assert_ne!(learn(&mut perception), first);
-        perception.reset(config);
+        perception.reset(config, vlp16_surface().grid());
         assert_eq!(learn(&mut perception), first);
     }
 
@@ -254,12 +262,12 @@ mod tests {
         let mut config = PlannerConfig::default();
         config.perception.learning.mode = LearningMode::Once;
         config.perception.noise_variance_m2 = 100.0;
-        let error = config.validate().unwrap_err().to_string();
+        let error = config.validate("planner").unwrap_err().to_string();
         assert!(error.contains("noise_variance = 100: expected a start between"), "{error}");
         let mut config = PlannerConfig::default();
         config.perception.learning.mode = LearningMode::EveryScan;
         config.perception.learning.learn_inducing_inputs = true;
-        let error = config.validate().unwrap_err().to_string();
+        let error = config.validate("planner").unwrap_err().to_string();
         assert!(error.starts_with("planner.perception.learning.learn_inducing_inputs = true"), "{error}");
     }
 }

@@ -1,20 +1,21 @@
 //! The elevation profile: the border between occupied (low variance) and free (high variance) directions, one column of
 //! azimuth at a time (paper, section V-B).
 
+use crate::skyline::beam_grid::BeamGrid;
 use crate::skyline::occupancy::{COLUMNS, OccupancySurface};
-use crate::skyline::surface::{PredictedSurface, ROW_STEP_RAD, ROWS, row_elevation_rad};
+use crate::skyline::surface::PredictedSurface;
 
 /// What one column of the variance surface shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Column {
     /// Terrain up to an elevation angle.
     Ground {
-        /// The skyline, in the sensor frame.
+        /// The skyline, seen from the sensor's origin, over the robot's x-y plane.
         elevation_rad: f64,
     },
-    /// No return within r_oc: a crest or a drop hides the ground.
+    /// No return within r_oc: a crest or a drop hides the ground. Or it rises out of the view of a sensor that does not see far up.
     Unknown,
-    /// Occupied up to the sensor's highest ring.
+    /// Occupied up to the highest elevation in view.
     Wall,
 }
 
@@ -30,30 +31,33 @@ pub(crate) fn read_profile(
     profile: &mut ElevationProfile,
 ) {
     profile.clear();
-    profile.extend((0..COLUMNS).map(|column| {
-        if observed.column(column).is_empty() {
-            Column::Unknown
-        } else {
-            read_column(predicted.variance_column(column), threshold)
+    profile.extend((0..COLUMNS).map(|column| match observed.column(column).last() {
+        None => Column::Unknown,
+        Some(highest) => {
+            let rows = observed.grid().rows_in_view(column, highest.ring);
+            read_column(&predicted.variance_column(column)[..rows], threshold, observed.grid())
         }
     }));
 }
 
-fn read_column(variance: &[f64], threshold: f64) -> Column {
+fn read_column(variance: &[f64], threshold: f64, grid: &BeamGrid) -> Column {
     let Some(row) = variance.iter().rposition(|&v| v < threshold) else {
         return Column::Unknown;
     };
-    if row + 1 == ROWS {
-        return Column::Wall;
+    if row + 1 == variance.len() {
+        return grid.out_of_view(variance.len());
     }
     let share = (threshold - variance[row]) / (variance[row + 1] - variance[row]);
-    Column::Ground { elevation_rad: row_elevation_rad(row) + share * ROW_STEP_RAD }
+    Column::Ground { elevation_rad: grid.row_elevation_rad(row) + share * grid.row_step_rad() }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sensor_model::SensorModel;
     use proptest::prelude::*;
+
+    const ROWS: usize = 31;
 
     proptest! {
         #[test]
@@ -61,14 +65,15 @@ mod tests {
             variance in prop::collection::vec(0.0..1.0_f64, ROWS),
             threshold in 0.05..0.95_f64,
         ) {
-            match read_column(&variance, threshold) {
+            let grid = BeamGrid::new(&SensorModel::vlp16());
+            match read_column(&variance, threshold, &grid) {
                 Column::Unknown => prop_assert!(variance.iter().all(|&v| v >= threshold)),
                 Column::Wall => prop_assert!(variance[ROWS - 1] < threshold),
                 Column::Ground { elevation_rad } => {
                     let row = variance.iter().rposition(|&v| v < threshold).unwrap();
                     prop_assert!(variance[row + 1..].iter().all(|&v| v >= threshold));
-                    let low = row_elevation_rad(row);
-                    prop_assert!(elevation_rad >= low && elevation_rad <= low + ROW_STEP_RAD);
+                    let low = grid.row_elevation_rad(row);
+                    prop_assert!(elevation_rad >= low && elevation_rad <= low + grid.row_step_rad());
                 }
             }
         }

@@ -1,16 +1,12 @@
 //! The surfaces that the process predicts, and the lattice of directions they are predicted on.
 
-use core::f64::consts::PI;
-
 use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::learning::Stop;
-use crate::skyline::occupancy::{COLUMNS, LOWEST_ELEVATION_RAD};
+use crate::skyline::beam_grid::{RING_STEP_RAD, ROWS_PER_RING};
+use crate::skyline::occupancy::{COLUMNS, LOWEST_ROW_RAD};
 
-/// Elevation rows of the predicted surfaces: -15° to +15°, one degree apart.
-pub const ROWS: usize = 31;
-/// Spacing of the elevation rows.
-pub const ROW_STEP_RAD: f64 = PI / 180.0;
-pub(crate) const ROWS_PER_RING: usize = 2;
+/// How far apart the Gaussian process sees the rows that it predicts.
+pub(crate) const ROW_STEP_RAD: f64 = RING_STEP_RAD / ROWS_PER_RING as f64;
 
 /// The circle is predicted in sectors, each from a window around it.
 pub(crate) const SECTORS: usize = 18;
@@ -18,12 +14,12 @@ pub(crate) const SECTOR_COLUMNS: usize = COLUMNS / SECTORS;
 /// How far beyond its sector a window reaches. At 3.5 length-scales the kernel is below 1 % of its peak.
 pub(crate) const REACH_LENGTH_SCALES: f64 = 3.5;
 
-/// Elevation of a row of the predicted surfaces.
-pub fn row_elevation_rad(row: usize) -> f64 {
-    LOWEST_ELEVATION_RAD + ROW_STEP_RAD * row as f64
+/// Where the Gaussian process sees a row that it predicts.
+pub(crate) fn row_rad(row: usize) -> f64 {
+    LOWEST_ROW_RAD + ROW_STEP_RAD * row as f64
 }
 
-/// The two surfaces the process predicts, [`COLUMNS`] × [`ROWS`], column by column, lowest row first.
+/// The two surfaces the process predicts, [`COLUMNS`] × [`PredictedSurface::rows`], column by column, lowest row first.
 #[derive(Clone, Debug)]
 pub struct PredictedSurface {
     /// Predicted occupancy, metres.
@@ -32,6 +28,7 @@ pub struct PredictedSurface {
     pub relative_variance: Vec<f64>,
     /// What the process needed for it.
     pub diagnostics: GpDiagnostics,
+    rows: usize,
 }
 
 /// What a posterior needed.
@@ -58,20 +55,25 @@ pub struct LearnedHyperparameters {
     pub stop: Stop,
 }
 
-impl Default for PredictedSurface {
+impl PredictedSurface {
     /// Nothing observed.
-    fn default() -> Self {
+    pub(crate) fn new(rows: usize) -> Self {
         Self {
-            mean_m: vec![0.0; COLUMNS * ROWS],
-            relative_variance: vec![1.0; COLUMNS * ROWS],
+            mean_m: vec![0.0; COLUMNS * rows],
+            relative_variance: vec![1.0; COLUMNS * rows],
             diagnostics: GpDiagnostics::default(),
+            rows,
         }
     }
-}
 
-impl PredictedSurface {
+    /// How many rows there are; [`BeamGrid::row_elevation_rad`](crate::skyline::beam_grid::BeamGrid::row_elevation_rad) has their
+    /// elevations.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
     /// The relative variances of one column, lowest row first.
     pub fn variance_column(&self, column: usize) -> &[f64] {
-        &self.relative_variance[column * ROWS..(column + 1) * ROWS]
+        &self.relative_variance[column * self.rows..(column + 1) * self.rows]
     }
 }

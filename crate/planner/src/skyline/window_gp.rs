@@ -13,14 +13,13 @@ use crate::gp::{jitter::GpError, sparse::SparseGp};
 use crate::math::angle::difference_rad;
 use crate::skyline::inducing::FarthestPoints;
 use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface, column_azimuth_rad};
-use crate::skyline::surface::{
-    PredictedSurface, REACH_LENGTH_SCALES, ROWS, SECTOR_COLUMNS, SECTORS, row_elevation_rad,
-};
+use crate::skyline::surface::{PredictedSurface, REACH_LENGTH_SCALES, SECTOR_COLUMNS, SECTORS, row_rad};
 
 /// The process with its workspace.
 #[derive(Clone, Debug)]
 pub(crate) struct WindowGp {
     config: PerceptionConfig,
+    rows: usize,
     gp: SparseGp,
     farthest_points: FarthestPoints,
     chosen: Vec<usize>,
@@ -38,16 +37,18 @@ pub(crate) struct WindowGp {
 }
 
 impl WindowGp {
-    pub(crate) fn new(config: PerceptionConfig) -> Self {
+    /// A process that predicts so many rows.
+    pub(crate) fn new(config: PerceptionConfig, rows: usize) -> Self {
         let queries = (0..SECTOR_COLUMNS)
-            .flat_map(|column| (0..ROWS).map(move |row| (column, row)))
+            .flat_map(|column| (0..rows).map(move |row| (column, row)))
             .map(|(column, row)| {
                 let azimuth = COLUMN_STEP_RAD * (column as f64 - 0.5 * (SECTOR_COLUMNS - 1) as f64);
-                DVec2::new(azimuth, row_elevation_rad(row))
+                DVec2::new(azimuth, row_rad(row))
             })
             .collect();
         Self {
             config,
+            rows,
             gp: SparseGp::new(config.kernel, config.noise_variance_m2),
             farthest_points: FarthestPoints::default(),
             chosen: Vec::new(),
@@ -124,7 +125,7 @@ impl WindowGp {
         let local = |z: &DVec2| DVec2::new(difference_rad(z.x, centre), z.y);
         self.window_inducing.extend(self.learned.iter().map(local).filter(|z| z.x.abs() <= half_width));
 
-        let span = sector * SECTOR_COLUMNS * ROWS..(sector + 1) * SECTOR_COLUMNS * ROWS;
+        let span = sector * SECTOR_COLUMNS * self.rows..(sector + 1) * SECTOR_COLUMNS * self.rows;
         let mean = &mut surface.mean_m[span.clone()];
         let variance = &mut surface.relative_variance[span];
         mean.fill(0.0);
@@ -137,13 +138,13 @@ impl WindowGp {
 
         // Rows far above and below every return keep the prior.
         let margin = REACH_LENGTH_SCALES * self.config.kernel.length_scales_rad[1];
-        let near = |row: &usize| (lowest - margin..=highest + margin).contains(&row_elevation_rad(*row));
-        let rows: Range<usize> = match ((0..ROWS).find(near), (0..ROWS).rfind(near)) {
+        let near = |row: &usize| (lowest - margin..=highest + margin).contains(&row_rad(*row));
+        let rows: Range<usize> = match ((0..self.rows).find(near), (0..self.rows).rfind(near)) {
             (Some(first), Some(last)) => first..last + 1,
             _ => return Ok(()),
         };
         self.window_queries.clear();
-        for column in self.queries.chunks_exact(ROWS) {
+        for column in self.queries.chunks_exact(self.rows) {
             self.window_queries.extend_from_slice(&column[rows.clone()]);
         }
         let count = self.window_queries.len();
@@ -153,7 +154,7 @@ impl WindowGp {
         let scale = 1.0 / self.config.kernel.variance;
         for column in 0..SECTOR_COLUMNS {
             let from = column * rows.len()..(column + 1) * rows.len();
-            let to = column * ROWS + rows.start..column * ROWS + rows.end;
+            let to = column * self.rows + rows.start..column * self.rows + rows.end;
             mean[to.clone()].copy_from_slice(&self.window_mean[from.clone()]);
             for (value, predicted) in variance[to].iter_mut().zip(&self.window_variance[from]) {
                 *value = predicted * scale;
@@ -168,8 +169,10 @@ mod tests {
     use super::*;
     use crate::config::PlannerConfig;
     use crate::skyline::profile::{Column, read_profile};
-    use crate::testing::undulating_scan;
+    use crate::testing::{undulating_scan, vlp16_surface};
     use glam::Vec3;
+
+    const ROWS: usize = 31;
 
     /// The default with inducing inputs so near that their choice hardly shows.
     fn dense() -> PerceptionConfig {
@@ -186,11 +189,11 @@ mod tests {
     #[test]
     fn the_windows_give_the_profile_of_the_whole_surface() {
         // Half the circle, so that the process over the whole surface has no seam.
-        let mut observed = OccupancySurface::new(7.0);
+        let mut observed = vlp16_surface();
         observed.project(&undulating_scan(90, 270));
         let config = dense();
-        let mut windows = WindowGp::new(config);
-        let mut windowed = PredictedSurface::default();
+        let mut windows = WindowGp::new(config, ROWS);
+        let mut windowed = PredictedSurface::new(ROWS);
         windows.predict(&observed, &mut windowed).unwrap();
 
         let inputs: Vec<DVec2> = observed.cells().iter().map(|c| c.direction_rad()).collect();
@@ -198,11 +201,9 @@ mod tests {
         let inducing: Vec<DVec2> = windows.chosen.iter().map(|&index| inputs[index]).collect();
         let queries: Vec<DVec2> = (0..COLUMNS)
             .flat_map(|column| (0..ROWS).map(move |row| (column, row)))
-            .map(|(c, row)| {
-                DVec2::new(crate::skyline::occupancy::column_azimuth_rad(c), row_elevation_rad(row))
-            })
+            .map(|(c, row)| DVec2::new(crate::skyline::occupancy::column_azimuth_rad(c), row_rad(row)))
             .collect();
-        let mut whole = PredictedSurface::default();
+        let mut whole = PredictedSurface::new(ROWS);
         let mut gp = SparseGp::new(config.kernel, config.noise_variance_m2);
         gp.fit(&inputs, &targets, &inducing).unwrap();
         gp.predict(&queries, &mut whole.mean_m, &mut whole.relative_variance);
@@ -223,14 +224,14 @@ mod tests {
     #[test]
     fn the_seam_is_like_any_other_place() {
         // Half a turn moves the surface; only the inducing inputs are chosen from another first return.
-        let (mut here, mut there) = (OccupancySurface::new(7.0), OccupancySurface::new(7.0));
+        let (mut here, mut there) = (vlp16_surface(), vlp16_surface());
         here.project(&undulating_scan(100, 160));
         let turned: Vec<Vec3> =
             undulating_scan(100, 160).iter().map(|p| Vec3::new(-p.x, -p.y, p.z)).collect();
         there.project(&turned);
         let config = dense();
-        let mut gp = WindowGp::new(config);
-        let (mut a, mut b) = (PredictedSurface::default(), PredictedSurface::default());
+        let mut gp = WindowGp::new(config, ROWS);
+        let (mut a, mut b) = (PredictedSurface::new(ROWS), PredictedSurface::new(ROWS));
         gp.predict(&here, &mut a).unwrap();
         gp.predict(&there, &mut b).unwrap();
         for column in 0..COLUMNS {

@@ -12,9 +12,10 @@ use std::collections::VecDeque;
 
 use glam::{DVec2, DVec3, IVec2};
 
-use crate::config::{ElevationWindowConfig, PlannerConfig, WINDOW_CELLS};
+use crate::config::{ElevationWindowConfig, PlannerConfig};
 use crate::math::elementary::floor;
 use crate::pose::FrameChange;
+use crate::sensor_model::SensorModel;
 use crate::terrain::plane::{Moments, Plane};
 use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
@@ -22,9 +23,9 @@ use cliffs::{MOST_VIEWS, View};
 
 /// Returns that a cell averages before new ones begin to outweigh old ones.
 const MOST_RETURNS: f64 = 30.0;
-/// Ground around a place that carries the robot: its four wheels are within the first distance. Where the rings of a
-/// scan lie further apart than that, a wider plane stands in.
-const FOOTPRINT_RADII_M: [f64; 3] = [0.5, 0.8, 1.2];
+/// Ground around a place that carries the robot: its four wheels are within the footprint's radius. Where the rings of a scan
+/// lie further apart than that, a wider plane stands in.
+const FOOTPRINT_RADII: [f64; 3] = [1.0, 1.6, 2.4];
 
 /// What a search asks of the ground.
 pub(crate) trait TerrainQuery {
@@ -69,6 +70,10 @@ pub(crate) struct ElevationWindow {
     config: ElevationWindowConfig,
     wheelbase_m: f64,
     track_m: f64,
+    footprint_m: f64,
+    /// Spacing of the places that are asked for.
+    step_m: f64,
+    sensor: SensorModel,
     /// The time that has passed, of which [`ElevationWindowConfig::memory`] is remembered.
     now: Duration,
     memory: Duration,
@@ -79,14 +84,17 @@ pub(crate) struct ElevationWindow {
 
 impl ElevationWindow {
     pub(crate) fn new(config: &PlannerConfig) -> Self {
-        let PlannerConfig { elevation_window, robot, .. } = *config;
+        let PlannerConfig { elevation_window, robot, sensor, .. } = *config;
         Self {
             config: elevation_window,
             wheelbase_m: robot.wheelbase_m,
             track_m: robot.track_m,
+            footprint_m: robot.footprint_radius_m(),
+            step_m: config.state_lattice.step_m,
+            sensor,
             now: Duration::ZERO,
             memory: elevation_window.memory(),
-            cells: RollingGrid::new(WINDOW_CELLS),
+            cells: RollingGrid::new(elevation_window.cells_per_side()),
             views: VecDeque::with_capacity(MOST_VIEWS),
         }
     }
@@ -117,7 +125,7 @@ impl ElevationWindow {
 
     /// Moves all that is remembered from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
-        let mut moved = RollingGrid::new(WINDOW_CELLS);
+        let mut moved = RollingGrid::new(self.config.cells_per_side());
         for (_, cell) in self.cells.iter().filter(|(_, cell)| self.is_fresh(cell)) {
             let mean_m = change.point_m(cell.mean_m);
             moved.set(self.index_of(mean_m.truncate()), ElevationCell { mean_m, ..*cell });
@@ -130,8 +138,8 @@ impl ElevationWindow {
 
     fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
         let moments = self.moments_near(place_m, radius_m, |_| true);
-        let plane = moments.plane()?;
-        let unseen = self.config.curvature_per_m * moments.distance_m();
+        let plane = moments.plane(self.footprint_m)?;
+        let unseen = self.config.slope_deviation_per_m * moments.distance_m();
         Some(Plane { gradient_deviation: libm::hypot(plane.gradient_deviation, unseen), ..plane })
     }
 
@@ -166,9 +174,16 @@ impl ElevationWindow {
     }
 }
 
+impl ElevationWindow {
+    /// The radii within which the ground around a place is looked for, the narrowest first.
+    fn footprint_radii_m(&self) -> [f64; 3] {
+        FOOTPRINT_RADII.map(|times| times * self.footprint_m)
+    }
+}
+
 impl TerrainQuery for ElevationWindow {
     fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
-        FOOTPRINT_RADII_M.iter().find_map(|&radius_m| self.plane_within(place_m, radius_m))
+        self.footprint_radii_m().into_iter().find_map(|radius_m| self.plane_within(place_m, radius_m))
     }
 
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes> {

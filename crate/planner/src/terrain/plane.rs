@@ -7,8 +7,6 @@ use nalgebra::{Matrix2, Vector2};
 const LARGEST_SLOPE_DEVIATION: f64 = 0.08;
 /// Points a plane needs at least.
 const FEWEST_POINTS: usize = 5;
-/// Distance between wheels, over which roughness becomes tilt.
-const WHEEL_DISTANCE_M: f64 = 0.5;
 /// Roughness that is always allowed for: sensor noise and what a cell averages away.
 const LEAST_ROUGHNESS_M: f64 = 0.02;
 
@@ -25,13 +23,13 @@ pub struct Plane {
 
 impl Plane {
     /// The least-squares plane through `points_m`, with its height at `place_m`; `None` where they say too little of a
-    /// slope.
-    pub fn fit(place_m: DVec2, points_m: &[DVec3]) -> Option<Self> {
+    /// slope. Over `wheels_m`, the distance between wheels, roughness becomes tilt.
+    pub fn fit(place_m: DVec2, points_m: &[DVec3], wheels_m: f64) -> Option<Self> {
         let mut moments = Moments::default();
         for point_m in points_m {
             moments.add(point_m.truncate() - place_m, point_m.z);
         }
-        moments.plane()
+        moments.plane(wheels_m)
     }
 }
 
@@ -75,8 +73,8 @@ impl Moments {
         middle.length().max(self.nearest_squared.sqrt())
     }
 
-    /// The plane with its height at the place.
-    pub(crate) fn plane(&self) -> Option<Plane> {
+    /// The plane with its height at the place, for wheels so far from each other.
+    pub(crate) fn plane(&self, wheels_m: f64) -> Option<Plane> {
         if self.count < FEWEST_POINTS {
             return None;
         }
@@ -105,7 +103,7 @@ impl Moments {
         Some(Plane {
             height_m: self.datum_m + centroid.z - gradient.dot(centroid.truncate()),
             gradient,
-            gradient_deviation: libm::hypot(standard_error, rough_m / WHEEL_DISTANCE_M),
+            gradient_deviation: libm::hypot(standard_error, rough_m / wheels_m),
         })
     }
 }

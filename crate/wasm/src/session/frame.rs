@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 use js_sys::{Float32Array, Uint8Array};
-use mapless::skyline::occupancy::RINGS;
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -216,8 +215,9 @@ impl Session {
         }
         self.scratch.clear();
         self.scratch.resize(observed.length() as usize, f32::NAN);
+        let rings = self.now.trial.step().observed.grid().rings();
         for cell in self.now.trial.step().observed.cells() {
-            if let Some(place) = self.scratch.get_mut(cell.column * RINGS + cell.ring) {
+            if let Some(place) = self.scratch.get_mut(cell.column * rings + cell.ring) {
                 *place = cell.occupancy_m as f32;
             }
         }

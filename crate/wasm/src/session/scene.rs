@@ -1,7 +1,6 @@
 //! What changes only between trials and with the route.
 
-use mapless::skyline::occupancy::{COLUMNS, RINGS};
-use mapless::skyline::surface::ROWS;
+use mapless::skyline::occupancy::COLUMNS;
 use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -65,6 +64,7 @@ impl Session {
     /// A seed beyond the whole numbers of JavaScript.
     pub fn scene(&self) -> Result<Ts<Scene>, JsError> {
         let (trial, config) = (&self.now.trial, self.now.trial.planner_config());
+        let grid = trial.step().observed.grid();
         give(&Scene {
             seed: self.seed,
             start: trial.start().into(),
@@ -77,7 +77,7 @@ impl Session {
             },
             occupancy_radius_m: config.perception.surface_radius_m,
             sensor_height_m: config.sensor.height_m,
-            image: ImageSize { columns: COLUMNS, rows: ROWS, rings: RINGS },
+            image: ImageSize { columns: COLUMNS, rows: grid.rows(), rings: grid.rings() },
             demands: SegmentDemands {
                 robot_width_m: config.robot.width_m,
                 safety_margin_m: config.segments.safety_margin_m,

@@ -1,9 +1,9 @@
 //! Strokes: the touches of one brush, as the table of a recipe that describes them.
 
 use super::{Brush, BrushKind, SampleRect, covered};
-use crate::config::ConfigError;
 use crate::height_field::HeightField;
 use glam::DVec2;
+use mapless_parameters::ConfigError;
 use serde::Deserialize;
 use thiserror::Error;
 

@@ -3,32 +3,33 @@
 //! A scan says nothing of an edge but that no returns come from beyond it, and a plane through the ground before it goes on where
 //! there is none. But ground that went on would have been seen while the robot came nearer.
 
+use core::f64::consts::TAU;
 use core::time::Duration;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
-use super::{ElevationWindow, FOOTPRINT_RADII_M};
+use super::ElevationWindow;
 use crate::pose::FrameChange;
-use crate::skyline::occupancy::LOWEST_ELEVATION_RAD;
+use crate::sensor_model::SensorModel;
 use crate::terrain::plane::Plane;
 
-/// Views are kept this far apart, and so many of them: the rings of a scan lie half a metre apart where they sweep over the ground
-/// that is about to be too near to be seen.
-const SPACING_M: f64 = 0.25;
+/// Views are kept this far apart, as a multiple of the sensor's height, and so many of them: the rings of a VLP-16 lie twice that apart
+/// where they sweep over the ground that is about to be too near to be seen.
+const SPACING_HEIGHTS: f64 = 0.3125;
 pub(super) const MOST_VIEWS: usize = 256;
 /// What was in so many views was swept over by a ring.
 const FEWEST_VIEWS: usize = 3;
-/// Ground is surely in view up to this distance, this far above the lowest beam, and where the beams meet it no flatter than this.
-const SURELY_SEEN_M: f64 = 4.5;
-const ABOVE_LOWEST_RAD: f64 = 0.02;
+/// Ground is surely in view up to this distance, as a multiple of the sensor's height, this far inside the sensor's field of view, and
+/// where the beams meet it no flatter than this.
+const SURELY_SEEN_HEIGHTS: f64 = 5.625;
+const INSIDE_RAD: f64 = 0.02;
 const LEAST_INCIDENCE: f64 = 0.1;
 /// Ground that rises like this hides what follows, be it as level as a ramp's end.
 const RISING_SLOPE: f64 = 0.1;
 
-/// What is as near as this to the robot and was in view was seen under all wheels, or it is not there.
-const BY_NOW_SEEN_M: f64 = 2.0;
-/// From a place to where its wheels may stand.
-const BESIDE_M: f64 = 0.5;
+/// What is as near as this to the robot, as a multiple of the sensor's height, and was in view was seen under all wheels, or it is not
+/// there.
+const BY_NOW_SEEN_HEIGHTS: f64 = 2.5;
 
 /// So many points to each side of a place are looked at, so far apart. A small rise hides fewer than this share of them.
 const HOLE_LOOKS: i32 = 3;
@@ -46,21 +47,22 @@ const DROP_SLOPE: f64 = 1.2;
 pub(super) struct View {
     taken: Duration,
     sensor_m: DVec3,
-    up: DVec3,
+    world_from_sensor: DMat3,
 }
 
 impl ElevationWindow {
-    /// The scan was taken from here, by a sensor whose axis is the unit vector `up`.
-    pub(crate) fn looked_from(&mut self, sensor_m: DVec3, up: DVec3) {
+    /// The scan was taken from here, by a sensor turned like this.
+    pub(crate) fn looked_from(&mut self, sensor_m: DVec3, world_from_sensor: DMat3) {
+        let spacing_m = SPACING_HEIGHTS * self.sensor.height_m;
         let (now, memory) = (self.now, self.memory);
         self.views.retain(|view| now - view.taken <= memory);
-        if self.views.iter().any(|view| (view.sensor_m - sensor_m).length() < SPACING_M) {
+        if self.views.iter().any(|view| (view.sensor_m - sensor_m).length() < spacing_m) {
             return;
         }
         if self.views.len() == MOST_VIEWS {
             self.views.pop_front();
         }
-        self.views.push_back(View { taken: now, sensor_m, up });
+        self.views.push_back(View { taken: now, sensor_m, world_from_sensor });
     }
 
     /// Whether there is nothing under a wheel at a place, as it would have been seen from the side of `here_m`, or the ground drops off
@@ -74,17 +76,18 @@ impl ElevationWindow {
     fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool {
         let before = |from_place: DVec2| from_place.dot(here_m - place_m) > 0.0;
         let plane = || {
-            FOOTPRINT_RADII_M
-                .iter()
-                .find_map(|&radius_m| self.moments_near(place_m, radius_m, before).plane())
+            self.footprint_radii_m()
+                .into_iter()
+                .find_map(|radius_m| self.moments_near(place_m, radius_m, before).plane(self.footprint_m))
         };
-        (place_m - here_m).length() < BY_NOW_SEEN_M
+        (place_m - here_m).length() < BY_NOW_SEEN_HEIGHTS * self.sensor.height_m
             && plane().is_some_and(|plane| self.was_in_view(place_m, &plane))
     }
 
     /// Whether no return comes from most of the ground at a place or beside it.
     fn lacks_returns_beside(&self, place_m: DVec2) -> bool {
-        let sides = [-BESIDE_M, 0.0, BESIDE_M];
+        // Where its wheels may stand.
+        let sides = [-self.footprint_m, 0.0, self.footprint_m];
         sides.into_iter().any(|y| sides.into_iter().any(|x| self.lacks_returns(place_m + DVec2::new(x, y))))
     }
 
@@ -117,28 +120,39 @@ impl ElevationWindow {
 
     /// Whether ground with this plane would have been seen at a place, while it was not too near.
     fn was_in_view(&self, place_m: DVec2, plane: &Plane) -> bool {
-        self.views.iter().filter(|view| view.holds(place_m.extend(plane.height_m), plane)).count()
-            >= FEWEST_VIEWS
+        let point_m = place_m.extend(plane.height_m);
+        self.views.iter().filter(|view| view.holds(point_m, plane, &self.sensor)).count() >= FEWEST_VIEWS
     }
 }
 
 impl View {
     pub(super) fn relocalise(&mut self, change: &FrameChange) {
         self.sensor_m = change.point_m(self.sensor_m);
-        self.up = change.vector(self.up);
+        self.world_from_sensor = change.rotation(&self.world_from_sensor);
     }
 
-    fn holds(&self, point_m: DVec3, plane: &Plane) -> bool {
+    fn holds(&self, point_m: DVec3, plane: &Plane, sensor: &SensorModel) -> bool {
         let away = point_m - self.sensor_m;
         let distance_m = away.length();
         let beam = away / distance_m;
         let normal = (-plane.gradient).extend(1.0).normalize();
         let rises = plane.gradient.dot(beam.truncate().normalize_or_zero()) > RISING_SLOPE;
-        distance_m < SURELY_SEEN_M
-            && beam.dot(self.up) > libm::sin(LOWEST_ELEVATION_RAD + ABOVE_LOWEST_RAD)
+        let [ahead, left, up] = self.world_from_sensor.to_cols_array_2d().map(DVec3::from_array);
+        distance_m < SURELY_SEEN_HEIGHTS * sensor.height_m
+            && beam.dot(up) > libm::sin(sensor.lowest_elevation_rad + INSIDE_RAD)
+            && (sees_over_its_horizon(sensor)
+                || beam.dot(up) < libm::sin(sensor.highest_elevation_rad - INSIDE_RAD))
+            && (sensor.horizontal_fov_rad >= TAU
+                || libm::atan2(beam.dot(left), beam.dot(ahead)).abs()
+                    < 0.5 * sensor.horizontal_fov_rad - INSIDE_RAD)
             && -beam.dot(normal) > LEAST_INCIDENCE
             && !rises
     }
+}
+
+/// Whether all ground near the robot is below the highest ring, but for what rises.
+fn sees_over_its_horizon(sensor: &SensorModel) -> bool {
+    sensor.roll_rad == 0.0 && sensor.pitch_rad == 0.0 && sensor.highest_elevation_rad > 0.0
 }
 
 #[cfg(test)]
@@ -152,11 +166,23 @@ mod tests {
     /// Has looked around while it drove to the origin from `from_m`, nose up by `pitch_rad`.
     fn come_from(from_m: DVec2, pitch_rad: f64) -> ElevationWindow {
         let mut ground = ElevationWindow::new(&PlannerConfig::default());
-        let up = DVec3::new(-libm::sin(pitch_rad), 0.0, libm::cos(pitch_rad));
-        for step in 0..=10 {
+        look_on_the_way(&mut ground, from_m, pitch_rad);
+        ground
+    }
+
+    fn look_on_the_way(ground: &mut ElevationWindow, from_m: DVec2, pitch_rad: f64) {
+        let sensor = ground.sensor;
+        for step in 0..=60 {
             ground.advance(STEP);
-            ground.looked_from((from_m * (1.0 - 0.1 * f64::from(step))).extend(0.8), up);
+            let at_m = (from_m * (1.0 - f64::from(step) / 60.0)).extend(sensor.height_m);
+            ground.looked_from(at_m, DMat3::from_rotation_y(-pitch_rad - sensor.pitch_rad));
         }
+    }
+
+    /// As [`come_from`] on a robot with this sensor.
+    fn come_with(sensor: SensorModel, from_m: DVec2) -> ElevationWindow {
+        let mut ground = ElevationWindow::new(&PlannerConfig { sensor, ..PlannerConfig::default() });
+        look_on_the_way(&mut ground, from_m, 0.0);
         ground
     }
 
@@ -195,7 +221,7 @@ mod tests {
             (!(-0.1..0.6).contains(&place.x)).then_some(if place.x < 0.0 { 0.0 } else { -1.0 })
         });
         for step in 0..=10 {
-            ground.looked_from(DVec3::new(-4.0 + 0.25 * f64::from(step), 0.0, 0.8), DVec3::Z);
+            ground.looked_from(DVec3::new(-4.0 + 0.25 * f64::from(step), 0.0, 0.8), DMat3::IDENTITY);
         }
         assert!(ground.would_be_seen(DVec2::ZERO, DVec2::new(-1.5, 0.0)));
         assert!(!ground.would_be_seen(DVec2::ZERO, DVec2::new(1.5, 0.0)), "its foot ends there");
@@ -229,8 +255,37 @@ mod tests {
         let mut ground = come_from(DVec2::new(-3.0, 0.0), 0.0);
         for _ in 0..=3000 {
             ground.advance(STEP);
-            ground.looked_from(DVec3::new(0.0, 0.0, 0.8), DVec3::Z);
+            ground.looked_from(DVec3::new(0.0, 0.0, 0.8), DMat3::IDENTITY);
         }
         assert!(!ground.was_in_view(AHEAD_M, &sloping(0.0)));
+    }
+
+    #[test]
+    fn what_is_in_view_follows_height_tilt_and_field_of_view() {
+        let from_m = DVec2::new(-3.0, 0.0);
+        let sees = |sensor, place_m| come_with(sensor, from_m).was_in_view(place_m, &sloping(0.0));
+        let vlp16 = SensorModel::vlp16();
+        // Too far for a low sensor, and for a high one too near.
+        let (low, high) = (SensorModel { height_m: 0.4, ..vlp16 }, SensorModel { height_m: 1.7, ..vlp16 });
+        assert!(sees(vlp16, DVec2::new(2.0, 0.0)) && sees(low, DVec2::new(0.5, 0.0)));
+        assert!(!sees(low, DVec2::new(2.4, 0.0)) && !sees(high, DVec2::new(2.0, 0.0)));
+        assert!(sees(high, DVec2::new(6.0, 0.0)));
+        let nose_down = SensorModel { pitch_rad: -0.26, ..vlp16 };
+        assert!(sees(nose_down, DVec2::new(1.2, 0.0)) && !sees(vlp16, DVec2::new(0.4, 0.0)));
+        assert!(!sees(nose_down, DVec2::new(-7.0, 0.0)) && sees(vlp16, DVec2::new(-6.5, 0.0)));
+        let ahead = SensorModel { horizontal_fov_rad: 2.0, ..vlp16 };
+        assert!(sees(ahead, DVec2::new(2.0, 0.0)) && !sees(ahead, DVec2::new(-6.5, 0.0)));
+    }
+
+    #[test]
+    fn distances_of_a_vlp16_on_a_husky_have_their_bits() {
+        let height_m = SensorModel::vlp16().height_m;
+        for (heights, metres) in
+            [(SPACING_HEIGHTS, 0.25), (SURELY_SEEN_HEIGHTS, 4.5), (BY_NOW_SEEN_HEIGHTS, 2.0_f64)]
+        {
+            assert_eq!((heights * height_m).to_bits(), metres.to_bits());
+        }
+        let radii_m = ElevationWindow::new(&PlannerConfig::default()).footprint_radii_m();
+        assert_eq!(radii_m.map(f64::to_bits), [0.5, 0.8, 1.2_f64].map(f64::to_bits));
     }
 }

@@ -9,8 +9,8 @@ use super::ElevationWindow;
 use crate::math::elementary::floor;
 use crate::terrain::slopes::Slopes;
 
-/// Places on a lattice lie half a metre apart; the robot is stood this far before and behind each, too.
-const SHIFT_M: f64 = 0.25;
+/// The footprint is tried this share of the lattice's step before and behind each place, too.
+const SHIFT_STEPS: f64 = 0.5;
 /// Ground under a wheel was seen when a return lies this near.
 const NEAR_M: f64 = 0.2;
 /// Returns nearer than this to a wheel count alike.
@@ -27,7 +27,8 @@ impl ElevationWindow {
     ) -> Option<Slopes> {
         let stand = |shift_m: f64| self.stand(place_m + direction * shift_m, direction, gradient);
         let here = stand(0.0)?;
-        Some([-SHIFT_M, SHIFT_M].into_iter().filter_map(stand).fold(here, Slopes::max))
+        let shift_m = SHIFT_STEPS * self.step_m;
+        Some([-shift_m, shift_m].into_iter().filter_map(stand).fold(here, Slopes::max))
     }
 
     /// The least-squares plane through the ground under the four wheels.

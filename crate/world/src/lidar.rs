@@ -1,81 +1,83 @@
-//! A Velodyne VLP-16: 16 rings from -15° to +15°, one revolution per scan.
+//! A LiDAR with rings of beams, one revolution per scan. The default is a Velodyne VLP-16: 16 rings from -15° to +15°.
 
 use crate::attitude::{Attitude, world_from_body};
 use crate::caster::{Caster, Fan};
-use crate::config::{ConfigError, within};
 use crate::random;
 use crate::sensor_pose::SensorPose;
 use glam::{DVec2, DVec3, Vec3};
-use serde::{Deserialize, Serialize};
-use std::f64::consts::{PI, TAU};
+use mapless_parameters::{ConfigError, parameters};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Rings of a VLP-16.
-pub const RING_COUNT: usize = 16;
-
-/// Elevation of a ring in the sensor frame, in radians: ring 0 looks down 15°, ring 15 up 15°.
-#[must_use]
-pub fn ring_elevation_rad(ring: usize) -> f64 {
-    (2.0 * ring as f64 - 15.0) * (PI / 180.0)
-}
-
-/// Mounting, resolution and faults of the sensor.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct SensorConfig {
-    /// Time between two scans, in seconds; 0.1 at 10 Hz.
-    pub period_s: f64,
-    /// Azimuths per revolution, from 1 to 36 000; a VLP-16 at 10 Hz has 1800.
-    pub columns: usize,
-    /// Standard deviation of the range, in metres.
-    pub range_noise_m: f64,
-    /// Share of returns that are lost, from 0 to 1.
-    pub dropout_probability: f64,
-    /// Nothing closer than this is reported, in metres.
-    pub min_range_m: f64,
-    /// Nothing farther than this is reported, in metres.
-    pub max_range_m: f64,
-    /// Height of the sensor above the contact plane along the body's z, in metres.
-    pub height_m: f64,
-    /// Distance of the sensor ahead of the middle of the wheelbase along the body's x, in metres.
-    pub forward_m: f64,
-}
-
-impl Default for SensorConfig {
-    fn default() -> Self {
-        Self {
-            period_s: 0.1,
-            columns: 1800,
-            range_noise_m: 0.02,
-            dropout_probability: 0.0,
-            min_range_m: 0.5,
-            max_range_m: 100.0,
-            height_m: 0.8,
-            forward_m: 0.0,
-        }
+parameters! {
+    /// Rings, mounting, resolution and faults of the sensor.
+    pub struct SensorConfig {
+        /// Time between two scans; 0.1 s at 10 Hz.
+        period_s: f64 = 0.1, paper 0.1, unit "s", range [0.05, 0.5], check Within(0.001, 10.0);
+        /// Rings, evenly spaced from the lowest to the highest.
+        rings: usize = 16, range [2, 128], check Within(2.0, 1024.0);
+        /// Elevation of the lowest ring above the sensor's x-y plane; negative when it looks down.
+        lowest_elevation_rad: f64 = -15.0 * (PI / 180.0), unit "rad", range [-1.5, 0.2], check Within(-FRAC_PI_2, FRAC_PI_2);
+        /// Elevation of the highest ring.
+        highest_elevation_rad: f64 = 15.0 * (PI / 180.0), unit "rad", range [-0.2, 1.5], check Within(-FRAC_PI_2, FRAC_PI_2);
+        /// Azimuths in one revolution; a VLP-16 at 10 Hz has 1800.
+        columns: usize = 1800, range [90, 3600], check Within(1.0, 36_000.0);
+        /// Horizontal field of view, half of it to each side of the sensor's x axis; 2π for a full turn.
+        horizontal_fov_rad: f64 = TAU, unit "rad", range [0.5, TAU], check Within(0.01, TAU);
+        /// Standard deviation of each range.
+        range_noise_m: f64 = 0.02, unit "m", range [0.0, 0.5], check Within(0.0, 1.0);
+        /// Share of returns that are lost at random.
+        dropout_probability: f64 = 0.0, range [0.0, 1.0], check Within(0.0, 1.0);
+        /// Nothing nearer is reported.
+        min_range_m: f64 = 0.5, unit "m", range [0.0, 4.9], check NotNegative;
+        /// Nothing farther is reported.
+        max_range_m: f64 = 100.0, unit "m", range [5.0, 200.0], check Within(1.0, 1000.0);
+        /// Height of the sensor above the contact plane along the body's z.
+        height_m: f64 = 0.8, unit "m", range [0.2, 3.0], check Within(0.05, 5.0);
+        /// Distance of the sensor ahead of the middle of the wheels along the body's x.
+        forward_m: f64 = 0.0, unit "m", range [-1.0, 1.0], check Within(-5.0, 5.0);
+        /// Distance of the sensor to the left of the middle of the wheels along the body's y.
+        left_m: f64 = 0.0, unit "m", range [-1.0, 1.0], check Within(-5.0, 5.0);
+        /// Roll of the mount, left side up positive; π for a sensor upside down. The mount is turned by yaw, pitch, roll.
+        roll_rad: f64 = 0.0, unit "rad", range [-PI, PI], check Within(-PI, PI);
+        /// Pitch of the mount, nose-up positive.
+        pitch_rad: f64 = 0.0, unit "rad", range [-1.5, 1.5], check Within(-FRAC_PI_2, FRAC_PI_2);
+        /// Yaw of the mount, anticlockwise positive.
+        yaw_rad: f64 = 0.0, unit "rad", range [-PI, PI], check Within(-PI, PI);
     }
+    relations check_order;
 }
 
 impl SensorConfig {
-    /// Checks every value.
-    ///
-    /// # Errors
-    /// [`ConfigError`] names the first field outside its range.
-    pub fn validate(&self) -> Result<(), ConfigError> {
-        within("period_s", self.period_s, 0.01, 1.0)?;
-        within("columns", self.columns as f64, 1.0, 36_000.0)?;
-        within("range_noise_m", self.range_noise_m, 0.0, 1.0)?;
-        within("dropout_probability", self.dropout_probability, 0.0, 1.0)?;
-        within("max_range_m", self.max_range_m, 1.0, 1000.0)?;
-        within("min_range_m", self.min_range_m, 0.0, self.max_range_m)?;
-        within("height_m", self.height_m, 0.05, 5.0)?;
-        within("forward_m", self.forward_m, -5.0, 5.0)
+    fn check_order(&self, place: &str) -> Result<(), ConfigError> {
+        let rises = self.lowest_elevation_rad < self.highest_elevation_rad;
+        let value = self.lowest_elevation_rad;
+        ConfigError::require(rises, place, "lowest_elevation_rad", value, "less than highest_elevation_rad")?;
+        let grows = self.min_range_m < self.max_range_m;
+        ConfigError::require(grows, place, "min_range_m", self.min_range_m, "less than max_range_m")
+    }
+
+    /// Elevation of a ring in the sensor frame, in radians; ring 0 is the lowest.
+    #[must_use]
+    pub fn ring_elevation_rad(&self, ring: usize) -> f64 {
+        let steps = (self.rings - 1) as f64;
+        let half_step = (self.highest_elevation_rad - self.lowest_elevation_rad) / (2.0 * steps);
+        // Counted from the middle: so a sensor that looks as far up as down has its rings in pairs, to the last bit.
+        let middle = (self.lowest_elevation_rad + self.highest_elevation_rad) / 2.0;
+        (2.0 * ring as f64 - steps) * half_step + middle
     }
 
     /// Pose of the sensor on a robot that stands at `position` with heading `yaw_rad`.
     #[must_use]
     pub fn pose_on(&self, position: DVec2, yaw_rad: f64, attitude: &Attitude) -> SensorPose {
-        let world_from_sensor = world_from_body(yaw_rad, attitude);
-        let mount = world_from_sensor * DVec3::new(self.forward_m, 0.0, self.height_m);
+        let world_from_robot = world_from_body(yaw_rad, attitude);
+        let mount = world_from_robot * DVec3::new(self.forward_m, self.left_m, self.height_m);
+        let turned = Attitude { height_m: 0.0, roll_rad: self.roll_rad, pitch_rad: self.pitch_rad };
+        let is_turned = [self.roll_rad, self.pitch_rad, self.yaw_rad].iter().any(|&angle| angle != 0.0);
+        let world_from_sensor = if is_turned {
+            world_from_robot * world_from_body(self.yaw_rad, &turned)
+        } else {
+            world_from_robot
+        };
         SensorPose { position: position.extend(attitude.height_m) + mount, world_from_sensor }
     }
 }
@@ -83,8 +85,8 @@ impl SensorConfig {
 /// One revolution.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scan {
-    /// Range of every beam in metres, NaN without a return: beam `column * RING_COUNT + ring`. The azimuth of column
-    /// k is `-pi + k * 2 pi / columns`, the elevation that of [`ring_elevation_rad`].
+    /// Range of every beam in metres, NaN without a return: beam `column * rings + ring`. The azimuth of column
+    /// k of a full turn is `-pi + k * 2 pi / columns`, the elevation that of [`SensorConfig::ring_elevation_rad`].
     pub ranges_m: Vec<f32>,
     /// The returns in the sensor frame, in metres, in the order of their beams.
     pub points: Vec<Vec3>,
@@ -92,28 +94,31 @@ pub struct Scan {
 
 /// The sensor: its configuration and the directions of its beams.
 #[derive(Clone, Debug)]
-pub struct Vlp16 {
+pub struct Lidar {
     config: SensorConfig,
     /// (sine, cosine) of each column's azimuth.
     azimuths: Vec<(f64, f64)>,
     /// (sine, cosine) of each ring's elevation.
-    elevations: [(f64, f64); RING_COUNT],
+    elevations: Vec<(f64, f64)>,
 }
 
 /// No noise in a lifetime is this many standard deviations.
 const NOISE_DEVIATIONS: f64 = 12.0;
 
-impl Vlp16 {
+impl Lidar {
     /// Prepares a sensor.
     ///
     /// # Errors
     /// [`ConfigError`] when the configuration is not valid.
     pub fn new(config: SensorConfig) -> Result<Self, ConfigError> {
-        config.validate()?;
+        config.validate("sensor")?;
         let azimuths = (0..config.columns)
-            .map(|column| libm::sincos(-PI + column as f64 * (TAU / config.columns as f64)))
+            .map(|column| -PI + column as f64 * (TAU / config.columns as f64))
+            .filter(|azimuth_rad| azimuth_rad.abs() <= config.horizontal_fov_rad / 2.0)
+            .map(libm::sincos)
             .collect();
-        let elevations = std::array::from_fn(|ring| libm::sincos(ring_elevation_rad(ring)));
+        let elevations =
+            (0..config.rings).map(|ring| libm::sincos(config.ring_elevation_rad(ring))).collect();
         Ok(Self { config, azimuths, elevations })
     }
 
@@ -131,7 +136,7 @@ impl Vlp16 {
         self.scan_within(f64::INFINITY, caster, pose, seed, tick, scan);
     }
 
-    /// As [`Vlp16::scan`], and sooner: every return within `sight_m` is the same, those much farther are left out.
+    /// As [`Lidar::scan`], and sooner: every return within `sight_m` is the same, those much farther are left out.
     pub fn scan_within(
         &self,
         sight_m: f64,
@@ -143,7 +148,7 @@ impl Vlp16 {
     ) {
         // Noise may bring a return nearer.
         let reach_m = self.config.max_range_m.min(sight_m + NOISE_DEVIATIONS * self.config.range_noise_m);
-        let beams = self.azimuths.len() * RING_COUNT;
+        let beams = self.azimuths.len() * self.elevations.len();
         scan.ranges_m.clear();
         scan.points.clear();
         scan.ranges_m.reserve(beams);
@@ -190,6 +195,8 @@ mod tests {
     use super::*;
     use crate::HeightField;
 
+    const RING_COUNT: usize = 16;
+
     fn flat() -> Caster {
         Caster::new(HeightField::new(401, 401, 0.25, vec![1.0; 401 * 401]).unwrap())
     }
@@ -202,7 +209,7 @@ mod tests {
         let level = Attitude { height_m: 1.0, ..Attitude::default() };
         let pose = config.pose_on(DVec2::splat(50.0), 0.4, &level);
         let mut scan = Scan::default();
-        Vlp16::new(config).unwrap().scan_within(sight_m, caster, &pose, seed, tick, &mut scan);
+        Lidar::new(config).unwrap().scan_within(sight_m, caster, &pose, seed, tick, &mut scan);
         scan
     }
 
@@ -211,7 +218,7 @@ mod tests {
         let scan = take(&flat(), SensorConfig { range_noise_m: 0.0, ..SensorConfig::default() }, 0, 0);
         assert_eq!(scan.ranges_m.len(), 28_800);
         for (beam, range_m) in scan.ranges_m.iter().enumerate() {
-            let expected = 0.8 / -libm::sin(ring_elevation_rad(beam % RING_COUNT));
+            let expected = 0.8 / -libm::sin(SensorConfig::default().ring_elevation_rad(beam % RING_COUNT));
             if beam % RING_COUNT < 8 {
                 assert!((f64::from(*range_m) - expected).abs() < 1e-5, "{range_m} {expected}");
             } else {
@@ -290,7 +297,7 @@ mod tests {
         let config = SensorConfig::default();
         let pose =
             config.pose_on(DVec2::splat(50.0), 0.0, &Attitude { height_m: 1.0, ..Attitude::default() });
-        let sensor = Vlp16::new(config).unwrap();
+        let sensor = Lidar::new(config).unwrap();
         let mut scan = Scan::default();
         sensor.scan(&caster, &pose, 0, 0, &mut scan);
         let before = (scan.ranges_m.as_ptr(), scan.points.as_ptr(), scan.points.capacity());
@@ -318,8 +325,50 @@ mod tests {
             (SensorConfig { min_range_m: 200.0, ..SensorConfig::default() }, "min_range_m"),
             (SensorConfig { height_m: -1.0, ..SensorConfig::default() }, "height_m"),
         ] {
-            assert_eq!(Vlp16::new(bad).unwrap_err().field, field);
+            assert_eq!(Lidar::new(bad).unwrap_err().name, field);
         }
         assert!(mapless_toml::from_str::<SensorConfig>("noise = 1").is_err());
+    }
+
+    #[test]
+    fn rings_of_a_vlp16_are_two_degrees_apart_to_the_last_bit() {
+        for ring in 0..16 {
+            let elevation = (2.0 * ring as f64 - 15.0) * (PI / 180.0);
+            assert_eq!(SensorConfig::default().ring_elevation_rad(ring).to_bits(), elevation.to_bits());
+        }
+    }
+
+    #[test]
+    fn a_scan_has_the_beams_of_its_sensor() {
+        let exact = SensorConfig { range_noise_m: 0.0, columns: 360, ..SensorConfig::default() };
+        let wide = SensorConfig {
+            rings: 32,
+            lowest_elevation_rad: -PI / 4.0,
+            highest_elevation_rad: PI / 4.0,
+            horizontal_fov_rad: PI / 2.0,
+            ..exact
+        };
+        let scan = take(&flat(), wide, 0, 0);
+        assert_eq!(scan.ranges_m.len(), 91 * 32);
+        assert!((scan.ranges_m[0] - 0.8 * 2.0_f32.sqrt()).abs() < 1e-4);
+        assert!(scan.points.iter().all(|point| point.y.abs() < point.x * 1.0001));
+    }
+
+    #[test]
+    fn a_turned_mount_turns_the_points_and_not_the_ground() {
+        let exact = SensorConfig { range_noise_m: 0.0, left_m: 0.2, ..SensorConfig::default() };
+        for mount in [
+            SensorConfig { pitch_rad: -0.26, ..exact.clone() },
+            SensorConfig { roll_rad: PI, yaw_rad: 2.0, ..exact.clone() },
+        ] {
+            let level = Attitude { height_m: 1.0, ..Attitude::default() };
+            let pose = mount.pose_on(DVec2::splat(50.0), 0.4, &level);
+            let scan = take(&flat(), mount, 0, 0);
+            assert!(scan.points.len() > 5000);
+            for point in &scan.points {
+                let world = pose.position + pose.world_from_sensor * point.as_dvec3();
+                assert!((world.z - 1.0).abs() < 1e-4, "{world}");
+            }
+        }
     }
 }

@@ -1,12 +1,13 @@
-//! A kinematic Husky A200: unicycle motion with limited speeds and accelerations, resting on four wheels.
+//! A kinematic robot that turns by the difference of its wheels' speeds: unicycle motion with limited speeds and accelerations,
+//! resting on four wheels.
 
 use crate::attitude::{Attitude, attitude_on, world_from_body};
 use crate::height_field::HeightField;
-use crate::husky_config::HuskyConfig;
+use crate::robot_config::RobotConfig;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-impl HuskyConfig {
+impl RobotConfig {
     /// World positions of the wheel centres in metres, front left, front right, rear left, rear right, of a robot
     /// that stands at `position` with heading `yaw_rad`.
     #[must_use]
@@ -31,7 +32,7 @@ pub struct DriveCommand {
 
 /// Where the robot is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HuskyState {
+pub struct RobotState {
     /// Position of the middle of the wheelbase in the world's plan view, in metres.
     pub position: DVec2,
     /// Heading, counter-clockwise from east, in radians; not wrapped, so that turns can be counted.
@@ -69,37 +70,37 @@ pub enum DriveError {
 
 /// The robot.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Husky {
-    config: HuskyConfig,
-    state: HuskyState,
+pub struct Robot {
+    config: RobotConfig,
+    state: RobotState,
 }
 
-impl Husky {
+impl Robot {
     /// Puts a robot at rest on the ground. The configuration must have been validated.
     ///
     /// # Errors
     /// [`DriveError::LeftTerrain`] when a wheel is off the terrain.
     pub fn new(
-        config: HuskyConfig,
+        config: RobotConfig,
         field: &HeightField,
         position: DVec2,
         yaw_rad: f64,
     ) -> Result<Self, DriveError> {
         let attitude =
             attitude_on(field, position, yaw_rad, &config).ok_or(DriveError::LeftTerrain { position })?;
-        let state = HuskyState { position, yaw_rad, speed_m_s: 0.0, turn_rate_rad_s: 0.0, attitude };
+        let state = RobotState { position, yaw_rad, speed_m_s: 0.0, turn_rate_rad_s: 0.0, attitude };
         Ok(Self { config, state })
     }
 
     /// The robot's dimensions and limits.
     #[must_use]
-    pub fn config(&self) -> &HuskyConfig {
+    pub fn config(&self) -> &RobotConfig {
         &self.config
     }
 
     /// Where it is and how it moves.
     #[must_use]
-    pub fn state(&self) -> &HuskyState {
+    pub fn state(&self) -> &RobotState {
         &self.state
     }
 
@@ -148,7 +149,7 @@ impl Husky {
         let yaw_rad = state.yaw_rad + 2.0 * half_turn;
         let attitude =
             attitude_on(field, position, yaw_rad, config).ok_or(DriveError::LeftTerrain { position })?;
-        self.state = HuskyState { position, yaw_rad, speed_m_s: speed, turn_rate_rad_s: turn_rate, attitude };
+        self.state = RobotState { position, yaw_rad, speed_m_s: speed, turn_rate_rad_s: turn_rate, attitude };
         Ok(())
     }
 }
@@ -171,7 +172,7 @@ mod tests {
         HeightField::new(101, 101, 0.5, vec![0.0; 101 * 101]).unwrap()
     }
 
-    fn drive(husky: &mut Husky, field: &HeightField, speed_m_s: f64, turn_rate_rad_s: f64, seconds: f64) {
+    fn drive(husky: &mut Robot, field: &HeightField, speed_m_s: f64, turn_rate_rad_s: f64, seconds: f64) {
         let command = DriveCommand { speed_m_s, turn_rate_rad_s };
         for _ in 0..(seconds / 0.02).round() as usize {
             husky.step(command, 0.02, field).unwrap();
@@ -181,7 +182,7 @@ mod tests {
     #[test]
     fn drives_a_circle_of_the_commanded_radius() {
         let field = flat();
-        let mut husky = Husky::new(HuskyConfig::default(), &field, DVec2::splat(25.0), 0.3).unwrap();
+        let mut husky = Robot::new(RobotConfig::default(), &field, DVec2::splat(25.0), 0.3).unwrap();
         drive(&mut husky, &field, 0.8, 0.4, 2.0);
         let begin = *husky.state();
         let (sin, cos) = libm::sincos(begin.yaw_rad);
@@ -195,7 +196,7 @@ mod tests {
     #[test]
     fn accelerates_within_its_limits() {
         let field = flat();
-        let mut husky = Husky::new(HuskyConfig::default(), &field, DVec2::splat(25.0), 0.0).unwrap();
+        let mut husky = Robot::new(RobotConfig::default(), &field, DVec2::splat(25.0), 0.0).unwrap();
         let command = DriveCommand { speed_m_s: 9.0, turn_rate_rad_s: -9.0 };
         husky.step(command, 0.1, &field).unwrap();
         assert!((husky.state().speed_m_s - 0.1).abs() < 1e-12);
@@ -209,7 +210,7 @@ mod tests {
     fn climbs_at_the_speed_of_its_wheels() {
         let heights = (0..101 * 101).map(|i| (i % 101) as f32 * 0.25).collect();
         let field = HeightField::new(101, 101, 0.5, heights).unwrap();
-        let mut husky = Husky::new(HuskyConfig::default(), &field, DVec2::splat(10.0), 0.0).unwrap();
+        let mut husky = Robot::new(RobotConfig::default(), &field, DVec2::splat(10.0), 0.0).unwrap();
         drive(&mut husky, &field, 0.5, 0.0, 1.0);
         let before = husky.position();
         drive(&mut husky, &field, 0.5, 0.0, 4.0);
@@ -220,7 +221,7 @@ mod tests {
     #[test]
     fn an_error_leaves_the_robot_as_it_was() {
         let field = flat();
-        let mut husky = Husky::new(HuskyConfig::default(), &field, DVec2::new(49.5, 25.0), 0.0).unwrap();
+        let mut husky = Robot::new(RobotConfig::default(), &field, DVec2::new(49.5, 25.0), 0.0).unwrap();
         let command = DriveCommand { speed_m_s: 1.0, turn_rate_rad_s: 0.0 };
         let (error, last) = loop {
             let before = husky.clone();
@@ -233,13 +234,13 @@ mod tests {
         let nan = DriveCommand { speed_m_s: f64::NAN, turn_rate_rad_s: 0.0 };
         assert!(matches!(husky.step(nan, 0.1, &field), Err(DriveError::NotFinite { .. })));
         assert!(husky.step(command, -0.1, &field).is_err());
-        assert!(Husky::new(HuskyConfig::default(), &field, DVec2::new(-1.0, 0.0), 0.0).is_err());
+        assert!(Robot::new(RobotConfig::default(), &field, DVec2::new(-1.0, 0.0), 0.0).is_err());
     }
 
     #[test]
     fn wheels_stand_one_radius_above_the_ground() {
         let field = flat();
-        let husky = Husky::new(HuskyConfig::default(), &field, DVec2::splat(25.0), 1.0).unwrap();
+        let husky = Robot::new(RobotConfig::default(), &field, DVec2::splat(25.0), 1.0).unwrap();
         let state = husky.state();
         let wheels = husky.config().wheel_centres(state.position, state.yaw_rad, &state.attitude);
         assert!(wheels.iter().all(|wheel| (wheel.z - 0.165).abs() < 1e-12));
@@ -251,7 +252,7 @@ mod tests {
         #[test]
         fn one_long_step_is_many_short_ones(speed_m_s in -1.0..1.0f64, turn_rate_rad_s in -1.0..1.0f64) {
             let field = flat();
-            let mut short = Husky::new(HuskyConfig::default(), &field, DVec2::splat(25.0), 0.0).unwrap();
+            let mut short = Robot::new(RobotConfig::default(), &field, DVec2::splat(25.0), 0.0).unwrap();
             drive(&mut short, &field, speed_m_s, turn_rate_rad_s, 2.0);
             let mut long = short.clone();
             drive(&mut short, &field, speed_m_s, turn_rate_rad_s, 4.0);
