@@ -1,14 +1,15 @@
-//! What a value must hold to mean anything.
+//! Checks of single values.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
 use crate::{ConfigError, Value};
 
-/// What a value must hold to mean anything. Both numbers of a pair are checked, and no check takes infinity or NaN.
+/// The condition that a value must meet. Both numbers of a pair are checked, and no check accepts infinity or
+/// NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Check {
-    /// Its type says it all: a switch or a choice.
+    /// Any value of its type: a switch or a choice.
     ByType,
     /// A number.
     Finite,

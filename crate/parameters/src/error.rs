@@ -1,10 +1,10 @@
-//! What can be wrong with a configuration.
+//! The error of a configuration value.
 
-/// A configuration value that makes no sense.
+/// A configuration value outside its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{place}{}{name} = {value}: expected {expected}", if place.is_empty() { "" } else { "." })]
 pub struct ConfigError {
-    /// Table that holds the value, such as `planner.perception`; empty where there is none.
+    /// Table that holds the value, such as `planner.perception`; empty if there is none.
     pub place: String,
     /// Name of the value.
     pub name: &'static str,
@@ -15,7 +15,7 @@ pub struct ConfigError {
 }
 
 impl ConfigError {
-    /// Fails unless `ok`: for what relates several parameters.
+    /// Fails unless `ok`, for conditions on several parameters.
     ///
     /// # Errors
     /// This error, unless `ok`.

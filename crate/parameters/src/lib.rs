@@ -1,7 +1,8 @@
 //! Configuration structs that are declared once.
 //!
-//! [`parameters!`] takes one entry for each parameter and makes the struct from it, its defaults, its checks and the
-//! description that people read. [`choices!`] does the same for a parameter that is one of a few words.
+//! [`parameters!`] takes one entry for each parameter and makes the struct from it, its defaults, its checks
+//! and the description that people read. [`choices!`] does the same for a parameter that is one of a few
+//! words.
 //!
 //! ```
 //! mapless_parameters::choices! {
@@ -37,20 +38,20 @@
 //! name: type = default, paper value, unit "m", range [0.5, 3.0], check Positive;
 //! ```
 //!
-//! The type is `f64`, `usize`, `u32`, `u64`, `[f64; 2]`, `bool` or an enum of [`choices!`]. After the default every
-//! part is optional, in this order:
+//! The type is `f64`, `usize`, `u32`, `u64`, `[f64; 2]`, `bool` or an enum of [`choices!`]. After the default
+//! every part is optional, in this order:
 //!
 //! - `paper`: the value that the paper gives, where it gives one.
 //! - `unit`: none for shares, counts and choices.
 //! - `range`: the values that make sense to people, as for a slider. Numbers and pairs need one.
 //! - `check`: what a value must hold to mean anything, one of [`Check`].
 //!
-//! Structs inside the struct stand in `tables { name: Type; }` behind it; with `= value` where they do not begin with their
-//! own defaults. `relations name;` names a method `fn name(&self, place: &str) -> Result<(), ConfigError>` that checks
-//! what relates several parameters.
+//! Structs inside the struct stand in `tables { name: Type; }` behind it; with `= value` where they do not
+//! begin with their own defaults. `relations name;` names a method `fn name(&self, place: &str) -> Result<(),
+//! ConfigError>` that checks what relates several parameters.
 //!
-//! With the feature `serde` of the crate that declares the struct, it is read and written by serde, and a key that is
-//! no parameter is an error.
+//! With the feature `serde` of the crate that declares the struct, it is read and written by serde, and a key
+//! that is no parameter is an error.
 
 mod check;
 mod error;

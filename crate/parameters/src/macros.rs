@@ -6,7 +6,8 @@
 ///
 /// - `PARAMETERS: &[Parameter]`, what people are told about each parameter, without those of inner tables;
 /// - `values(&self)`, their values in the same order;
-/// - `validate(&self, place: &str) -> Result<(), ConfigError>`, which checks everything, inner tables included;
+/// - `validate(&self, place: &str) -> Result<(), ConfigError>`, which checks everything, inner tables
+///   included;
 /// - `with_paper_values(self)`, the same with every value that the paper gives.
 #[macro_export]
 macro_rules! parameters {
@@ -59,7 +60,8 @@ macro_rules! parameters {
         }
 
         impl $name {
-            /// What people are told about each parameter, in the order of the fields. Those of inner tables are with these.
+            /// The description of each parameter, in the order of the fields. Those of inner tables are with
+            /// these.
             pub const PARAMETERS: &'static [$crate::Parameter] = &[$(
                 $crate::Parameter {
                     name: stringify!($field),
@@ -80,7 +82,8 @@ macro_rules! parameters {
             /// Checks every value; `place` is the table it stands in, for messages.
             ///
             /// # Errors
-            /// [`ConfigError`]($crate::ConfigError) with the first value that makes no sense, its place and what was expected.
+            /// [`ConfigError`]($crate::ConfigError) with the first value that makes no sense, its place and
+            /// what was expected.
             pub fn validate(&self, place: &str) -> Result<(), $crate::ConfigError> {
                 $crate::check_all(place, Self::PARAMETERS, &self.values())?;
                 $($(self.$table.validate(&$crate::inside(place, stringify!($table)))?;)*)?

@@ -1,4 +1,4 @@
-//! What a parameter is, for people and for what shows it to them.
+//! The description of a parameter.
 
 use std::fmt;
 
@@ -11,17 +11,18 @@ pub struct Parameter {
     pub name: &'static str,
     /// The unit; empty for shares, counts and choices.
     pub unit: &'static str,
-    /// What it may be.
+    /// Its kind and range.
     pub kind: Kind,
-    /// What it must hold to mean anything.
+    /// The condition that its value must meet.
     pub check: Check,
-    /// What it does.
+    /// Its description.
     pub text: &'static str,
-    /// The value that the paper gives; nothing where it gives none.
+    /// The value that the paper gives; `None` if it gives none.
     pub paper: Option<Value>,
 }
 
-/// What a parameter may be. The ranges are sensible ones; [`Check`] says what makes no sense at all.
+/// Kind and range of a parameter. The ranges are sensible ones, as for a slider; [`Check`] is the hard
+/// condition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// A number, from lowest to highest.

@@ -5,11 +5,11 @@ use crate::robot_model::RobotModel;
 use crate::sensor_model::SensorModel;
 use crate::skyline::beam_grid::{BeamGrid, ROWS_PER_RING};
 
-/// So many rows of beams meet level ground within r_oc, as far as that takes r_oc no further than so many times the sensor's height:
-/// farther out beams graze the ground.
+/// As many rows of beams must meet level ground within r_oc, unless that takes r_oc beyond this multiple of
+/// the sensor's height: farther out beams graze the ground.
 const FEWEST_ROWS: usize = 4;
 const MOST_HEIGHTS: f64 = 9.0;
-/// The state lattice reaches so many steps at most: the time of a search grows with their square.
+/// The largest reach of the state lattice, in steps: the time of a search grows with its square.
 const MOST_STEPS: f64 = 16.0;
 
 impl PlannerConfig {
@@ -18,8 +18,9 @@ impl PlannerConfig {
         Self::default().fitted_to(sensor, robot)
     }
 
-    /// This configuration, which is for a VLP-16 on a Robot, for another sensor and robot: a sensor higher up, or with fewer rings,
-    /// needs a larger r_oc to see the ground, and with it a wider memory and a coarser lattice.
+    /// This configuration, which is for a VLP-16 on a Husky, for another sensor and robot: a sensor higher
+    /// up, or with fewer rings, needs a larger r_oc to see the ground, and with it a wider memory and a
+    /// coarser lattice.
     #[must_use]
     pub fn fitted_to(mut self, sensor: SensorModel, robot: RobotModel) -> Self {
         (self.sensor, self.robot) = (sensor, robot);

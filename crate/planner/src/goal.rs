@@ -1,4 +1,4 @@
-//! Where the robot is to go.
+//! The robot's goal.
 
 use glam::DVec2;
 
@@ -10,7 +10,7 @@ pub struct Goal {
     pub position_m: DVec2,
     /// The goal is reached within this distance, metres; the configuration's `goal_tolerance_m` when absent.
     pub tolerance_m: Option<f64>,
-    /// Heading to turn to at the goal, anticlockwise from the world's x axis, radians; any heading when absent.
+    /// Final heading, anticlockwise from the world's x axis, radians; any heading when absent.
     pub heading_rad: Option<f64>,
 }
 

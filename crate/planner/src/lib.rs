@@ -1,11 +1,13 @@
-//! Autonomous mapless navigation on uneven terrain: a planner that takes a LiDAR scan, a pose and a goal and gives a
-//! subgoal and a velocity command.
+//! Autonomous mapless navigation on uneven terrain: a planner that takes a LiDAR scan, a pose and a goal and
+//! gives a subgoal and a velocity command.
 //!
-//! It implements Jardali, Ali and Liu, "Autonomous Mapless Navigation on Uneven Terrains" (ICRA 2024), called *the paper*
-//! throughout. One [`Planner::step`] runs the whole method:
+//! It implements Jardali, Ali and Liu, "Autonomous Mapless Navigation on Uneven Terrains" (ICRA 2024), called
+//! *the paper* throughout. One [`Planner::step`] runs the whole method:
 //!
-//! 1. [`skyline::occupancy`]: the returns within r_oc = 7 m become an occupancy surface over azimuth and elevation.
-//! 2. [`skyline::perception`]: a sparse Gaussian process ([`gp::sparse`]) over it gives a mean and a variance surface.
+//! 1. [`skyline::occupancy`]: the returns within r_oc = 7 m become an occupancy surface over azimuth and
+//!    elevation.
+//! 2. [`skyline::perception`]: a sparse Gaussian process ([`gp::sparse`]) over it gives a mean and a variance
+//!    surface.
 //! 3. [`skyline::profile`]: the edge of the variance surface is the skyline of the terrain.
 //! 4. [`skyline::segments`]: its stretches of one elevation, each with a verdict.
 //! 5. [`decision::subgoals`]: places on the segments, in the world frame.
@@ -13,8 +15,8 @@
 //! 7. [`decision::cost`]: the cheapest one is chosen.
 //! 8. [`control::controller`]: a PID drives to it.
 //!
-//! The crate does no input or output, reads no clock, starts no thread and draws no random number, and its results have
-//! the same bits on every target.
+//! The crate does no input or output, reads no clock, starts no thread and draws no random number, and its
+//! results have the same bits on every target.
 //!
 //! ```
 //! use glam::{DVec2, DVec3, Vec3};

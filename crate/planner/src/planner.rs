@@ -22,17 +22,17 @@ use crate::skyline::profile::ElevationProfile;
 use crate::skyline::segments::{Segment, cut_segments};
 use crate::skyline::surface::PredictedSurface;
 
-/// Poses and goals farther from the origin make no sense; cells and places are counted in 32 bits.
+/// Poses and goals farther from the origin are invalid; cells and places are counted in 32 bits.
 const FARTHEST_M: f64 = 1e6;
 /// Room for the longest path.
 const MAX_PATH_POINTS: usize = 256;
-/// The heading asked for at the goal is reached within this angle.
+/// The final heading is reached within this angle.
 const HEADING_TOLERANCE_RAD: f64 = 0.05;
 
 /// Scan and pose in; subgoal and command out.
 ///
-/// There is no global map: the planner keeps a local elevation window of what the last scans saw, the trajectory it came by, what it
-/// learned of the cost-to-go around it, and its last choice.
+/// There is no global map: the planner keeps a local elevation window, its own trajectory, learned
+/// corrections of the cost-to-go around it, and its last choice.
 #[derive(Clone, Debug)]
 pub struct Planner {
     config: PlannerConfig,
@@ -44,15 +44,15 @@ pub struct Planner {
     controller: Controller,
     plan: Plan,
     goal: Option<Goal>,
-    /// Where the goal was when what was learned on the way to it was last forgotten.
+    /// The goal for which the present corrections were learned.
     goal_anchor_m: DVec2,
-    /// How long there has been no candidate.
+    /// Time without a candidate.
     searched: Duration,
     status: Status,
     command: Command,
 }
 
-/// Who chooses the subgoal.
+/// The policy that chooses the subgoal.
 #[derive(Clone, Debug)]
 enum Policy {
     Paper(PaperPolicy),
@@ -112,8 +112,8 @@ impl Planner {
         &self.config
     }
 
-    /// How far the planner looks: returns farther from the sensor than this, in metres, change nothing. A scan may be cropped to it to save
-    /// time, as long as one return is left: a scan without any says that the sensor is blind.
+    /// Range of the returns that the planner uses, metres: farther ones change nothing. A scan may be cropped
+    /// to it to save time, as long as one return is left: a scan without any means a blind sensor.
     pub fn sight_m(&self) -> f64 {
         self.config.perception.surface_radius_m.max(self.config.elevation_window.radius_m)
     }
@@ -123,12 +123,13 @@ impl Planner {
         self.goal
     }
 
-    /// Sets the goal. What was learned on the way to the goal before is forgotten, unless this one lies within its tolerance of that: a goal
-    /// that is only told more exactly, or in a frame that drifts, costs nothing. What was seen of the ground is kept.
+    /// Sets the goal. Corrections learned for the last goal are forgotten, unless the new goal lies within
+    /// its tolerance of that: a goal that is refined, or given in a drifting frame, costs nothing. The
+    /// elevation window is kept.
     pub fn set_goal(&mut self, goal: Goal) {
         let tolerance_m = goal.tolerance_m.unwrap_or(self.config.goal_tolerance_m);
         let moved_m = (goal.position_m - self.goal_anchor_m).length();
-        // Also starts anew for a goal that is not a number.
+        // Also restarts for a goal that is not finite.
         let is_near = self.goal.is_some() && moved_m < tolerance_m;
         self.goal = Some(goal);
         if !is_near {
@@ -139,22 +140,24 @@ impl Planner {
         }
     }
 
-    /// Forgets the goal: the planner stands still until it gets another.
+    /// Cancels the goal: the planner stops until it gets another.
     pub fn cancel_goal(&mut self) {
         self.goal = None;
     }
 
-    /// Forgets everything seen, learned and driven, as after a change of the world, and the goal.
+    /// Forgets the goal and everything sensed, learned and driven, as after a change of the world.
     pub fn reset(&mut self) {
         self.perception.reset(self.config.perception, self.observed.grid());
         self.policy.get_mut().forget_terrain();
         self.goal = None;
     }
 
-    /// Takes note that the localisation has changed its mind: the same stance that it gave as `before` it now gives as `after`. All that is
-    /// remembered of the ground moves along; the goal stays where it is in the world.
+    /// Corrects for a jump of the localisation: the pose that it gave as `before` it now gives as `after`.
+    /// The elevation window, the trajectory and the corrections move along; the goal keeps its place in the
+    /// world.
     ///
-    /// Without this a jump of the pose tears the remembered ground. Only the turn about z and the shift between both poses count.
+    /// Without this a jump of the pose tears the window apart. Only the turn about z and the shift between
+    /// both poses count.
     pub fn relocalise(&mut self, before: &Pose, after: &Pose) {
         if before.is_finite() && after.is_finite() {
             self.policy.get_mut().relocalise(&FrameChange::between(before, after));
@@ -163,9 +166,12 @@ impl Planner {
 
     /// One step.
     ///
-    /// - `points_m`: the scan's returns in the sensor frame, metres, in any order. Returns that are not finite are passed over.
-    /// - `pose`: the robot's in the world, at the time of the scan; points of a sweep should be corrected for the motion since their firing.
-    /// - `elapsed`: the time since the step before, with that of scans that were lost; of the first step it does not matter.
+    /// - `points_m`: the scan's returns in the sensor frame, metres, in any order. Returns that are not
+    ///   finite are passed over.
+    /// - `pose`: the robot's in the world, at the time of the scan; points of a sweep should be corrected for
+    ///   the motion since their firing.
+    /// - `elapsed`: the time since the step before, with that of scans that were lost; of the first step it
+    ///   does not matter.
     ///
     /// The answer to anything that makes no sense is a stop with its reason.
     pub fn step(&mut self, points_m: &[Vec3], pose: &Pose, elapsed: Duration) -> Step<'_> {
@@ -195,7 +201,7 @@ impl Planner {
         self.last_step()
     }
 
-    /// What the last step saw and decided.
+    /// The result of the last step.
     pub fn last_step(&self) -> Step<'_> {
         Step {
             status: self.status,
@@ -210,8 +216,8 @@ impl Planner {
         }
     }
 
-    /// The reconstructed occupancy and the variance surface of the last step's scan. A step itself needs only their edge, so
-    /// they are predicted here.
+    /// The reconstructed occupancy and the variance surface of the last step's scan. A step itself needs only
+    /// their edge, so they are predicted here.
     ///
     /// # Errors
     /// [`GpError`] when there is no posterior.
@@ -274,7 +280,7 @@ impl Planner {
         }
     }
 
-    /// At the goal: turns to the heading that was asked for.
+    /// At the goal: turns to the final heading.
     fn arrive(&mut self, goal: &Goal, pose: &Pose, elapsed: Duration) -> Status {
         let turn_rad = goal.heading_rad.map_or(0.0, |heading_rad| difference_rad(heading_rad, pose.yaw_rad));
         if turn_rad.abs() <= HEADING_TOLERANCE_RAD {

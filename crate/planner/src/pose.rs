@@ -1,15 +1,17 @@
-//! Frames: where the robot stands and how to get from its frame to the world's.
+//! Frames, and the robot's pose.
 //!
-//! The world frame W is x east, y north, z up. The robot frame R has its origin on the ground between the wheels, x forward, y left,
-//! z up along the body. The sensor frame is R moved and turned by the sensor's mount ([`SensorModel`](crate::SensorModel)).
+//! The world frame W is x east, y north, z up. The robot frame R has its origin on the ground between the
+//! wheels, x forward, y left, z up along the body. The sensor frame is R moved and turned by the sensor's
+//! mount ([`SensorModel`](crate::SensorModel)).
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 /// Position and attitude of the robot frame in the world frame.
 ///
-/// **Pitch is nose-up positive here.** ROS (REP 103) turns about the left axis by the right-hand rule, so there nose-down is positive:
-/// use [`Pose::from_quaternion`], which has no such ambiguity, or [`Pose::from_ros_rpy`]. The origin is on the ground between the wheels, not
-/// at `base_link`: use [`Pose::moved`] for a pose of another point of the robot.
+/// **Pitch is nose-up positive here.** ROS (REP 103, <https://www.ros.org/reps/rep-0103.html>) turns about
+/// the left axis by the right-hand rule, so there nose-down is positive: use [`Pose::from_quaternion`], which
+/// has no such ambiguity, or [`Pose::from_ros_rpy`]. The origin is on the ground between the wheels, not at
+/// `base_link`: use [`Pose::moved`] for a pose of another point of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Pose {
@@ -24,8 +26,9 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// From a rotation that takes vectors of the robot frame to the world frame, as ROS messages hold it. It need not be of unit length; of
-    /// zero length or with a number that is not finite it makes a pose that is not finite, which the planner answers with a stop.
+    /// From a rotation that takes vectors of the robot frame to the world frame, as in ROS messages. It need
+    /// not be of unit length. A rotation of zero length or with a number that is not finite makes a pose that
+    /// is not finite, which the planner answers with a stop.
     pub fn from_quaternion(position_m: DVec3, world_from_robot: DQuat) -> Self {
         let rotation = DMat3::from_quat(world_from_robot * (1.0 / world_from_robot.length()));
         let (ahead, left, up) = (rotation.x_axis, rotation.y_axis, rotation.z_axis);
@@ -37,7 +40,8 @@ impl Pose {
         }
     }
 
-    /// From roll, pitch and yaw in radians with pitch **nose-up** positive, turned by yaw, then pitch, then roll.
+    /// From roll, pitch and yaw in radians with pitch **nose-up** positive, turned by yaw, then pitch, then
+    /// roll.
     pub const fn from_roll_pitch_yaw(
         position_m: DVec3,
         roll_rad: f64,
@@ -47,13 +51,15 @@ impl Pose {
         Self { position_m, roll_rad, pitch_rad: pitch_up_rad, yaw_rad }
     }
 
-    /// From roll, pitch and yaw in radians as ROS has them (REP 103, `tf` "RPY"): pitch **nose-down** positive.
+    /// From roll, pitch and yaw in radians in ROS's convention (REP 103, `tf` "RPY"): pitch **nose-down**
+    /// positive.
     pub const fn from_ros_rpy(position_m: DVec3, roll_rad: f64, pitch_down_rad: f64, yaw_rad: f64) -> Self {
         Self { position_m, roll_rad, pitch_rad: -pitch_down_rad, yaw_rad }
     }
 
-    /// The pose of a frame with the same axes whose origin lies at `offset_m` in this one. With this pose that of `base_link`, and the
-    /// offset from there down to the ground between the wheels, it is the pose that the planner takes.
+    /// The pose of a frame with the same axes whose origin lies at `offset_m` in this one. Called on the pose
+    /// of `base_link`, with the offset from there down to the ground between the wheels, it gives the pose
+    /// that the planner takes.
     #[must_use]
     pub fn moved(&self, offset_m: DVec3) -> Self {
         Self { position_m: self.position_m + self.world_from_robot() * offset_m, ..*self }
@@ -103,7 +109,7 @@ pub(crate) struct FrameChange {
 }
 
 impl FrameChange {
-    /// The change after which what stood at one pose stands at another.
+    /// The change that takes one pose to another.
     pub(crate) fn between(before: &Pose, after: &Pose) -> Self {
         let turn_rad = after.yaw_rad - before.yaw_rad;
         let (sin, cos) = libm::sincos(turn_rad);
@@ -112,7 +118,7 @@ impl FrameChange {
         Self { turn_rad, turn, shift_m: after.position_m - turned_m }
     }
 
-    /// By how much headings turn, radians.
+    /// The turn of headings, radians.
     pub(crate) fn turn_rad(&self) -> f64 {
         self.turn_rad
     }

@@ -1,10 +1,10 @@
-//! The robot as data.
+//! The robot model.
 
 use mapless_parameters::{ConfigError, parameters};
 
 parameters! {
-    /// Dimensions and limits of a wheeled robot that turns by the difference of its wheels' speeds. The default is a Clearpath
-    /// Husky A200.
+    /// Dimensions and limits of a differential-drive (skid-steer) robot. The default is a Clearpath Husky
+    /// A200.
     ///
     /// All lengths are in metres, angles in radians.
     #[derive(Copy)]
@@ -66,8 +66,8 @@ impl RobotModel {
         }
     }
 
-    /// Ground within this distance of a place carries the robot there, whichever way it faces: its four wheels stand a little
-    /// inside.
+    /// Radius of the footprint: ground within it carries the robot at any heading. Its four wheels are a
+    /// little inside.
     pub fn footprint_radius_m(&self) -> f64 {
         let half_diagonal_m = 0.5 * libm::hypot(self.wheelbase_m, self.track_m);
         0.1 * ((half_diagonal_m + 0.1) / 0.1).ceil()

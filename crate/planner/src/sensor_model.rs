@@ -1,4 +1,4 @@
-//! The LiDAR as data: its rings, its field of view, and where it sits on the robot.
+//! The LiDAR model: rings, field of view, range and mount.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -8,9 +8,9 @@ use mapless_parameters::{ConfigError, parameters};
 parameters! {
     /// A multi-beam LiDAR and its mount. The default is a Velodyne VLP-16, 0.8 m above the ground.
     ///
-    /// The sensor frame has x forward, y left and z up along the sensor's axis; it is turned from the robot frame by yaw, then
-    /// pitch (nose-up positive), then roll. The planner takes points in the sensor frame, in any order: of the rings it needs to
-    /// know no more than how many there are and where the lowest and the highest one look.
+    /// The sensor frame has x forward, y left and z up along the sensor's axis; it is turned from the robot
+    /// frame by yaw, then pitch (nose-up positive), then roll. The planner takes points in the sensor frame,
+    /// in any order: of the rings it uses only their number and the lowest and the highest elevation.
     #[derive(Copy)]
     #[non_exhaustive]
     pub struct SensorModel {
@@ -20,9 +20,10 @@ parameters! {
         lowest_elevation_rad: f64 = -15.0 * (PI / 180.0), unit "rad", range [-1.5, 0.2], check Within(-FRAC_PI_2, FRAC_PI_2);
         /// Elevation of the highest ring.
         highest_elevation_rad: f64 = 15.0 * (PI / 180.0), unit "rad", range [-0.2, 1.5], check Within(-FRAC_PI_2, FRAC_PI_2);
-        /// Directions around the sensor's axis in which each ring measures, for a full turn. The skyline has a column a degree.
+        /// Azimuths at which each ring measures, for a full turn. The skyline has a column for each degree.
         columns: usize = 1800, range [90, 4096], check AtLeast(1.0);
-        /// Horizontal field of view, half of it to each side of the sensor's x axis; 2π for a spinning sensor.
+        /// Horizontal field of view, half of it to each side of the sensor's x axis; 2π for a spinning
+        /// sensor.
         horizontal_fov_rad: f64 = TAU, unit "rad", range [0.5, TAU], check UpTo(TAU);
         /// Nothing nearer is measured.
         min_range_m: f64 = 0.5, unit "m", range [0.0, 5.0], check NotNegative;
@@ -55,7 +56,7 @@ impl SensorModel {
         DVec3::new(self.forward_m, self.left_m, self.height_m)
     }
 
-    /// The rotation from the sensor frame to the robot frame; `None` where their axes are the same.
+    /// The rotation from the sensor frame to the robot frame; `None` if their axes are the same.
     pub fn robot_from_sensor(&self) -> Option<DMat3> {
         if [self.roll_rad, self.pitch_rad, self.yaw_rad].iter().all(|&angle| angle == 0.0) {
             return None;
@@ -72,8 +73,8 @@ impl SensorModel {
         ))
     }
 
-    /// Whether a unit vector in the sensor frame is between the lowest and the highest ring and inside the horizontal field of view, or
-    /// outside by no more than a slack.
+    /// Whether a unit vector in the sensor frame is in the field of view, vertical and horizontal, or outside
+    /// by at most `slack_rad`.
     pub(crate) fn has_in_view(&self, beam: DVec3, slack_rad: f64) -> bool {
         let elevation = libm::asin(beam.z.clamp(-1.0, 1.0));
         let azimuth = libm::atan2(beam.y, beam.x);

@@ -38,8 +38,9 @@ impl Rename {
     }
 }
 
-/// Moves what stands at an old path to its new one. The places in the text go with it, so that messages name the line as it
-/// stands. `scaled` holds one cell for each of `renames`: the texts of numbers in another unit.
+/// Moves what stands at an old path to its new one. The places in the text go with it, so that messages name
+/// the line as it stands. `scaled` holds one cell for each of `renames`: the texts of numbers in another
+/// unit.
 pub(crate) fn apply<'a>(
     table: &mut Table<'a>,
     renames: &[Rename],

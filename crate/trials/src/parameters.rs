@@ -1,5 +1,5 @@
-//! Every parameter that a scenario file may set, described for people: what it does, its unit, a sensible range, what the paper
-//! says and the value that holds. The descriptions stand with the configurations themselves; here they are put in order.
+//! Every parameter that a scenario file may set, with description, unit, sensible range, the paper's value
+//! and its present value. The descriptions come from the configurations themselves; here they are ordered.
 
 use mapless::PlannerConfig;
 pub use mapless_parameters::{Kind, Parameter, Value};
@@ -7,21 +7,21 @@ use mapless_world::{RobotConfig, SensorConfig};
 
 use crate::scenario::{Preset, Scenario, ScenarioFault};
 
-/// Parameters that belong together, with their values.
+/// Parameters of one table, with their values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// The table of the scenario file they stand in, such as `planner.state_lattice`.
+    /// The table of the scenario file, such as `planner.state_lattice`.
     pub table: &'static str,
-    /// What people call it.
+    /// The title for people.
     pub title: &'static str,
     /// Its parameters.
     pub parameters: Vec<Valued>,
 }
 
-/// A parameter and the value that holds.
+/// A parameter and its present value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Valued {
-    /// What is told about it.
+    /// Its description.
     pub parameter: &'static Parameter,
     /// Its value.
     pub value: Value,
@@ -53,8 +53,8 @@ pub fn groups(planner: &PlannerConfig, sensor: &SensorConfig, robot: &RobotConfi
         "planner.perception.learning.bounds" "Bounds of learning" HyperparameterBounds = learning.bounds;
         "planner.segments" "Segments and subgoals" SegmentConfig = planner.segments;
         "planner.decision" "Cost of a subgoal" DecisionConfig = planner.decision;
-        "planner.state_lattice" "Paths and their tilt" StateLatticeConfig = planner.state_lattice;
-        "planner.elevation_window" "Memory of the ground" ElevationWindowConfig = planner.elevation_window;
+        "planner.state_lattice" "State lattice" StateLatticeConfig = planner.state_lattice;
+        "planner.elevation_window" "Elevation window" ElevationWindowConfig = planner.elevation_window;
         "planner.controller" "Controller" ControllerConfig = controller;
         "planner.controller.distance" "Distance loop: metres to metres a second" PidGains = controller.distance;
         "planner.controller.yaw" "Heading loop: radians to radians a second" PidGains = controller.yaw;
@@ -75,8 +75,8 @@ fn group(
     Group { table, title, parameters: valued.collect() }
 }
 
-/// The values that hold where nobody changed any: those of the scenario `file` under `preset`. What the planner takes from
-/// sensor and robot follows those of `running`, the scenario with its changes.
+/// The values that hold where nobody changed any: those of the scenario `file` under `preset`. What the
+/// planner takes from sensor and robot follows those of `running`, the scenario with its changes.
 ///
 /// # Errors
 /// The value that does not fit the preset.

@@ -20,7 +20,7 @@ use mapless_world::{RobotConfig, SensorConfig, TerrainError};
 use crate::places::{self, StartPose};
 use renamed_keys::RENAMED_KEYS;
 
-/// Which planner configuration a scenario's `[planner]` section starts from.
+/// The planner configuration from which a scenario's `[planner]` section starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
@@ -46,7 +46,7 @@ impl Preset {
         }
     }
 
-    /// The configuration without what a scenario sets.
+    /// The configuration without the scenario's values.
     pub fn planner_config(self) -> PlannerConfig {
         match self {
             Self::Default => PlannerConfig::default(),
@@ -74,13 +74,13 @@ impl std::str::FromStr for Preset {
 pub struct Scenario {
     /// Path of the terrain, relative to the scenario file.
     pub terrain: String,
-    /// Where the robot starts.
+    /// The robot's start.
     pub start: StartPose,
-    /// Where it should go first, one after the other, seen from above, metres.
+    /// Waypoints before the goal, in order, seen from above, metres.
     pub waypoints_m: Vec<DVec2>,
-    /// Where it should go in the end, seen from above, metres.
+    /// The goal, seen from above, metres.
     pub goal_m: DVec2,
-    /// The heading that it should end with, anticlockwise from east, radians; any when absent.
+    /// The final heading, anticlockwise from east, radians; any when absent.
     pub goal_heading_rad: Option<f64>,
     /// Seed of the sensor's noise.
     pub seed: u64,
@@ -88,7 +88,7 @@ pub struct Scenario {
     pub sensor: SensorConfig,
     /// The robot.
     pub robot: RobotConfig,
-    /// What the `[planner]` section sets.
+    /// The values of the `[planner]` section.
     pub(crate) planner: toml::Table,
 }
 
@@ -119,7 +119,8 @@ pub enum ScenarioFault {
     Terrain(#[from] TerrainError),
 }
 
-/// The file as written. `planner` is read a second time as a table: here it only tells wrong keys with their line.
+/// The file as written. `planner` is read a second time as a table: here it only reports wrong keys with
+/// their line.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -180,8 +181,9 @@ impl Scenario {
         })
     }
 
-    /// This scenario with other values of parameters: `sections` is TOML with nothing but `[planner]`, `[sensor]` and
-    /// `[robot]`, named `file` in errors. What the planner's section sets is checked by [`Scenario::planner_config`].
+    /// This scenario with other values of parameters: `sections` is TOML with nothing but `[planner]`,
+    /// `[sensor]` and `[robot]`, named `file` in errors. What the planner's section sets is checked by
+    /// [`Scenario::planner_config`].
     ///
     /// # Errors
     /// [`ScenarioError`] names the place, the value and what was expected.
@@ -200,7 +202,8 @@ impl Scenario {
         Ok(scenario)
     }
 
-    /// The planner's configuration: the preset, with the geometry of this sensor and robot, with what the scenario sets.
+    /// The planner's configuration: the preset, with the geometry of this sensor and robot, with what the
+    /// scenario sets.
     ///
     /// # Errors
     /// The value that does not fit the preset.
@@ -212,7 +215,7 @@ impl Scenario {
     }
 }
 
-/// What the planner is told of a sensor.
+/// The planner's model of a sensor.
 fn sensor_model(sensor: &SensorConfig) -> SensorModel {
     let mut model = SensorModel::default();
     model.rings = sensor.rings;
@@ -231,7 +234,7 @@ fn sensor_model(sensor: &SensorConfig) -> SensorModel {
     model
 }
 
-/// What the planner is told of a robot.
+/// The planner's model of a robot.
 fn robot_model(robot: &RobotConfig) -> RobotModel {
     let mut model = RobotModel::default();
     model.length_m = robot.length_m;

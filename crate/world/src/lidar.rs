@@ -1,4 +1,5 @@
-//! A LiDAR with rings of beams, one revolution per scan. The default is a Velodyne VLP-16: 16 rings from -15° to +15°.
+//! A LiDAR with rings of beams, one revolution per scan. The default is a Velodyne VLP-16: 16 rings from -15°
+//! to +15°.
 
 use crate::attitude::{Attitude, world_from_body};
 use crate::caster::{Caster, Fan};
@@ -37,7 +38,8 @@ parameters! {
         forward_m: f64 = 0.0, unit "m", range [-1.0, 1.0], check Within(-5.0, 5.0);
         /// Distance of the sensor to the left of the middle of the wheels along the body's y.
         left_m: f64 = 0.0, unit "m", range [-1.0, 1.0], check Within(-5.0, 5.0);
-        /// Roll of the mount, left side up positive; π for a sensor upside down. The mount is turned by yaw, pitch, roll.
+        /// Roll of the mount, left side up positive; π for a sensor upside down. The mount is turned by yaw,
+        /// pitch, roll.
         roll_rad: f64 = 0.0, unit "rad", range [-PI, PI], check Within(-PI, PI);
         /// Pitch of the mount, nose-up positive.
         pitch_rad: f64 = 0.0, unit "rad", range [-1.5, 1.5], check Within(-FRAC_PI_2, FRAC_PI_2);
@@ -61,7 +63,8 @@ impl SensorConfig {
     pub fn ring_elevation_rad(&self, ring: usize) -> f64 {
         let steps = (self.rings - 1) as f64;
         let half_step = (self.highest_elevation_rad - self.lowest_elevation_rad) / (2.0 * steps);
-        // Counted from the middle: so a sensor that looks as far up as down has its rings in pairs, to the last bit.
+        // Counted from the middle, so that a sensor that looks as far up as down has its rings in pairs, to
+        // the last bit.
         let middle = (self.lowest_elevation_rad + self.highest_elevation_rad) / 2.0;
         (2.0 * ring as f64 - steps) * half_step + middle
     }
@@ -85,8 +88,9 @@ impl SensorConfig {
 /// One revolution.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scan {
-    /// Range of every beam in metres, NaN without a return: beam `column * rings + ring`. The azimuth of column
-    /// k of a full turn is `-pi + k * 2 pi / columns`, the elevation that of [`SensorConfig::ring_elevation_rad`].
+    /// Range of every beam in metres, NaN without a return: beam `column * rings + ring`. The azimuth of
+    /// column k of a full turn is `-pi + k * 2 pi / columns`, the elevation that of
+    /// [`SensorConfig::ring_elevation_rad`].
     pub ranges_m: Vec<f32>,
     /// The returns in the sensor frame, in metres, in the order of their beams.
     pub points: Vec<Vec3>,
@@ -128,15 +132,16 @@ impl Lidar {
         &self.config
     }
 
-    /// Takes one revolution from a standing pose into `scan`, which is reused without allocation.
+    /// Takes one revolution from a fixed pose into `scan`, which is reused without allocation.
     ///
-    /// Noise and drop-outs depend only on `seed`, `tick` and the beam. A return whose range, noise included, lies outside
-    /// the sensor's limits is not reported.
+    /// Noise and drop-outs depend only on `seed`, `tick` and the beam. A return whose range, noise included,
+    /// lies outside the sensor's limits is not reported.
     pub fn scan(&self, caster: &Caster, pose: &SensorPose, seed: u64, tick: u64, scan: &mut Scan) {
         self.scan_within(f64::INFINITY, caster, pose, seed, tick, scan);
     }
 
-    /// As [`Lidar::scan`], and sooner: every return within `sight_m` is the same, those much farther are left out.
+    /// As [`Lidar::scan`], and faster: every return within `sight_m` is the same, those much farther are left
+    /// out.
     pub fn scan_within(
         &self,
         sight_m: f64,

@@ -1,5 +1,5 @@
-//! A kinematic robot that turns by the difference of its wheels' speeds: unicycle motion with limited speeds and accelerations,
-//! resting on four wheels.
+//! A kinematic differential-drive robot: unicycle motion with limited speeds and accelerations, resting on
+//! four wheels.
 
 use crate::attitude::{Attitude, attitude_on, world_from_body};
 use crate::height_field::HeightField;
@@ -8,8 +8,8 @@ use glam::{DVec2, DVec3};
 use thiserror::Error;
 
 impl RobotConfig {
-    /// World positions of the wheel centres in metres, front left, front right, rear left, rear right, of a robot
-    /// that stands at `position` with heading `yaw_rad`.
+    /// World positions of the wheel centres in metres, front left, front right, rear left, rear right, of a
+    /// robot at `position` with heading `yaw_rad`.
     #[must_use]
     pub fn wheel_centres(&self, position: DVec2, yaw_rad: f64, attitude: &Attitude) -> [DVec3; 4] {
         let rotation = world_from_body(yaw_rad, attitude);
@@ -21,7 +21,7 @@ impl RobotConfig {
     }
 }
 
-/// What the robot is asked to do until the next command.
+/// The command until the next one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DriveCommand {
     /// Speed in m/s, positive forward.
@@ -30,7 +30,7 @@ pub struct DriveCommand {
     pub turn_rate_rad_s: f64,
 }
 
-/// Where the robot is and how it moves.
+/// The robot's state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RobotState {
     /// Position of the middle of the wheelbase in the world's plan view, in metres.
@@ -45,7 +45,7 @@ pub struct RobotState {
     pub attitude: Attitude,
 }
 
-/// Why the robot could not move. It stays as it was.
+/// Why the robot could not move. Its state is unchanged.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum DriveError {
     /// A wheel would leave the terrain.
@@ -98,7 +98,7 @@ impl Robot {
         &self.config
     }
 
-    /// Where it is and how it moves.
+    /// The present state.
     #[must_use]
     pub fn state(&self) -> &RobotState {
         &self.state
@@ -118,11 +118,12 @@ impl Robot {
         self.step(DriveCommand::default(), 0.0, field)
     }
 
-    /// Moves on by `dt_s` seconds: the unicycle of the paper (x' = v cos θ, y' = v sin θ, θ' = ω) along an exact arc.
+    /// Moves on by `dt_s` seconds: the unicycle of the paper (x' = v cos θ, y' = v sin θ, θ' = ω) along an
+    /// exact arc.
     ///
-    /// Speed and turn rate approach the command within the limits of speed and acceleration, as the robot's own drive
-    /// does with a command beyond them. The speed runs along the body, so a pitched robot covers `v cos(pitch)` in the
-    /// plan view; on level ground this is the paper's motion.
+    /// Speed and turn rate approach the command within the limits of speed and acceleration, as the robot's
+    /// own drive does with a command beyond them. The speed runs along the body, so a pitched robot covers `v
+    /// cos(pitch)` in the plan view; on level ground this is the paper's motion.
     ///
     /// # Errors
     /// [`DriveError`]; the robot then stays as it was.

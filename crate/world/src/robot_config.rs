@@ -1,4 +1,4 @@
-//! Dimensions and limits of a robot that turns by the difference of its wheels' speeds.
+//! Dimensions and limits of a differential-drive robot.
 
 use mapless_parameters::{ConfigError, parameters};
 use std::f64::consts::FRAC_PI_2;

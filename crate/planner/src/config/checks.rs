@@ -1,4 +1,4 @@
-//! What relates several parameters. What a single one must hold stands in its entry.
+//! Checks that relate several parameters. Those of a single one are in its entry.
 
 use mapless_parameters::ConfigError;
 

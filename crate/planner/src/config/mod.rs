@@ -1,5 +1,5 @@
-//! Every parameter of the planner: one entry each, with its description, default, the paper's value, unit, the range that
-//! makes sense and the check that it must pass. [`mapless_parameters`] says how an entry is written.
+//! Every parameter of the planner, one entry each: description, default, the paper's value, unit, range and
+//! check. [`mapless_parameters`] describes the form of an entry.
 
 mod checks;
 mod presets;
@@ -23,15 +23,15 @@ parameters! {
     tables {
         /// The robot.
         robot: RobotModel;
-        /// The LiDAR and where it sits.
+        /// The LiDAR and its mount.
         sensor: SensorModel;
         /// From scan to variance surface and profile.
         perception: PerceptionConfig;
         /// From profile to segments and subgoals.
         segments: SegmentConfig;
-        /// What is remembered of the ground.
+        /// The elevation window: seen ground around the robot.
         elevation_window: ElevationWindowConfig;
-        /// Paths over that ground, and the tilt they promise.
+        /// The state lattice: paths over the elevation window, and their predicted tilt.
         state_lattice: StateLatticeConfig;
         /// The cost of a subgoal.
         decision: DecisionConfig;
@@ -51,16 +51,16 @@ parameters! {
         variance_threshold: f64 = 0.3, paper 0.7, range [0.02, 0.98], check Share;
         /// Noise variance σₙ² of the occupancy of one cell. The paper learns it.
         noise_variance_m2: f64 = 3.0, unit "m²", range [0.001, 10.0], check Positive;
-        /// Where the sparse process puts its inducing inputs: on the lattice of the beams, or among the returns.
+        /// Placement of the inducing inputs: on the lattice of the beams, or among the returns.
         inducing_inputs: InducingInputs = InducingInputs::Lattice;
-        /// Spacing of the inducing inputs: at most this on the lattice, at least this with farthest points. Closer is more
-        /// exact and slower.
+        /// Spacing of the inducing inputs: at most this on the lattice, at least this with farthest points.
+        /// Closer is more exact and slower.
         inducing_spacing_length_scales: f64 = 0.95, unit "length-scales", range [0.4, 2.0], check Positive;
         /// Most inducing inputs with farthest points. The authors' earlier code uses 400 to 500.
         max_inducing_inputs: usize = 1000, range [50, 2000], check AtLeast(1.0);
     }
     tables {
-        /// The kernel, or where learning it starts. The paper learns an isotropic one.
+        /// The kernel, or the start of learning it. The paper learns an isotropic one.
         kernel: RationalQuadratic;
         /// Whether and how the kernel and the noise are learned.
         learning: LearningConfig;
@@ -69,7 +69,7 @@ parameters! {
 }
 
 choices! {
-    /// How inducing inputs are placed.
+    /// Placement of the inducing inputs.
     pub enum InducingInputs {
         /// On the lattice of the sensor's columns and rings, wherever there are returns.
         Lattice = "lattice",
@@ -88,73 +88,75 @@ parameters! {
         safety_margin_m: f64 = 0.3, unit "m", range [0.0, 1.5], check NotNegative;
         /// Steepest rise or fall to the skyline that counts as climbable.
         max_slope_rad: f64 = 0.5, unit "rad", range [0.1, 1.2], check Angle;
-        /// Whether directions without returns may carry subgoals, on ground that earlier scans saw.
+        /// Whether directions without returns may carry subgoals, on ground already in the elevation window.
         subgoals_on_unknown: bool = true, paper false;
     }
 }
 
 parameters! {
-    /// The elevation window: what is remembered of the ground.
+    /// The elevation window.
     #[derive(Copy)]
     pub struct ElevationWindowConfig {
         /// Side of a cell.
         cell_m: f64 = 0.2, unit "m", range [0.19, 0.5], check Positive;
-        /// Returns within this range are remembered. A little more than r_oc, so that a robot on a knoll, which hides what is
-        /// nearer, knows where the ground goes on.
+        /// Returns within this range are kept. A little more than r_oc: on a knoll, which hides nearer
+        /// ground, the robot still knows the ground beyond.
         radius_m: f64 = 9.0, unit "m", range [3.0, 9.5], check Positive;
         /// Time after which ground that was not seen again is forgotten.
         memory_s: f64 = 300.0, unit "s", range [1.0, 300.0], check Within(0.0, 3.2e7);
-        /// Standard deviation of the slope of ground for each metre that it lies from what was seen of it.
+        /// Standard deviation of the slope for each metre from the nearest seen ground.
         slope_deviation_per_m: f64 = 0.5, unit "1/m", range [0.0, 3.0], check NotNegative;
     }
     relations check_span;
 }
 
 parameters! {
-    /// The state lattice: paths over the remembered ground, and the tilt they promise.
+    /// The state lattice.
     #[derive(Copy)]
     pub struct StateLatticeConfig {
-        /// Spacing of the places on a path.
+        /// Spacing of the places of the lattice.
         step_m: f64 = 0.5, unit "m", range [0.2, 2.0], check AtLeast(0.2);
         /// How far inside the tilt limits a path stays.
         tilt_margin_rad: f64 = 0.09, unit "rad", range [0.0, 0.4], check NotNegative;
-        /// The least margin: for ground that is the last choice, for turns on the spot, and for a robot that has to get away.
+        /// Smallest margin: on tight ground, for turns on the spot and in recovery.
         recovery_margin_rad: f64 = 0.06, unit "rad", range [0.0, 0.4], check NotNegative;
-        /// What takes the place of the least margin once the robot has spent its detour budget, twice the straight line.
+        /// Smallest margin once the detour budget, twice the straight line, is used up.
         over_budget_margin_rad: f64 = 0.03, unit "rad", range [0.0, 0.4], check NotNegative;
-        /// How far from a robot that finds no path at all the least margin suffices, without what is uncertain.
+        /// Radius around a robot without a path within which the smallest margin suffices.
         recovery_radius_m: f64 = 2.5, unit "m", range [0.0, 10.0], check NotNegative;
-        /// Standard deviations of the predicted slope that are added to it before it is compared.
+        /// Standard deviations of the predicted slope added to it before it is compared.
         slope_deviations: f64 = 1.0, range [0.0, 4.0], check NotNegative;
-        /// Unseen ground that is bridged next to the robot, where no beam reaches.
+        /// Length of the virtual surface over unseen ground next to the robot.
         blind_radius_m: f64 = 7.5, unit "m", range [0.0, 12.0], check NotNegative;
-        /// Whether the robot keeps away from negative obstacles: places where ground would have been seen if it went on, and was
-        /// not. From above the sensor cannot tell a cliff from a slope that begins with a corner of more than 15°.
+        /// Whether the robot keeps away from negative obstacles: ground that should have been seen and was
+        /// not. That is a cliff, or a slope down that begins with a corner of more than 15°.
         avoids_negative_obstacles: bool = true;
-        /// What a metre at the tilt limit costs beyond itself, in metres of level ground; in between with the square of the slope.
+        /// Cost of a metre at the tilt limit beyond its length, in metres of level ground; it grows with the
+        /// square of the slope.
         tilt_price: f64 = 4.0, range [0.0, 5.0], check NotNegative;
-        /// What a metre up or down costs beyond the path itself, in metres of level ground.
+        /// Cost of a metre up or down beyond the length of the path, in metres of level ground.
         climb_price: f64 = 4.0, range [0.0, 20.0], check NotNegative;
-        /// What turning by a sixteenth of a circle costs, in metres driven.
+        /// Cost of turning by a sixteenth of a circle, in metres driven.
         turn_cost_m: f64 = 0.15, unit "m", range [0.1, 2.0], check AtLeast(0.1);
-        /// What it costs to begin otherwise than was meant before, in metres driven; twice that with each change nearby.
+        /// Cost of beginning otherwise than the last path did, in metres driven; doubled with each change
+        /// nearby.
         change_cost_m: f64 = 1.0, unit "m", range [0.0, 5.0], check NotNegative;
-        /// What a metre in reverse costs, in metres forward; without rear sight it is the last choice.
+        /// Cost of a metre in reverse, in metres forward; the robot has no rear sight.
         reverse_price: f64 = 2.0, range [1.0, 10.0], check AtLeast(1.0);
         /// How far before steep or unseen ground a subgoal is placed.
         clearance_m: f64 = 0.7, unit "m", range [0.0, 3.0], check NotNegative;
-        /// Nearer than this, a subgoal is refused.
+        /// A subgoal nearer than this is refused.
         min_reach_m: f64 = 1.0, unit "m", range [0.0, 5.0], check NotNegative;
     }
 }
 
 choices! {
-    /// How steepness is judged and the terms are scaled.
+    /// The model of steepness and the scale of the terms.
     pub enum CostModel {
-        /// The paper's eq. 6: steepness from the subgoal's height and the robot's pitch; each term divided by its greatest
-        /// value over the candidates.
+        /// The paper's eq. 6: steepness from the subgoal's height and the robot's pitch; each term divided by
+        /// its greatest value over the candidates.
         Paper = "paper",
-        /// Steepness from the tilt forecast; every term on a fixed physical scale.
+        /// Steepness from the predicted tilt of the path; every term on a fixed physical scale.
         Forecast = "forecast",
     }
 }
@@ -163,20 +165,19 @@ parameters! {
     /// The cost function J.
     #[derive(Copy)]
     pub struct DecisionConfig {
-        /// Steepness from the subgoal's height (paper) or from the forecast of the tilt on the path.
+        /// Steepness from the subgoal's height (paper) or from the predicted tilt of the path (forecast).
         cost_model: CostModel = CostModel::Forecast, paper CostModel::Paper;
-        /// Charge k_dir for turning away from the heading.
+        /// Weight k_dir of turning away from the heading.
         direction_weight: f64 = 0.2, paper 0.2, range [0.0, 3.0], check NotNegative;
-        /// Charge k_dst for what remains to the goal.
+        /// Weight k_dst of the remaining distance to the goal.
         distance_weight: f64 = 1.0, paper 0.3, range [0.0, 3.0], check NotNegative;
-        /// Charge k_stp for steep paths.
+        /// Weight k_stp of steepness: the mean risk of the path.
         steepness_weight: f64 = 1.0, paper 0.5, range [0.0, 3.0], check NotNegative;
-        /// Metres of level ground that a metre up or down counts for in the distance.
+        /// Weight of climb: metres of distance for each metre up or down.
         climb_weight: f64 = 1.0, paper 0.0, range [0.0, 5.0], check NotNegative;
-        /// Charge for leaving the last choice.
+        /// Weight of leaving the last choice.
         commitment_weight: f64 = 0.3, paper 0.0, range [0.0, 3.0], check NotNegative;
-        /// Charge for the learned correction of the way that remains, which grows where the robot had to turn back, on the
-        /// scale of the distance.
+        /// Weight of the learned correction of the cost-to-go, on the scale of the distance.
         correction_weight: f64 = 1.0, paper 0.0, range [0.0, 3.0], check NotNegative;
         /// Time spent turning on the spot without a candidate before giving up.
         spin_recovery_s: f64 = 15.0, unit "s", range [0.1, 60.0], check Within(0.0, 3.2e7);
@@ -204,14 +205,14 @@ parameters! {
         max_speed_m_s: f64 = 0.8, paper 0.8, unit "m/s", range [0.1, 3.0], check Positive;
         /// Turn-rate limit.
         max_turn_rate_rad_s: f64 = 1.0, unit "rad/s", range [0.1, 3.0], check Positive;
-        /// The robot turns in place while its heading is off by more than this.
+        /// The robot turns on the spot while its heading is off by more than this.
         rotate_in_place_rad: f64 = 0.8, unit "rad", range [0.1, 1.5], check Angle;
-        /// Turn rate while it searches for a candidate.
+        /// Turn rate of the spin recovery.
         spin_turn_rate_rad_s: f64 = 0.5, unit "rad/s", range [0.1, 2.0], check Positive;
-        /// Share of a tilt limit from which on the robot drives more slowly, in proportion to what is left of it: so that it
-        /// can stop before what it did not foresee.
+        /// Tilt utilisation from which on the speed is reduced, in proportion to the rest: a slower robot
+        /// stops sooner on unexpected slopes.
         regulate_from_utilisation: f64 = 0.3, range [0.0, 0.95], check Below(1.0);
-        /// The least share of its speed that it keeps.
+        /// Smallest share of the speed that is kept.
         min_speed_share: f64 = 0.2, range [0.05, 1.0], check UpTo(1.0);
     }
     tables {
@@ -222,13 +223,13 @@ parameters! {
     }
 }
 
-/// Cells on a side of the elevation window, at least and at most, and how many more than its radius needs.
+/// Bounds on the cells on a side of the elevation window, and the cells beyond its radius.
 const LEAST_CELLS_PER_SIDE: usize = 96;
 const MOST_CELLS_PER_SIDE: usize = 1024;
 const SPARE_CELLS: usize = 6;
 
 impl ElevationWindowConfig {
-    /// So many cells to a side that no two places inside the window share a slot.
+    /// Cells on a side, such that no two places inside the window share a slot.
     pub(crate) fn cells_per_side(&self) -> usize {
         let spanned = (2.0 * self.radius_m / self.cell_m).ceil() as usize;
         spanned.saturating_add(SPARE_CELLS).max(LEAST_CELLS_PER_SIDE)
@@ -241,7 +242,7 @@ impl ElevationWindowConfig {
 }
 
 impl DecisionConfig {
-    /// How long the robot turns in place without a candidate before it gives up.
+    /// Longest spin recovery without a candidate.
     pub(crate) fn spin_recovery(&self) -> Duration {
         Duration::from_secs_f64(self.spin_recovery_s)
     }

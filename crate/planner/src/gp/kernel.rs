@@ -11,8 +11,8 @@ parameters! {
     pub struct RationalQuadratic {
         /// Signal variance σ² of the occupancy. The paper learns it.
         variance: f64 = 1.0, unit "m²", range [0.05, 10.0], check Positive;
-        /// Length-scales ℓ over azimuth and elevation. The paper learns one for both, so its kernel is isotropic. By default
-        /// the one over elevation is near the sensor's ring spacing.
+        /// Length-scales ℓ over azimuth and elevation. The paper learns one for both, so its kernel is
+        /// isotropic. By default the one over elevation is near the sensor's ring spacing.
         length_scales_rad: [f64; 2] = [0.15, 0.04], unit "rad", range [0.01, 0.5], check Positive;
         /// Weighting of length-scales γ in the rational quadratic, alpha elsewhere. Whole numbers are faster.
         alpha: f64 = 10.0, range [0.5, 50.0], check Positive;

@@ -215,7 +215,7 @@ impl StateLattice {
     /// Inflates the slope variance ahead: the ground turned out steeper than predicted while the robot drove
     /// along the unit vector `travel`.
     pub(crate) fn inflate_variance_ahead(&mut self, travel: DVec2) {
-        self.traversability.surprise(self.here_m + travel * INFLATED_AHEAD_M);
+        self.traversability.inflate_variance(self.here_m + travel * INFLATED_AHEAD_M);
     }
 
     /// The attitude's share of the largest admissible slope.
@@ -225,7 +225,7 @@ impl StateLattice {
 
     /// Repeats the search in recovery: with the smallest margin near the robot.
     pub(crate) fn search_recovery(&mut self) {
-        self.search_with(Caution::Escape);
+        self.search_with(Caution::Recovery);
     }
 
     fn search_with(&mut self, caution: Caution) {
@@ -256,9 +256,9 @@ impl StateLattice {
             self.changes = MOST_CHANGES.min(self.changes + 1);
         }
         let turned_back = self.last.filter(|last| last.reverse != next.reverse);
-        let recovers = self.caution == Caution::Escape;
+        let recovers = self.caution == Caution::Recovery;
         if recovers && !self.recovers {
-            self.traversability.mistrust(self.here_m);
+            self.traversability.penalise(self.here_m);
         } else if !recovers && let Some(last) = turned_back.filter(|_| self.is_on_steep_ground()) {
             let facing = self.first_direction(self.facing);
             self.inflate_variance_ahead(if last.reverse { -facing } else { facing });

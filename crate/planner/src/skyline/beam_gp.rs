@@ -1,16 +1,17 @@
-//! The sparse Gaussian process on the lattice of the sensor's beams: the same posterior as [`crate::gp::sparse`], far
-//! faster.
+//! The sparse Gaussian process on the lattice of the sensor's beams: the same posterior as
+//! [`crate::gp::sparse`], far faster.
 //!
-//! Cells lie on a lattice of degrees and rings, and so do the inducing inputs here, every few columns and rings where
-//! there are returns. Hence:
+//! Cells lie on a lattice of degrees and rings, and so do the inducing inputs here, every few columns and
+//! rings where there are returns. Hence:
 //! - every covariance is one of a few thousand values, tabulated once;
-//! - the products Φ = K_uf K_fu are summed once around the circle, a column of cells at a time, only between inducing inputs
-//!   that share returns within the kernel's reach;
-//! - each sector takes its part of Φ and factors L Lᵀ = K_uu and S Sᵀ = K_uu + Φ / σₙ². At a direction with covariances k:
-//!   variance = k_** - |L⁻¹k|² + |S⁻¹k|², mean = (S⁻¹k)ᵀ S⁻¹ K_uf y / σₙ².
+//! - the products Φ = K_uf K_fu are summed once around the circle, a column of cells at a time, only between
+//!   inducing inputs that share returns within the kernel's reach;
+//! - each sector takes its part of Φ and factors L Lᵀ = K_uu and S Sᵀ = K_uu + Φ / σₙ². At a direction with
+//!   covariances k: variance = k_** - |L⁻¹k|² + |S⁻¹k|², mean = (S⁻¹k)ᵀ S⁻¹ K_uf y / σₙ².
 //!
-//! Azimuths run on past the circle's end ("unrolled"), so that every window is one stretch of inducing inputs. They begin
-//! at a column that the returns themselves choose, so that a turned scan gives the turned result to the last bit.
+//! Azimuths run on past the circle's end ("unrolled"), so that every window is one stretch of inducing
+//! inputs. They begin at a column that the returns themselves choose, so that a turned scan gives the turned
+//! result to the last bit.
 
 use core::ops::Range;
 
@@ -69,7 +70,8 @@ pub(crate) struct BeamGp {
     signal_variance: f64,
     stride_columns: usize,
     stride_rings: usize,
-    /// Columns beyond which the kernel counts as zero, and by which a window exceeds its sector on either side.
+    /// Columns beyond which the kernel counts as zero, and by which a window exceeds its sector on either
+    /// side.
     margin_columns: usize,
     /// The column where the first sector and the lattice begin.
     origin: usize,
@@ -108,7 +110,7 @@ impl BeamGp {
         let stride_columns = (1..=widest).rev().find(|s| COLUMNS.is_multiple_of(*s)).unwrap_or(1);
         let stride_rings = ((spacing * elevation_scale / RING_STEP_RAD) as usize).clamp(1, rings);
         let reach = (REACH_LENGTH_SCALES * azimuth_scale / COLUMN_STEP_RAD) as usize;
-        // Beyond half a turn a window would meet itself.
+        // Beyond half a turn a window would overlap itself.
         let margin_columns = reach.min((COLUMNS - SECTOR_COLUMNS) / 2);
         let positions = (COLUMNS + 2 * margin_columns) / stride_columns + 1;
         let most_inputs = positions * (rings / stride_rings + 1);
@@ -139,7 +141,7 @@ impl BeamGp {
         }
     }
 
-    /// Takes in the cells that `masks` (one for each column) names, and places the inducing inputs among them.
+    /// Takes the cells in `masks` (one for each column), and places the inducing inputs among them.
     pub(crate) fn observe(&mut self, observed: &OccupancySurface, masks: &[RingMask]) {
         self.origin = least_rotation(masks);
         self.place_inducing_inputs(masks);
@@ -253,7 +255,7 @@ impl BeamGp {
         linalg::add_products(&self.column_covariances, inputs, place, &mut self.products);
     }
 
-    /// Factors the window around a sector. Gives whether there is anything in it.
+    /// Factors the window around a sector. Returns whether there is anything in it.
     ///
     /// # Errors
     /// [`GpError::IllConditioned`].
@@ -324,7 +326,7 @@ impl BeamGp {
         }
     }
 
-    /// Mean occupancy at the directions whose variance was asked for last; there were as many as `means` holds.
+    /// Mean occupancy at the directions of the last call of `relative_variances`, as many as `means` holds.
     pub(crate) fn means(&mut self, means: &mut [f64]) {
         let m = self.window.len();
         self.c.clear();
@@ -356,7 +358,7 @@ impl BeamGp {
     }
 }
 
-/// Where the smallest of all rotations of a circular sequence begins.
+/// The begin of the smallest rotation of a circular sequence.
 fn least_rotation(masks: &[RingMask]) -> usize {
     let (mut best, mut other, mut same) = (0, 1, 0);
     while other < masks.len() && same < masks.len() {

@@ -1,4 +1,4 @@
-//! The grid of directions on which scans are gathered: 360 columns of one degree, and rows of elevation that follow the sensor.
+//! The grid of directions for scans: 360 columns of one degree, and rows of elevation that follow the sensor.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,8 +9,8 @@ use crate::sensor_model::SensorModel;
 use crate::skyline::occupancy::{COLUMNS, column_azimuth_rad};
 use crate::skyline::profile::Column;
 
-/// Rings nearer to each other than this share a row. The Gaussian process works on rows, as if all were this far apart: so its
-/// hyperparameters, which are stated for it, serve every sensor.
+/// Rings nearer to each other than this share a row. The Gaussian process works on rows as if all were this
+/// far apart, so its hyperparameters, which hold for this spacing, serve every sensor.
 pub(crate) const RING_STEP_RAD: f64 = PI / 90.0;
 /// Rows of the predicted surfaces for each row of the grid.
 pub(crate) const ROWS_PER_RING: usize = 2;
@@ -18,16 +18,18 @@ pub(crate) const ROWS_PER_RING: usize = 2;
 const MOST_RINGS: usize = 64;
 /// The VLP-16 has its rings 2° apart but for rounding.
 const TOLERANCE: f64 = 1e-9;
-/// Ground that rises out of view is a wall from this elevation on. Below, a skyline may well be out of view that the robot can climb.
+/// Ground that rises out of view is a wall from this elevation on. Below it, the hidden skyline may still be
+/// climbable.
 const LEAST_WALL_RAD: f64 = 0.2;
 
-/// The directions of a sensor, as seen from its origin along the robot's axes: a tilted sensor's rings cross the rows.
+/// The directions of a sensor, seen from its origin along the robot's axes: a tilted sensor's rings cross the
+/// rows.
 #[derive(Clone, Debug)]
 pub struct BeamGrid {
     rings: usize,
     lowest_elevation_rad: f64,
     ring_step_rad: f64,
-    /// None where the sensor's axes are the robot's.
+    /// `None` if the sensor's axes are the robot's.
     robot_from_sensor: Option<DMat3>,
     /// Rows of the predicted surfaces up to the highest in view, for each column.
     rows_in_view: Vec<usize>,
@@ -57,12 +59,12 @@ impl BeamGrid {
         grid
     }
 
-    /// How many rows there are. A sensor whose rings are 2° apart or more, and level, has one for each ring.
+    /// Number of rows. A level sensor whose rings are 2° apart or more has one for each ring.
     pub fn rings(&self) -> usize {
         self.rings
     }
 
-    /// How many rows the predicted surfaces have.
+    /// Number of rows of the predicted surfaces.
     pub fn rows(&self) -> usize {
         ROWS_PER_RING * (self.rings - 1) + 1
     }
@@ -82,23 +84,24 @@ impl BeamGrid {
         self.ring_step_rad / RING_STEP_RAD
     }
 
-    /// The row in which an elevation falls; `None` outside the sensor's view.
+    /// The row of an elevation; `None` outside the sensor's view.
     pub(crate) fn ring_of(&self, elevation_rad: f64) -> Option<usize> {
         let ring = floor((elevation_rad - self.lowest_elevation_rad) / self.ring_step_rad + 0.5);
         (0..self.rings as i32).contains(&ring).then_some(ring as usize)
     }
 
-    /// A point of a scan along the robot's axes.
+    /// A point of a scan, with the robot's axes.
     pub(crate) fn along_robot(&self, point_m: DVec3) -> DVec3 {
         self.robot_from_sensor.map_or(point_m, |rotation| rotation * point_m)
     }
 
-    /// How many rows of the predicted surfaces may show the skyline in a column with its highest return in this row of the grid.
+    /// Number of rows of the predicted surfaces that may show the skyline, in a column with its highest
+    /// return in row `highest_ring` of the grid.
     pub(crate) fn rows_in_view(&self, column: usize, highest_ring: usize) -> usize {
         self.rows_in_view[column].max(ROWS_PER_RING * highest_ring + 1)
     }
 
-    /// What a column shows that is occupied up to the last of so many rows in view.
+    /// The content of a column that is occupied in all of its `rows` in view.
     pub(crate) fn out_of_view(&self, rows: usize) -> Column {
         let is_wall = self.row_elevation_rad(rows - 1) >= LEAST_WALL_RAD;
         if is_wall { Column::Wall } else { Column::Unknown }
@@ -117,10 +120,11 @@ impl BeamGrid {
     }
 }
 
-/// The lowest and the highest elevation over the robot's x-y plane that a full turn of a tilted sensor gets to.
+/// The lowest and the highest elevation over the robot's x-y plane that a full turn of a tilted sensor
+/// reaches.
 fn elevations_of(sensor: &SensorModel, robot_from_sensor: &DMat3) -> [f64; 2] {
     let tilt = libm::acos(robot_from_sensor.z_axis.z.clamp(-1.0, 1.0));
-    // Angles from the sensor's axis, which is as far from the robot's as it is tilted.
+    // Angles from the sensor's axis, which is tilted from the robot's.
     let from_axis = [FRAC_PI_2 - sensor.highest_elevation_rad, FRAC_PI_2 - sensor.lowest_elevation_rad];
     let holds = |angle: f64| (from_axis[0]..=from_axis[1]).contains(&angle);
     let nearest = from_axis.map(|angle| (angle - tilt).abs()).into_iter().fold(f64::INFINITY, f64::min);

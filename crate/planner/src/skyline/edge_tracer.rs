@@ -1,8 +1,8 @@
 //! The edge of the variance surface, traced without predicting the rest.
 //!
-//! The kernel forgets what lies a few length-scales away, so only the returns near the highest one of some column
-//! nearby bear on the edge; in front of a wall that leaves out most of them. From its highest return, each column is followed
-//! up to the first free row.
+//! The kernel decays within a few length-scales, so the edge depends only on returns near the highest return
+//! of a nearby column; in front of a wall that excludes most of them. Each column is followed from its
+//! highest return up to the first free row.
 
 use crate::config::PerceptionConfig;
 use crate::gp::jitter::GpError;
@@ -12,7 +12,7 @@ use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface};
 use crate::skyline::profile::{Column, ElevationProfile};
 use crate::skyline::surface::{GpDiagnostics, REACH_LENGTH_SCALES, SECTOR_COLUMNS, SECTORS};
 
-/// Rows of a column looked at together.
+/// Rows of a column predicted together.
 const ROWS_AT_ONCE: usize = 4;
 
 /// Every cell of every column.
@@ -28,13 +28,13 @@ fn occupied_rings(observed: &OccupancySurface, column: usize) -> RingMask {
 #[derive(Clone, Debug)]
 pub(crate) struct EdgeTracer {
     threshold: f64,
-    /// How many rings the kernel reaches at each number of columns away.
+    /// Rings within the kernel's reach at each distance in columns.
     reach_rings: Vec<usize>,
     masks: Vec<RingMask>,
     searches: Vec<Search>,
     queries: Vec<Query>,
     variances: Vec<f64>,
-    /// Variances of the sector's rows that were looked at, column by column.
+    /// Variances of the sector's predicted rows, column by column.
     seen: Vec<f64>,
 }
 
@@ -61,7 +61,7 @@ impl EdgeTracer {
         }
     }
 
-    /// The profile of the observed surface, and what it took.
+    /// The profile of the observed surface, and its diagnostics.
     ///
     /// # Errors
     /// [`GpError::IllConditioned`].
@@ -94,7 +94,7 @@ impl EdgeTracer {
         Ok(diagnostics)
     }
 
-    /// Looks at a few rows of every column that is not finished, until all are.
+    /// Predicts a few rows of every unfinished column, until all are finished.
     fn search_sector(&mut self, sector: usize, gp: &mut BeamGp, grid: &BeamGrid, profile: &mut [Column]) {
         let all_rows = grid.rows();
         while !self.searches.is_empty() {
@@ -145,7 +145,8 @@ fn rings_between(low: usize, high: usize) -> RingMask {
     (RingMask::MAX << low) & (RingMask::MAX >> (RingMask::BITS as usize - 1 - high))
 }
 
-/// The search for the edge in one column: up from its highest return to the first free row, or down to the first occupied one.
+/// The search for the edge in one column: up from its highest return to the first free row, or down to the
+/// first occupied one.
 #[derive(Clone, Debug)]
 struct Search {
     column: usize,
@@ -154,7 +155,7 @@ struct Search {
     start: usize,
     /// Rows in view.
     rows: usize,
-    /// Rows looked at, `begin..end`.
+    /// Rows predicted so far, `begin..end`.
     begin: usize,
     end: usize,
     next: (usize, usize),
@@ -170,7 +171,8 @@ impl Search {
         self.next.0..self.next.1
     }
 
-    /// Takes note of the rows just looked at, which are among `variances` of the column; gives the answer, or decides which rows come next.
+    /// Takes the rows just predicted from the column's `variances`; returns the answer, or sets the next
+    /// rows.
     fn advance(&mut self, variances: &[f64], threshold: f64, grid: &BeamGrid) -> Option<Column> {
         self.begin = self.begin.min(self.next.0);
         self.end = self.end.max(self.next.1);

@@ -1,7 +1,7 @@
 //! Farthest-point choice of inducing inputs.
 //!
-//! Strided subsets of a scan alias with its rings and leave false holes in the variance surface; the farthest-point
-//! order covers the observed area evenly. Distances are in length-scales, and wrap in azimuth.
+//! Strided subsets of a scan alias with its rings and leave false holes in the variance surface; the
+//! farthest-point order covers the observed area evenly. Distances are in length-scales, and wrap in azimuth.
 
 use core::f64::consts::TAU;
 
@@ -24,7 +24,8 @@ pub(crate) struct FarthestPoints {
 struct Panel {
     azimuths_rad: Row,
     elevations_rad: Row,
-    /// Square of the distance to the nearest chosen input, in length-scales; zero where the panel has no input.
+    /// Square of the distance to the nearest chosen input, in length-scales; zero where the panel has no
+    /// input.
     distances_squared: Row,
 }
 
@@ -45,8 +46,8 @@ impl FarthestPoints {
         self.directions = directions;
     }
 
-    /// Writes to `chosen` the indices of inputs, each the farthest from those before it, until every input is within
-    /// `spacing` length-scales of one or `most` are chosen. Starts with the first input.
+    /// Writes to `chosen` the indices of inputs, each the farthest from those before it, until every input is
+    /// within `spacing` length-scales of one or `most` are chosen. Starts with the first input.
     fn choose(
         &mut self,
         inputs: &[DVec2],
@@ -78,7 +79,8 @@ impl FarthestPoints {
     }
 }
 
-/// Brings the distances up to date with one more chosen input, `centre`; gives the first of the farthest inputs and the square of its distance.
+/// Updates the distances with one more chosen input, `centre`; returns the first of the farthest inputs and
+/// the square of its distance.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn approach(panels: &mut [Panel], centre: DVec2, inverse_length_scales: [f64; 2]) -> (usize, f64) {
     let mut farthest = [0.0; WIDTH];
@@ -112,7 +114,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The rule, word by word.
+    /// The definition, without shortcuts.
     fn chosen_one_by_one(inputs: &[DVec2], scales: [f64; 2], spacing: f64, most: usize) -> Vec<usize> {
         let distance_squared = |a: DVec2, b: DVec2| {
             let around = (a.x - b.x).abs();

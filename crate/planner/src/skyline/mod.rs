@@ -1,5 +1,5 @@
-//! From a scan to the skyline: the occupancy surface, the sparse Gaussian process over it, the edge of its variance surface, and the
-//! segments of that edge (paper, sections V-A and V-B).
+//! From a scan to the skyline: the occupancy surface, the sparse Gaussian process over it, the edge of its
+//! variance surface, and the segments of that edge (paper, sections V-A and V-B).
 
 pub(crate) mod beam_gp;
 pub mod beam_grid;

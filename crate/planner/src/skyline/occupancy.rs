@@ -1,8 +1,8 @@
 //! The truncated occupancy surface (paper, section V-A): every return within r_oc becomes a point (α, β) with
 //! occupancy r_oc - r.
 //!
-//! The surface has one cell for each degree of azimuth and each row of the sensor's [`BeamGrid`]; a cell's occupancy is the
-//! mean over its returns, so that every return of a scan counts, in whatever order they come.
+//! The surface has one cell for each degree of azimuth and each row of the sensor's [`BeamGrid`]; a cell's
+//! occupancy is the mean over its returns, so that every return of a scan counts, in any order.
 
 use core::f64::consts::{PI, TAU};
 use core::ops::Range;
@@ -16,7 +16,8 @@ use crate::skyline::beam_grid::{BeamGrid, RING_STEP_RAD};
 pub const COLUMNS: usize = 360;
 
 pub(crate) const COLUMN_STEP_RAD: f64 = TAU / COLUMNS as f64;
-/// Where the Gaussian process sees the lowest row, whatever its elevation: to the process only differences matter.
+/// Elevation of the lowest row in the Gaussian process, whatever its true elevation: the process depends on
+/// differences only.
 pub(crate) const LOWEST_ROW_RAD: f64 = -PI / 12.0;
 
 /// Azimuth of the centre of a column, around the sensor's origin from the robot's x axis, in [-π, π).
@@ -41,8 +42,8 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// (azimuth, elevation) of the cell's centre where the Gaussian process sees it, radians: as if rows were 2° apart and the lowest
-    /// at -15°, as they are with a VLP-16.
+    /// (azimuth, elevation) of the cell's centre in the Gaussian process, radians: as if rows were 2° apart
+    /// and the lowest at -15°, as with a VLP-16.
     pub fn direction_rad(&self) -> DVec2 {
         DVec2::new(column_azimuth_rad(self.column), LOWEST_ROW_RAD + RING_STEP_RAD * self.ring as f64)
     }
@@ -73,8 +74,8 @@ impl OccupancySurface {
         }
     }
 
-    /// Projects a scan: points in the sensor frame, metres, in any order. Points beyond r_oc, at the origin, outside the
-    /// grid's elevations or not finite do not belong to the surface and are passed over.
+    /// Projects a scan: points in the sensor frame, metres, in any order. Points beyond r_oc, at the origin,
+    /// outside the grid's elevations or not finite are skipped.
     pub fn project(&mut self, points_m: &[Vec3]) {
         self.sums_m.fill(0.0);
         self.counts.fill(0);
@@ -115,7 +116,7 @@ impl OccupancySurface {
         self.radius_m
     }
 
-    /// The grid that it is gathered on.
+    /// The grid of its cells.
     pub fn grid(&self) -> &BeamGrid {
         &self.grid
     }
@@ -135,7 +136,7 @@ impl OccupancySurface {
         &self.cells[self.column_span(column)]
     }
 
-    /// Where a column's cells are among [`OccupancySurface::cells`].
+    /// The range of a column's cells in [`OccupancySurface::cells`].
     pub(crate) fn column_span(&self, column: usize) -> Range<usize> {
         self.column_starts[column]..self.column_starts[column + 1]
     }

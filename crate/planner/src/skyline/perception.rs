@@ -1,8 +1,9 @@
-//! The perception model (paper, section V-A): a sparse Gaussian process over the occupancy surface, its mean (the
-//! reconstructed occupancy) and its variance (the variance surface), and the elevation profile read off the latter.
+//! The perception model (paper, section V-A): a sparse Gaussian process over the occupancy surface, its mean
+//! (the reconstructed occupancy) and its variance (the variance surface), and the elevation profile along the
+//! edge of the latter.
 //!
-//! A step needs the profile only. With inducing inputs on the beams' lattice it is traced along the edge, and the surfaces are
-//! predicted when somebody asks for them.
+//! A step needs the profile only. With inducing inputs on the beams' lattice it is traced along the edge, and
+//! the surfaces are predicted on request.
 
 use glam::DVec2;
 
@@ -21,10 +22,11 @@ use crate::skyline::surface::{
 };
 use crate::skyline::window_gp::WindowGp;
 
-/// The farthest points that hyperparameters are learned through: enough for them, and a bound on the cost.
+/// Number of farthest points through which hyperparameters are learned: enough for them, and a bound on the
+/// cost.
 const MOST_INDUCING_INPUTS_FOR_HYPERPARAMETERS: usize = 200;
 
-/// The process, by where its inducing inputs lie.
+/// The process, by the placement of its inducing inputs.
 #[derive(Clone, Debug)]
 enum Process {
     Lattice(Box<BeamGp>),
@@ -63,7 +65,7 @@ impl Perception {
             edge: EdgeTracer::new(&config, grid),
             process: Process::new(config, grid),
             learner: Learner::new(LearningConfig {
-                // The inducing inputs of one scan are of no use to the next.
+                // The inducing inputs of one scan do not suit the next.
                 learn_inducing_inputs: config.learning.learn_inducing_inputs
                     && config.learning.mode == LearningMode::EveryScan,
                 ..config.learning
@@ -85,7 +87,7 @@ impl Perception {
         }
     }
 
-    /// What the last profile needed.
+    /// Diagnostics of the last profile.
     pub(crate) fn diagnostics(&self) -> GpDiagnostics {
         self.diagnostics
     }
@@ -109,7 +111,7 @@ impl Perception {
         Ok(())
     }
 
-    /// Learns from the observed surface, where that is configured and there is something to learn from.
+    /// Learns from the observed surface, if that is configured and the surface is not empty.
     fn learn(&mut self, observed: &OccupancySurface) -> Result<(), GpError> {
         let due = match self.config.learning.mode {
             LearningMode::Fixed => false,
@@ -129,7 +131,8 @@ impl Perception {
         let inducing: Vec<DVec2> = chosen.iter().map(|&index| inputs[index]).collect();
         let start =
             Hyperparameters { kernel: self.config.kernel, noise_variance: self.config.noise_variance_m2 };
-        // The start is within its bounds and the cells are finite numbers, so only the factorisation can fail.
+        // The start is within its bounds and the cells are finite numbers, so only the factorisation can
+        // fail.
         let Ok(learned) = self.learner.learn(&inputs, &targets, &inducing, &start) else {
             return Err(GpError::NothingLearned { inducing: inducing.len() });
         };
@@ -200,7 +203,7 @@ mod tests {
     use crate::skyline::profile::Column;
     use crate::testing::{undulating_scan, vlp16_surface};
 
-    /// Profiles of two scans, and what was learned from each.
+    /// Profiles of two scans, and the hyperparameters learned from each.
     fn two_scans(config: PerceptionConfig) -> [(ElevationProfile, Option<LearnedHyperparameters>); 2] {
         let mut perception = Perception::new(config, vlp16_surface().grid());
         [(90, 150), (100, 170)].map(|(from, to)| {

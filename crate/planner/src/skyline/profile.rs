@@ -1,11 +1,11 @@
-//! The elevation profile: the border between occupied (low variance) and free (high variance) directions, one column of
-//! azimuth at a time (paper, section V-B).
+//! The elevation profile: the border between occupied (low variance) and free (high variance) directions, one
+//! column of azimuth at a time (paper, section V-B).
 
 use crate::skyline::beam_grid::BeamGrid;
 use crate::skyline::occupancy::{COLUMNS, OccupancySurface};
 use crate::skyline::surface::PredictedSurface;
 
-/// What one column of the variance surface shows.
+/// The content of one column of the variance surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Column {
     /// Terrain up to an elevation angle.
@@ -13,7 +13,8 @@ pub enum Column {
         /// The skyline, seen from the sensor's origin, over the robot's x-y plane.
         elevation_rad: f64,
     },
-    /// No return within r_oc: a crest or a drop hides the ground. Or it rises out of the view of a sensor that does not see far up.
+    /// No return within r_oc: a crest or a drop hides the ground, or the ground rises out of the view of a
+    /// sensor that does not see far up.
     Unknown,
     /// Occupied up to the highest elevation in view.
     Wall,
@@ -22,8 +23,8 @@ pub enum Column {
 /// The profile of one scan, [`COLUMNS`] columns.
 pub type ElevationProfile = Vec<Column>;
 
-/// Reads the profile off the variance surface: in each column the highest place where the relative variance falls below
-/// `threshold`, interpolated between rows.
+/// Reads the profile off the variance surface: in each column the highest row where the relative variance
+/// falls below `threshold`, interpolated between rows.
 pub(crate) fn read_profile(
     observed: &OccupancySurface,
     predicted: &PredictedSurface,

@@ -76,7 +76,7 @@ pub(crate) fn cut_segments(
     }
 }
 
-/// The column after the greatest change, so that no stretch is cut where the circle happens to begin.
+/// The column after the greatest change, so that no segment is cut at the seam of the circle.
 fn first_break(profile: &[Column]) -> usize {
     let change = |column: usize| match (profile[(column + COLUMNS - 1) % COLUMNS], profile[column]) {
         (Column::Ground { elevation_rad: a }, Column::Ground { elevation_rad: b }) => (a - b).abs(),

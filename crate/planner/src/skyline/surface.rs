@@ -1,53 +1,53 @@
-//! The surfaces that the process predicts, and the lattice of directions they are predicted on.
+//! The predicted surfaces, and the lattice of their directions.
 
 use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::learning::Stop;
 use crate::skyline::beam_grid::{RING_STEP_RAD, ROWS_PER_RING};
 use crate::skyline::occupancy::{COLUMNS, LOWEST_ROW_RAD};
 
-/// How far apart the Gaussian process sees the rows that it predicts.
+/// Spacing of the predicted rows in the Gaussian process.
 pub(crate) const ROW_STEP_RAD: f64 = RING_STEP_RAD / ROWS_PER_RING as f64;
 
 /// The circle is predicted in sectors, each from a window around it.
 pub(crate) const SECTORS: usize = 18;
 pub(crate) const SECTOR_COLUMNS: usize = COLUMNS / SECTORS;
-/// How far beyond its sector a window reaches. At 3.5 length-scales the kernel is below 1 % of its peak.
+/// Reach of a window beyond its sector. At 3.5 length-scales the kernel is below 1 % of its peak.
 pub(crate) const REACH_LENGTH_SCALES: f64 = 3.5;
 
-/// Where the Gaussian process sees a row that it predicts.
+/// Elevation of a predicted row in the Gaussian process.
 pub(crate) fn row_rad(row: usize) -> f64 {
     LOWEST_ROW_RAD + ROW_STEP_RAD * row as f64
 }
 
-/// The two surfaces the process predicts, [`COLUMNS`] × [`PredictedSurface::rows`], column by column, lowest row first.
+/// The two predicted surfaces, [`COLUMNS`] × [`PredictedSurface::rows`], column by column, lowest row first.
 #[derive(Clone, Debug)]
 pub struct PredictedSurface {
     /// Predicted occupancy, metres.
     pub mean_m: Vec<f64>,
     /// Predictive variance of the occupancy, as a share of the signal variance: 1 where nothing was observed.
     pub relative_variance: Vec<f64>,
-    /// What the process needed for it.
+    /// Diagnostics of the process.
     pub diagnostics: GpDiagnostics,
     rows: usize,
 }
 
-/// What a posterior needed.
+/// Diagnostics of a posterior.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GpDiagnostics {
     /// Inducing inputs used.
     pub inducing_inputs: usize,
     /// Largest jitter any sector needed on the covariance of its inducing inputs.
     pub jitter: f64,
-    /// What was learned from this scan or, with [`LearningMode::Once`], from the first one.
+    /// Hyperparameters learned from this scan or, with [`LearningMode::Once`], from the first one.
     pub learned: Option<LearnedHyperparameters>,
 }
 
-/// What learning came to.
+/// The result of learning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LearnedHyperparameters {
     /// The hyperparameters.
     pub hyperparameters: Hyperparameters,
-    /// The bound at the start and where it ended, nats.
+    /// The bound at the start and at the end, nats.
     pub bound: [f64; 2],
     /// Evaluations of the bound.
     pub evaluations: u32,
@@ -56,7 +56,7 @@ pub struct LearnedHyperparameters {
 }
 
 impl PredictedSurface {
-    /// Nothing observed.
+    /// Surfaces without observations.
     pub(crate) fn new(rows: usize) -> Self {
         Self {
             mean_m: vec![0.0; COLUMNS * rows],
@@ -66,7 +66,8 @@ impl PredictedSurface {
         }
     }
 
-    /// How many rows there are; [`BeamGrid::row_elevation_rad`](crate::skyline::beam_grid::BeamGrid::row_elevation_rad) has their
+    /// Number of rows;
+    /// [`BeamGrid::row_elevation_rad`](crate::skyline::beam_grid::BeamGrid::row_elevation_rad) has their
     /// elevations.
     pub fn rows(&self) -> usize {
         self.rows

@@ -1,8 +1,8 @@
 //! The sparse Gaussian process at freely placed inducing inputs, sector by sector.
 //!
-//! The kernel decays within a few length-scales, so each sector of the surface is predicted from the returns and
-//! inducing inputs of a window around it; DESIGN.md gives the difference from the whole surface. Azimuths are taken
-//! relative to the sector's centre, so the seam at ±π is like any other place.
+//! The kernel decays within a few length-scales, so each sector of the surface is predicted from the returns
+//! and inducing inputs of a window around it; docs/design/perception.md gives the difference from the whole
+//! surface. Azimuths are relative to the sector's centre, so the seam at ±π is like any other place.
 
 use core::ops::Range;
 
@@ -24,7 +24,7 @@ pub(crate) struct WindowGp {
     farthest_points: FarthestPoints,
     chosen: Vec<usize>,
     is_inducing: Vec<bool>,
-    /// Inducing inputs that were learned; they take the place of the farthest points.
+    /// Learned inducing inputs, in place of the farthest points.
     learned: Vec<DVec2>,
     window_inputs: Vec<DVec2>,
     window_targets: Vec<f64>,
@@ -37,7 +37,7 @@ pub(crate) struct WindowGp {
 }
 
 impl WindowGp {
-    /// A process that predicts so many rows.
+    /// A process that predicts this many rows.
     pub(crate) fn new(config: PerceptionConfig, rows: usize) -> Self {
         let queries = (0..SECTOR_COLUMNS)
             .flat_map(|column| (0..rows).map(move |row| (column, row)))
@@ -96,7 +96,7 @@ impl WindowGp {
         surface: &mut PredictedSurface,
     ) -> Result<(), GpError> {
         let margin = REACH_LENGTH_SCALES * self.config.kernel.length_scales_rad[0];
-        // Beyond half a turn the window would meet itself.
+        // Beyond half a turn the window would overlap itself.
         let margin_columns = ((margin / COLUMN_STEP_RAD) as usize).min((COLUMNS - SECTOR_COLUMNS) / 2);
         let first_column = sector * SECTOR_COLUMNS + COLUMNS - margin_columns;
         let first_azimuth = self.queries[0].x - COLUMN_STEP_RAD * margin_columns as f64;
@@ -174,7 +174,7 @@ mod tests {
 
     const ROWS: usize = 31;
 
-    /// The default with inducing inputs so near that their choice hardly shows.
+    /// The default with inducing inputs so dense that their choice hardly matters.
     fn dense() -> PerceptionConfig {
         PerceptionConfig { inducing_spacing_length_scales: 0.6, ..PlannerConfig::default().perception }
     }

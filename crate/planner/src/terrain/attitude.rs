@@ -1,4 +1,4 @@
-//! How the robot stands, how that changes, and how it would stand if it turned.
+//! The robot's attitude: slopes now, extrapolated in time, and after a turn.
 
 use core::time::Duration;
 
@@ -7,16 +7,16 @@ use glam::DVec2;
 use crate::pose::Pose;
 use crate::terrain::slopes::Slopes;
 
-/// A turn is looked at in steps of this size.
+/// A turn is checked in steps of this size.
 const TURN_STEP_RAD: f64 = 0.05;
 
-/// The robot's own attitude, which it knows better than any ground ahead.
+/// The attitude estimate from the poses, more exact than that of any ground ahead.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct AttitudeEstimate {
     pub(crate) height_m: f64,
-    /// Of the plane that it stands on, in the world.
+    /// Gradient of the plane under the robot, in the world.
     pub(crate) gradient: DVec2,
-    /// Slope ahead and to the left, how much it has changed since the pose before, and how long ago that was.
+    /// Slope ahead and to the left, its change since the last pose, and the time of that change.
     slope: DVec2,
     change: DVec2,
     elapsed: Duration,
@@ -24,7 +24,7 @@ pub(crate) struct AttitudeEstimate {
 }
 
 impl AttitudeEstimate {
-    /// The robot stands like this now.
+    /// Updates the estimate with a pose.
     pub(crate) fn be_at(&mut self, pose: &Pose, elapsed: Duration) {
         let up = pose.world_from_robot().z_axis;
         let gradient = -up.truncate() / up.z;
@@ -35,12 +35,13 @@ impl AttitudeEstimate {
         *self = Self { height_m: pose.position_m.z, gradient, slope, change, elapsed, is_known: true };
     }
 
-    /// Its slopes.
+    /// The present slopes.
     pub(crate) fn slopes(&self) -> Slopes {
         slopes(self.slope)
     }
 
-    /// Its slopes or, where those are steeper, what they come to within a time if they go on to change like this.
+    /// For each axis the larger of the present slope and the slope extrapolated over `time` at the present
+    /// rate.
     pub(crate) fn slopes_within(&self, time: Duration) -> Slopes {
         if self.elapsed.is_zero() {
             return self.slopes();
@@ -49,14 +50,15 @@ impl AttitudeEstimate {
         slopes(self.slope + times * self.change).max(self.slopes())
     }
 
-    /// As much of a turn on the spot, anticlockwise, as keeps it within `allowed` or as steep as it stands, were the ground a plane.
+    /// The largest part of a turn on the spot, anticlockwise, that keeps the slopes within `allowed` or no
+    /// steeper than now, if the ground is a plane.
     pub(crate) fn safe_turn_rad(&self, turn_rad: f64, allowed: &Slopes) -> f64 {
         let most = allowed.max(self.slopes());
         let count = (turn_rad.abs() / TURN_STEP_RAD).ceil();
         let step_rad = if count > 0.0 { turn_rad / count } else { 0.0 };
         let is_safe = |step: i32| {
             let (sin, cos) = libm::sincos(f64::from(step) * step_rad);
-            // The ground turns the other way under the robot.
+            // The ground turns the opposite direction under the robot.
             slopes(DVec2::new(cos, -sin).rotate(self.slope)).within(&most, 0.0)
         };
         let steps = (1..=count as i32).take_while(|&step| is_safe(step)).count();
@@ -101,7 +103,7 @@ mod tests {
 
     #[test]
     fn a_turn_out_of_what_is_too_steep_is_safe_and_one_further_into_it_is_not() {
-        // Right side up, nose a little up: anticlockwise the nose gets to the uphill side.
+        // Right side up, nose a little up: anticlockwise the nose turns uphill.
         let banked = standing(-0.52, 0.2, 0.3);
         let (into_rad, out_rad) = (banked.safe_turn_rad(1.0, &ALLOWED), banked.safe_turn_rad(-0.6, &ALLOWED));
         assert!(into_rad.abs() < 1e-12 && (out_rad + 0.6).abs() < 1e-12, "{into_rad} {out_rad}");

@@ -1,8 +1,8 @@
-//! What the last scans saw of the ground around the robot.
+//! The elevation window: ground around the robot, from the last scans.
 //!
-//! Not a map: a window of cells that moves with the robot, holds returns of the last seconds within r_oc and the ground
-//! under the wheels, and forgets the rest. It answers two questions: what would the robot's roll and pitch be there, and would
-//! ground have been seen there if there were any?
+//! It is no global map: a grid of cells that moves with the robot, holds returns within its radius and the
+//! ground under the wheels, and forgets cells that were not seen again for its memory time. It answers two
+//! questions: the roll and pitch of the robot at a place, and whether a place is a negative obstacle.
 
 mod cliffs;
 mod footprint;
@@ -21,27 +21,27 @@ use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 use cliffs::{MOST_VIEWS, View};
 
-/// Returns that a cell averages before new ones begin to outweigh old ones.
+/// Weight of the past in a cell's average, in returns.
 const MOST_RETURNS: f64 = 30.0;
-/// Ground around a place that carries the robot: its four wheels are within the footprint's radius. Where the rings of a scan
-/// lie further apart than that, a wider plane stands in.
+/// Radii of the ground around a place that carries the robot, as multiples of the footprint's radius. A wider
+/// plane replaces a narrower one if the rings of a scan lie farther apart.
 const FOOTPRINT_RADII: [f64; 3] = [1.0, 1.6, 2.4];
 
-/// What a search asks of the ground.
+/// Queries of the terrain by a search.
 pub(crate) trait TerrainQuery {
-    /// The least-squares plane through the ground around a place; `None` where too little was seen.
+    /// The least-squares plane through the ground around a place; `None` if too little was seen.
     fn plane_at(&self, place_m: DVec2) -> Option<Plane>;
 
-    /// How steep the robot stands on its wheels around a place, where the ground has this plane, facing along a unit vector; `None` where
-    /// no more than the plane is known.
+    /// The largest slopes of the robot on its wheels around a place with this plane, facing along a unit
+    /// vector; `None` if only the plane is known.
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes>;
 
-    /// Whether there is no ground under a wheel at a place, as it would have been seen from the side of `here_m`, or it drops off there.
-    /// What `was_missing` stays so while no returns come from it.
+    /// Whether a place is a negative obstacle: no ground under a wheel that would have been seen from the
+    /// side of `here_m`, or a drop. It stays one, `was_negative_obstacle`, while no returns come from it.
     fn is_negative_obstacle(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool;
 }
 
-/// Ground of which the planes alone are known.
+/// Terrain given by its planes alone.
 impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
     fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
         self(place_m)
@@ -58,7 +58,7 @@ impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
 
 #[derive(Clone, Copy, Debug)]
 struct ElevationCell {
-    /// When it was last seen, by the window's own time.
+    /// Time of the last return, on the window's clock.
     seen: Duration,
     returns: f64,
     mean_m: DVec3,
@@ -71,14 +71,14 @@ pub(crate) struct ElevationWindow {
     wheelbase_m: f64,
     track_m: f64,
     footprint_m: f64,
-    /// Spacing of the places that are asked for.
+    /// Spacing of the places of the state lattice.
     step_m: f64,
     sensor: SensorModel,
-    /// The time that has passed, of which [`ElevationWindowConfig::memory`] is remembered.
+    /// The window's clock; cells are kept for [`ElevationWindowConfig::memory`].
     now: Duration,
     memory: Duration,
     cells: RollingGrid<ElevationCell>,
-    /// From where the last scans were taken, the newest last.
+    /// Sensor poses of the last scans, the newest last.
     views: VecDeque<View>,
 }
 
@@ -104,7 +104,7 @@ impl ElevationWindow {
         self.views.clear();
     }
 
-    /// Starts a new scan; what is older than the memory will no longer be found.
+    /// Starts a new scan: advances the clock, past which older cells expire.
     pub(crate) fn advance(&mut self, elapsed: Duration) {
         self.now = self.now.saturating_add(elapsed);
     }
@@ -123,7 +123,7 @@ impl ElevationWindow {
         }
     }
 
-    /// Moves all that is remembered from one world frame to another.
+    /// Moves the window from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         let mut moved = RollingGrid::new(self.config.cells_per_side());
         for (_, cell) in self.cells.iter().filter(|(_, cell)| self.is_fresh(cell)) {
@@ -143,7 +143,8 @@ impl ElevationWindow {
         Some(Plane { gradient_deviation: libm::hypot(plane.gradient_deviation, unseen), ..plane })
     }
 
-    /// Moments of the fresh cells whose mean is within `radius_m` of a place, as far as they count by where they lie from it.
+    /// Moments of the fresh cells whose mean is within `radius_m` of a place and, relative to it, accepted by
+    /// `counts`.
     fn moments_near(&self, place_m: DVec2, radius_m: f64, counts: impl Fn(DVec2) -> bool) -> Moments {
         let mut moments = Moments::default();
         for cell in self.cells_near(place_m, radius_m) {
@@ -175,7 +176,7 @@ impl ElevationWindow {
 }
 
 impl ElevationWindow {
-    /// The radii within which the ground around a place is looked for, the narrowest first.
+    /// The radii of the ground around a place, the narrowest first.
     fn footprint_radii_m(&self) -> [f64; 3] {
         FOOTPRINT_RADII.map(|times| times * self.footprint_m)
     }

@@ -1,4 +1,4 @@
-//! The sixteen headings of the lattice of places.
+//! The sixteen headings of the state lattice.
 
 use core::f64::consts::FRAC_1_SQRT_2;
 

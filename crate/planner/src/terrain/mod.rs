@@ -1,4 +1,4 @@
-//! The ground around the robot: the elevation window, and how the robot would stand on it.
+//! The ground around the robot: the elevation window, and the robot's attitude on it.
 
 pub(crate) mod attitude;
 pub(crate) mod elevation_window;

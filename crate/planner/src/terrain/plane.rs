@@ -3,11 +3,11 @@
 use glam::{DVec2, DVec3};
 use nalgebra::{Matrix2, Vector2};
 
-/// A plane whose slope the points leave more uncertain than this says nothing.
+/// A plane whose slope has a larger standard deviation than this is refused.
 const LARGEST_SLOPE_DEVIATION: f64 = 0.08;
-/// Points a plane needs at least.
+/// Fewest points of a plane.
 const FEWEST_POINTS: usize = 5;
-/// Roughness that is always allowed for: sensor noise and what a cell averages away.
+/// Smallest roughness: sensor noise and averaging within a cell.
 const LEAST_ROUGHNESS_M: f64 = 0.02;
 
 /// A plane through ground.
@@ -22,8 +22,8 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The least-squares plane through `points_m`, with its height at `place_m`; `None` where they say too little of a
-    /// slope. Over `wheels_m`, the distance between wheels, roughness becomes tilt.
+    /// The least-squares plane through `points_m`, with its height at `place_m`; `None` if they leave the
+    /// slope too uncertain. Over `wheels_m`, the distance between wheels, roughness becomes tilt.
     pub fn fit(place_m: DVec2, points_m: &[DVec3], wheels_m: f64) -> Option<Self> {
         let mut moments = Moments::default();
         for point_m in points_m {
@@ -67,13 +67,13 @@ impl Moments {
         self.zz += d.z * d.z;
     }
 
-    /// How far the place lies from the points: from the nearest one, or from their middle.
+    /// Distance of the place from the points: from the nearest one, or from their mean.
     pub(crate) fn distance_m(&self) -> f64 {
         let middle = self.sum.truncate() / (self.count as f64).max(1.0);
         middle.length().max(self.nearest_squared.sqrt())
     }
 
-    /// The plane with its height at the place, for wheels so far from each other.
+    /// The plane with its height at the place, for this distance between wheels.
     pub(crate) fn plane(&self, wheels_m: f64) -> Option<Plane> {
         if self.count < FEWEST_POINTS {
             return None;
@@ -89,7 +89,7 @@ impl Moments {
         let zz = about_centroid(self.zz, centroid.z, centroid.z);
         let spread = Matrix2::new(xx, xy, xy, yy);
         let least_spread = spread.symmetric_eigenvalues().min();
-        // Points in a line, such as those of a single ring, say nothing of the slope across it.
+        // Points in a line, such as those of a single ring, do not constrain the slope across it.
         let least_variance = LEAST_ROUGHNESS_M * LEAST_ROUGHNESS_M;
         if least_spread * LARGEST_SLOPE_DEVIATION * LARGEST_SLOPE_DEVIATION < least_variance {
             return None;
@@ -97,7 +97,7 @@ impl Moments {
         let solved = spread.cholesky()?.solve(&Vector2::new(xz, yz));
         let gradient = DVec2::new(solved.x, solved.y);
         let unexplained = (zz - gradient.x * xz - gradient.y * yz).max(0.0) / (count - 2.0);
-        // What the plane does not explain lifts single wheels.
+        // Residuals lift single wheels.
         let rough_m = (unexplained - least_variance).max(0.0).sqrt();
         let standard_error = (unexplained.max(least_variance) / least_spread).sqrt();
         Some(Plane {

@@ -1,8 +1,9 @@
-//! A square grid that rolls along with the robot: cells stand still in the world, and each slot holds the last cell written to it.
+//! A square grid that rolls along with the robot: cells are fixed in the world, and each slot holds the last
+//! cell written to it.
 
 use glam::IVec2;
 
-/// Cells of the world by their index, `side` × `side` of them at most. A cell that is a multiple of `side` away takes the slot of another.
+/// Cells of the world by their index, at most `side` × `side`. Cells a multiple of `side` apart share a slot.
 #[derive(Clone, Debug)]
 pub(crate) struct RollingGrid<T> {
     side: i32,
@@ -32,7 +33,7 @@ impl<T: Copy> RollingGrid<T> {
         self.slots[slot].as_mut().filter(|(held, _)| *held == index).map(|(_, cell)| cell)
     }
 
-    /// Writes a cell, in place of what its slot held.
+    /// Writes a cell, and overwrites the last one in its slot.
     pub(crate) fn set(&mut self, index: IVec2, cell: T) {
         let slot = self.slot_of(index);
         self.slots[slot] = Some((index, cell));

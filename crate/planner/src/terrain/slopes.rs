@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::robot_model::RobotModel;
 
-/// Slopes along and across the robot that stand for a pitch and a roll.
+/// Slopes along and across the robot, the tangents of its pitch and roll.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slopes {
     pub(crate) across: f64,
@@ -30,12 +30,12 @@ impl Slopes {
         Self { across: self.across.max(other.across), along: self.along.max(other.along) }
     }
 
-    /// The larger share of the two limits, in slope.
+    /// Utilisation of the limits, in slope: the larger of both axes.
     pub(crate) fn share_of(&self, limits: &Self) -> f64 {
         (self.across / limits.across).max(self.along / limits.along)
     }
 
-    /// Whether both stay within limits, with a margin for what is uncertain.
+    /// Whether both stay within limits, with a margin for uncertainty.
     pub(crate) fn within(&self, limits: &Self, margin: f64) -> bool {
         self.across + margin <= limits.across && self.along + margin <= limits.along
     }

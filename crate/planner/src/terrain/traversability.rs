@@ -1,4 +1,5 @@
-//! How the robot would stand at the places of a lattice, for each heading.
+//! The traversability map: the risk of the robot's attitude at the places of the state lattice, for each
+//! heading.
 
 use glam::{DVec2, IVec2};
 
@@ -12,91 +13,92 @@ use crate::terrain::plane::Plane;
 use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 
-/// How careful a search is.
+/// Caution of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Caution {
     /// As configured.
     Usual,
-    /// Near the robot, what gets it away.
-    Escape,
+    /// Recovery: near the robot, the smallest margin suffices.
+    Recovery,
 }
 
 /// One place of the lattice.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     plane: Option<Plane>,
-    /// (slope / limit)² for each axis of travel, the worse of roll and pitch; infinite where that is not safe.
+    /// (slope / limit)² for each axis of travel, the worse of roll and pitch; infinite if that is not safe.
     risk: [f32; HEADINGS / 2],
     is_at_cliff: bool,
 }
 
 const UNKNOWN: Place = Place { plane: None, risk: [f32::INFINITY; HEADINGS / 2], is_at_cliff: false };
 
-/// Places around the robot, on a lattice that stands still in the world.
+/// Places around the robot, on a lattice that is fixed in the world.
 #[derive(Clone, Debug)]
 pub(crate) struct TraversabilityMap {
     config: StateLatticeConfig,
     tilt_limits: RobotModel,
-    /// The tilt limits, what of them may be used, and the most that may be where there is nothing better.
+    /// The tilt limits, the limits less the usual margin, and the limits less the smallest margin.
     limits: Slopes,
     allowed: Slopes,
     most: Slopes,
     half: i32,
     centre: IVec2,
     places: Vec<Place>,
-    /// The ground at each place of the world's lattice, by remainder of its index.
+    /// The ground at each place of the world's lattice.
     planes: RollingGrid<Known>,
     looks: i32,
-    /// Places that turned out steeper than they had looked, the newest last.
-    mistrusted: Vec<Mistrusted>,
+    /// Places with a penalty, some of them with inflated variance around, the newest last.
+    marked: Vec<Marked>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Mistrusted {
+struct Marked {
     place_m: DVec2,
-    /// Deviations of slopes around are larger than they look by this share.
-    doubt: f64,
+    /// Inflation of the slopes' standard deviations around: 1 doubles them.
+    inflation: f64,
 }
 
-/// Mistrusted places that are remembered, how much around each is meant, and the risk that the first time adds; ground at the tilt limit
-/// has 1. Each further time adds twice as much as the one before, up to so many.
-const MOST_MISTRUSTED: usize = 128;
-const MISTRUSTED_RADIUS_M: f64 = 0.6;
-const MISTRUST_RISK: f32 = 2.0;
+/// Number of places kept, radius of a penalty, and risk of the first penalty; ground at the tilt limit has 1.
+/// Each further penalty adds twice as much as the last, up to this many.
+const MOST_MARKED: usize = 128;
+const PENALTY_RADIUS_M: f64 = 0.6;
+const PENALTY_RISK: f32 = 2.0;
 const MOST_TIMES: usize = 3;
-/// Each surprise adds this much doubt around it, with this standard deviation of a Gaussian, up to a most; driving this far takes it
-/// down to e⁻¹. What is left of it below the least counts no more.
-const SURPRISE: f64 = 1.0;
-const DOUBT_RADIUS_M: f64 = 1.5;
-const MOST_DOUBT: f64 = 2.0;
-const DOUBT_FADES_M: f64 = 20.0;
-const LEAST_DOUBT: f64 = 0.05;
-/// Places this near the border of the lattice are its horizon; those beside them lie on it, too.
+/// Inflation at a place, radius (standard deviation of a Gaussian) of it, and bound on the sum; the distance
+/// driven over which it decays to e⁻¹, and the least that counts.
+const INFLATION: f64 = 1.0;
+const INFLATION_RADIUS_M: f64 = 1.5;
+const MOST_INFLATION: f64 = 2.0;
+const INFLATION_FADES_M: f64 = 20.0;
+const LEAST_INFLATION: f64 = 0.05;
+/// Places this near to the border of the lattice are its horizon; those beside them count as well.
 const HORIZON: i32 = 2;
-/// Ground that keeps no more than the margin for an escape, with this share of the deviations, is the last choice: it counts as this much
-/// more risk.
+/// Tight ground keeps only the smallest margin, with this share of the deviations. It is the last choice,
+/// with this much more risk.
 const TIGHT_SHARE: f64 = 0.5;
 const TIGHT_RISK: f64 = 2.0;
-/// A slope with a larger standard deviation is a guess.
+/// A slope with a larger standard deviation is extrapolated, not seen.
 const GUESS_DEVIATION: f64 = 0.15;
-/// Standard deviation of a slope between wheels under which returns were averaged.
+/// Standard deviation of a slope between wheels with averaged returns under them.
 const WHEELS_DEVIATION: f64 = 0.05;
 
-/// What was last found at a place of the world's lattice.
+/// The last query's result at a place of the world's lattice.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     plane: Option<Plane>,
-    /// On the wheels, for each axis of travel.
+    /// Footprint slopes, for each axis of travel.
     footprint_slopes: [Option<Slopes>; HEADINGS / 2],
-    /// Under a wheel there is nothing, as it would have been seen, or the ground drops off.
+    /// Whether the place is a negative obstacle.
     is_negative_obstacle: bool,
 }
 
-/// A place is looked at anew after so many looks: the ground stands still, and a robot drives a step in this time.
+/// A place is queried again after this many scans: the ground is static, and the robot drives about a step
+/// meanwhile.
 const LOOKS: i32 = 4;
 
 impl TraversabilityMap {
-    /// A lattice that reaches `radius_m`.
+    /// A map of the places within `radius_m`.
     pub(crate) fn new(config: StateLatticeConfig, limits: &RobotModel, radius_m: f64) -> Self {
         let half = (radius_m / config.step_m).ceil() as i32 + 1;
         let side = (2 * half + 1) as usize;
@@ -111,20 +113,20 @@ impl TraversabilityMap {
             places: vec![UNKNOWN; side * side],
             planes: RollingGrid::new(side),
             looks: 0,
-            mistrusted: Vec::with_capacity(MOST_MISTRUSTED),
+            marked: Vec::with_capacity(MOST_MARKED),
         }
     }
 
-    /// Uses the limits up to this margin where there is nothing better.
+    /// Sets the smallest margin.
     pub(crate) fn keep_margin(&mut self, least_margin_rad: f64) {
         self.most = Slopes::of_limits(&self.tilt_limits, least_margin_rad);
     }
 
-    /// Moves what is remembered from one world frame to another; the ground is looked at anew.
+    /// Moves the penalties from one world frame to another; the ground is queried again.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         self.planes.clear();
-        for mistrusted in &mut self.mistrusted {
-            mistrusted.place_m = change.place_m(mistrusted.place_m);
+        for marked in &mut self.marked {
+            marked.place_m = change.place_m(marked.place_m);
         }
     }
 
@@ -132,52 +134,53 @@ impl TraversabilityMap {
     pub(crate) fn clear(&mut self) {
         self.planes.clear();
         self.looks = 0;
-        self.mistrusted.clear();
+        self.marked.clear();
     }
 
-    /// The robot met steeper ground than it was told of, and `place_m` is where: what looks alike around it may deceive as much.
-    pub(crate) fn surprise(&mut self, place_m: DVec2) {
-        self.remember(Mistrusted { place_m, doubt: SURPRISE });
+    /// Inflates the variance around `place_m`, where the ground was steeper than predicted: similar ground
+    /// nearby may be as well.
+    pub(crate) fn inflate_variance(&mut self, place_m: DVec2) {
+        self.remember(Marked { place_m, inflation: INFLATION });
     }
 
-    /// Mistrusts a place, until the ground is forgotten: each time it costs more to drive there, so that another way is soon cheaper.
-    pub(crate) fn mistrust(&mut self, place_m: DVec2) {
-        self.remember(Mistrusted { place_m, doubt: 0.0 });
+    /// Penalises a place until the ground is forgotten: each penalty raises the cost of driving there, so
+    /// that another path becomes cheaper.
+    pub(crate) fn penalise(&mut self, place_m: DVec2) {
+        self.remember(Marked { place_m, inflation: 0.0 });
     }
 
-    fn remember(&mut self, mistrusted: Mistrusted) {
-        if self.mistrusted.len() == MOST_MISTRUSTED {
-            self.mistrusted.remove(0);
+    fn remember(&mut self, marked: Marked) {
+        if self.marked.len() == MOST_MARKED {
+            self.marked.remove(0);
         }
-        self.mistrusted.push(mistrusted);
+        self.marked.push(marked);
     }
 
-    /// The robot has driven on.
+    /// Lets the inflation decay with the distance driven.
     pub(crate) fn drive_on(&mut self, distance_m: f64) {
-        let left = libm::exp(-distance_m / DOUBT_FADES_M);
-        for mistrusted in &mut self.mistrusted {
-            mistrusted.doubt *= left;
+        let left = libm::exp(-distance_m / INFLATION_FADES_M);
+        for marked in &mut self.marked {
+            marked.inflation *= left;
         }
     }
 
-    fn mistrust_risk(&self, place_m: DVec2) -> f32 {
-        let squared = MISTRUSTED_RADIUS_M * MISTRUSTED_RADIUS_M;
-        let near =
-            self.mistrusted.iter().filter(|other| (other.place_m - place_m).length_squared() < squared);
-        MISTRUST_RISK * (libm::exp2f(near.count().min(MOST_TIMES) as f32) - 1.0)
+    fn penalty_risk(&self, place_m: DVec2) -> f32 {
+        let squared = PENALTY_RADIUS_M * PENALTY_RADIUS_M;
+        let near = self.marked.iter().filter(|other| (other.place_m - place_m).length_squared() < squared);
+        PENALTY_RISK * (libm::exp2f(near.count().min(MOST_TIMES) as f32) - 1.0)
     }
 
-    /// Deviations of slopes at a place are larger than they look by this share.
-    fn doubt_at(&self, place_m: DVec2) -> f64 {
-        let here = |surprise: &Mistrusted| {
-            let away = (surprise.place_m - place_m) / DOUBT_RADIUS_M;
-            surprise.doubt * libm::exp(-0.5 * away.length_squared())
+    /// Inflation of the slopes' standard deviations at a place.
+    fn inflation_at(&self, place_m: DVec2) -> f64 {
+        let here = |marked: &Marked| {
+            let away = (marked.place_m - place_m) / INFLATION_RADIUS_M;
+            marked.inflation * libm::exp(-0.5 * away.length_squared())
         };
-        let doubted = self.mistrusted.iter().filter(|mistrusted| mistrusted.doubt > LEAST_DOUBT);
-        doubted.map(here).sum::<f64>().min(MOST_DOUBT)
+        let inflated = self.marked.iter().filter(|marked| marked.inflation > LEAST_INFLATION);
+        inflated.map(here).sum::<f64>().min(MOST_INFLATION)
     }
 
-    /// Looks at the ground around the robot.
+    /// Queries the ground around the robot.
     pub(crate) fn look(&mut self, ground: &dyn TerrainQuery, here_m: DVec2) {
         let cells = here_m / self.config.step_m;
         self.centre = IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5));
@@ -208,33 +211,35 @@ impl TraversabilityMap {
         }
     }
 
-    /// Judges how the robot, which stands at `here_m`, would stand at the places looked at.
+    /// Computes the risks of all places, for a robot at `here_m`.
     pub(crate) fn judge(&mut self, here_m: DVec2, caution: Caution) {
         for index in 0..self.places.len() {
             let offset = self.offset(index);
             let known = self.planes.get(self.centre + offset).copied();
-            let is_at_cliff = self.config.avoids_negative_obstacles && self.is_beside_missing(offset);
+            let is_at_cliff =
+                self.config.avoids_negative_obstacles && self.is_beside_negative_obstacle(offset);
             self.places[index] = match known.and_then(|known| Some((known.plane?, known.footprint_slopes))) {
                 Some((plane, footprint_slopes)) => {
                     let place_m = self.position_m(offset);
                     let away_m = (place_m - here_m).length();
-                    let mistrust = match caution {
-                        Caution::Usual => self.mistrust_risk(place_m),
-                        // It has to get away, but rather not that way.
-                        Caution::Escape => self.mistrust_risk(place_m).min(MISTRUST_RISK),
+                    let penalty = match caution {
+                        Caution::Usual => self.penalty_risk(place_m),
+                        // The robot may have to pass here, but at the cost of one penalty.
+                        Caution::Recovery => self.penalty_risk(place_m).min(PENALTY_RISK),
                     };
                     let deviations = self.deviations_at(place_m);
                     let risk = self.risk_of(&plane, &footprint_slopes, caution, away_m, deviations);
                     let falls = if is_at_cliff { f32::INFINITY } else { 0.0 };
-                    Place { plane: Some(plane), risk: risk.map(|risk| risk + mistrust + falls), is_at_cliff }
+                    Place { plane: Some(plane), risk: risk.map(|risk| risk + penalty + falls), is_at_cliff }
                 }
                 _ => Place { is_at_cliff, ..UNKNOWN },
             };
         }
     }
 
-    /// Whether the ground is missing at a place or beside it: the robot is wider than its wheels, and keeps to a way by half a step.
-    fn is_beside_missing(&self, offset: IVec2) -> bool {
+    /// Whether a place or one beside it is a negative obstacle: the body is wider than the wheels, and
+    /// follows a path to within half a step.
+    fn is_beside_negative_obstacle(&self, offset: IVec2) -> bool {
         around(self.centre + offset)
             .any(|world| self.planes.get(world).is_some_and(|known| known.is_negative_obstacle))
     }
@@ -256,16 +261,16 @@ impl TraversabilityMap {
         })
     }
 
-    /// How many standard deviations of slopes are allowed for at a place.
+    /// Standard deviations of the slope that are added to it at a place.
     pub(crate) fn deviations_at(&self, place_m: DVec2) -> f64 {
-        (1.0 + self.doubt_at(place_m)) * self.config.slope_deviations
+        (1.0 + self.inflation_at(place_m)) * self.config.slope_deviations
     }
 
-    /// The risk of standing on slopes, with what is allowed for what is uncertain of them, at a distance from the robot; infinite where
+    /// The risk of slopes with a standard deviation `uncertain` added, `away_m` from the robot; infinite if
     /// that is not safe.
     pub(crate) fn risk_on(&self, slopes: &Slopes, uncertain: f64, caution: Caution, away_m: f64) -> f64 {
-        let escapes = caution == Caution::Escape && away_m < self.config.recovery_radius_m;
-        let (allowed, uncertain) = if escapes { (&self.most, 0.0) } else { (&self.allowed, uncertain) };
+        let recovers = caution == Caution::Recovery && away_m < self.config.recovery_radius_m;
+        let (allowed, uncertain) = if recovers { (&self.most, 0.0) } else { (&self.allowed, uncertain) };
         let share = slopes.share_of(&self.limits);
         if slopes.within(allowed, uncertain) {
             share * share
@@ -281,12 +286,12 @@ impl TraversabilityMap {
         &self.limits
     }
 
-    /// The most of the limits that may be used, as slopes.
+    /// The limits less the smallest margin, as slopes.
     pub(crate) fn most(&self) -> &Slopes {
         &self.most
     }
 
-    /// How many places there are.
+    /// Number of places.
     pub(crate) fn count(&self) -> usize {
         self.places.len()
     }
@@ -318,24 +323,25 @@ impl TraversabilityMap {
         self.holds(offset).then_some(offset)
     }
 
-    /// Whether what was seen ends at a place: at the border of the lattice, or with nothing known of a place beside it.
+    /// Whether a place borders on unseen ground: at the border of the lattice, or beside a place without a
+    /// plane.
     pub(crate) fn is_frontier(&self, offset: IVec2) -> bool {
         let inner = self.half - HORIZON;
         offset.length_squared() > inner * inner || around(offset).any(|place| self.plane(place).is_none())
     }
 
-    /// Where a place lies in the world, seen from above.
+    /// Position of a place in the world, seen from above.
     pub(crate) fn position_m(&self, offset: IVec2) -> DVec2 {
         (self.centre + offset).as_dvec2() * self.config.step_m
     }
 
-    /// The ground at a place, where it is known.
+    /// The ground at a place, if it is known.
     pub(crate) fn plane(&self, offset: IVec2) -> Option<&Plane> {
         self.places[self.index(offset)].plane.as_ref()
     }
 
-    /// Whether nothing can be said of a place for a heading: it was not seen, or is not safe only as it was guessed from afar. Of what is at
-    /// the brink of missing ground enough is known.
+    /// Whether a place is unknown at a heading: unseen, or unsafe only by extrapolation. Places beside a
+    /// negative obstacle are known.
     pub(crate) fn is_hidden(&self, offset: IVec2, heading: usize) -> bool {
         let place = &self.places[self.index(offset)];
         !place.is_at_cliff
@@ -349,17 +355,17 @@ impl TraversabilityMap {
             })
     }
 
-    /// Whether the ground is missing at a place or beside it.
+    /// Whether a place or one beside it is a negative obstacle.
     pub(crate) fn is_at_cliff(&self, offset: IVec2) -> bool {
         self.places[self.index(offset)].is_at_cliff
     }
 
-    /// The risk of standing at a place with a heading; infinite where that is not safe.
+    /// The risk at a place with a heading; infinite if that is not safe.
     pub(crate) fn risk(&self, offset: IVec2, heading: usize) -> f64 {
         f64::from(self.places[self.index(offset)].risk[heading % (HEADINGS / 2)])
     }
 
-    /// The place that one step along a heading, or against it, leads to and the mean risk on the way; `None` where that is
+    /// The place one step along a heading, or against it, and the mean risk of the step; `None` if that is
     /// not safe.
     pub(crate) fn drive(&self, from: IVec2, heading: usize, forward: bool) -> Option<(IVec2, f64)> {
         let step = if forward { STEPS[heading] } else { -STEPS[heading] };
@@ -377,13 +383,13 @@ impl TraversabilityMap {
         mean.is_finite().then_some((to, mean))
     }
 
-    /// How much higher or lower one place is than another.
+    /// Height difference between two places.
     pub(crate) fn climb_m(&self, from: IVec2, to: IVec2) -> f64 {
         self.plane(from).zip(self.plane(to)).map_or(0.0, |(from, to)| (to.height_m - from.height_m).abs())
     }
 
-    /// The next known place along a heading, beyond hidden ground; `None` where the ground goes on, or none is known
-    /// within `gap_m`.
+    /// The next known place along a heading beyond hidden ground; `None` if the ground is not hidden, or no
+    /// place is known within `gap_m`.
     pub(crate) fn beyond_gap(&self, from: IVec2, heading: usize, gap_m: f64) -> Option<IVec2> {
         let step = STEPS[heading];
         let steps = (gap_m / (step.as_dvec2().length() * self.config.step_m)) as i32;

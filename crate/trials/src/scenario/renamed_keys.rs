@@ -1,8 +1,8 @@
-//! Keys that had other names before. Old scenario and campaign files, links and saved experiments still open.
+//! Keys with former names. Old scenario and campaign files, links and saved experiments still open.
 
 use mapless_toml::Rename;
 
-/// Keys first, then the tables that what is left of them moves to.
+/// Keys first, then the tables that the remaining keys move to.
 pub(crate) const RENAMED_KEYS: &[Rename] = &[
     Rename::new("planner.period_s", "sensor.period_s"),
     ticks("planner.ground.memory_ticks", "planner.elevation_window.memory_s"),
@@ -29,12 +29,12 @@ pub(crate) const RENAMED_KEYS: &[Rename] = &[
     Rename::new("planner.forecast", "planner.state_lattice"),
 ];
 
-/// A time that was counted in decisions, of which there were ten a second.
+/// A time that was counted in decisions, ten a second.
 const fn ticks(old: &'static str, new: &'static str) -> Rename {
     Rename { old, new, divisor: Some(10.0) }
 }
 
-/// The path that the parameter `path` has now.
+/// The present path of the parameter `path`.
 #[must_use]
 pub fn current_path(path: &str) -> String {
     let moved = RENAMED_KEYS.iter().find_map(|rename| {
@@ -44,7 +44,7 @@ pub fn current_path(path: &str) -> String {
     moved.unwrap_or_else(|| path.to_owned())
 }
 
-/// The `value` of the parameter `path` in the unit that it has now.
+/// The `value` of the parameter `path` in its present unit.
 #[must_use]
 pub fn current_value(path: &str, value: &toml::Value) -> toml::Value {
     let divisor = RENAMED_KEYS.iter().find(|rename| rename.old == path).and_then(|rename| rename.divisor);

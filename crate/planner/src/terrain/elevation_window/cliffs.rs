@@ -1,7 +1,7 @@
-//! Ground that was looked at and is not there.
+//! Negative obstacles: ground that should have been seen and was not.
 //!
-//! A scan says nothing of an edge but that no returns come from beyond it, and a plane through the ground before it goes on where
-//! there is none. But ground that went on would have been seen while the robot came nearer.
+//! A cliff shows in a scan only as missing returns, and a plane through the ground before it continues over
+//! it. But ground that went on would have been seen while the robot came nearer.
 
 use core::f64::consts::TAU;
 use core::time::Duration;
@@ -13,36 +13,38 @@ use crate::pose::FrameChange;
 use crate::sensor_model::SensorModel;
 use crate::terrain::plane::Plane;
 
-/// Views are kept this far apart, as a multiple of the sensor's height, and so many of them: the rings of a VLP-16 lie twice that apart
-/// where they sweep over the ground that is about to be too near to be seen.
+/// Distance between kept views, as a multiple of the sensor's height, and their number: near the robot, where
+/// ground goes out of sight, the rings of a VLP-16 are twice that apart.
 const SPACING_HEIGHTS: f64 = 0.3125;
 pub(super) const MOST_VIEWS: usize = 256;
-/// What was in so many views was swept over by a ring.
+/// A ring has swept over a place that was in this many views.
 const FEWEST_VIEWS: usize = 3;
-/// Ground is surely in view up to this distance, as a multiple of the sensor's height, this far inside the sensor's field of view, and
-/// where the beams meet it no flatter than this.
+/// Ground is surely in view up to this distance, as a multiple of the sensor's height, this far inside the
+/// field of view, and at no smaller angle of incidence than this.
 const SURELY_SEEN_HEIGHTS: f64 = 5.625;
 const INSIDE_RAD: f64 = 0.02;
 const LEAST_INCIDENCE: f64 = 0.1;
-/// Ground that rises like this hides what follows, be it as level as a ramp's end.
+/// Ground that rises by this slope hides the ground behind it, even a ramp's level end.
 const RISING_SLOPE: f64 = 0.1;
 
-/// What is as near as this to the robot, as a multiple of the sensor's height, and was in view was seen under all wheels, or it is not
-/// there.
+/// Within this distance of the robot, as a multiple of the sensor's height, ground in view was seen under all
+/// wheels, or does not exist.
 const BY_NOW_SEEN_HEIGHTS: f64 = 2.5;
 
-/// So many points to each side of a place are looked at, so far apart. A small rise hides fewer than this share of them.
+/// Points tested to each side of a place, their spacing, and the share of them without returns that makes a
+/// hole. A small rise hides fewer.
 const HOLE_LOOKS: i32 = 3;
 const HOLE_LOOK_M: f64 = 0.1;
 const HOLE_SHARE: f64 = 0.5;
 
-/// Returns this near to a place tell of a drop there if one lies so much lower than another, and the line through both is as steep as
-/// this. On 1.15 a robot exceeds a limit with every heading, as tan² 45° + tan² 30° is its square.
+/// Returns within this distance of a place show a drop if one lies this much lower than another and the line
+/// through both has this slope. At 1.15 a robot exceeds a limit with every heading: its square is tan² 45° +
+/// tan² 30°.
 const DROP_RADIUS_M: f64 = 0.7;
 const LEAST_DROP_M: f64 = 0.3;
 const DROP_SLOPE: f64 = 1.2;
 
-/// Where the sensor was.
+/// The pose of the sensor at a scan.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     taken: Duration,
@@ -51,7 +53,7 @@ pub(super) struct View {
 }
 
 impl ElevationWindow {
-    /// The scan was taken from here, by a sensor turned like this.
+    /// Records the sensor's pose at a scan.
     pub(crate) fn looked_from(&mut self, sensor_m: DVec3, world_from_sensor: DMat3) {
         let spacing_m = SPACING_HEIGHTS * self.sensor.height_m;
         let (now, memory) = (self.now, self.memory);
@@ -65,14 +67,14 @@ impl ElevationWindow {
         self.views.push_back(View { taken: now, sensor_m, world_from_sensor });
     }
 
-    /// Whether there is nothing under a wheel at a place, as it would have been seen from the side of `here_m`, or the ground drops off
-    /// there. What `was_missing` stays so while no returns come from it.
+    /// Whether a place is a negative obstacle: no ground under a wheel that would have been seen from the
+    /// side of `here_m`, or a drop. It stays one, `was_negative_obstacle`, while no returns come from it.
     pub(super) fn is_cliff(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool {
         (was_negative_obstacle || self.would_be_seen(place_m, here_m)) && self.lacks_returns_beside(place_m)
             || self.has_drop(place_m, (place_m - here_m).normalize_or_zero())
     }
 
-    /// Whether ground that went on at a place near the robot, as it lies on the robot's side of it, would have been seen.
+    /// Whether ground at a place near the robot, continued from the robot's side, would have been seen.
     fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool {
         let before = |from_place: DVec2| from_place.dot(here_m - place_m) > 0.0;
         let plane = || {
@@ -84,14 +86,14 @@ impl ElevationWindow {
             && plane().is_some_and(|plane| self.was_in_view(place_m, &plane))
     }
 
-    /// Whether no return comes from most of the ground at a place or beside it.
+    /// Whether most of the ground at a place or beside it has no returns.
     fn lacks_returns_beside(&self, place_m: DVec2) -> bool {
-        // Where its wheels may stand.
+        // Possible places of its wheels.
         let sides = [-self.footprint_m, 0.0, self.footprint_m];
         sides.into_iter().any(|y| sides.into_iter().any(|x| self.lacks_returns(place_m + DVec2::new(x, y))))
     }
 
-    /// Whether no return comes from most of the ground around a place.
+    /// Whether most of the ground around a place has no returns.
     fn lacks_returns(&self, place_m: DVec2) -> bool {
         let looks = (-HOLE_LOOKS..=HOLE_LOOKS)
             .flat_map(|y| (-HOLE_LOOKS..=HOLE_LOOKS).map(move |x| DVec2::new(f64::from(x), f64::from(y))));
@@ -103,8 +105,8 @@ impl ElevationWindow {
         f64::from(unseen) >= HOLE_SHARE * f64::from(count)
     }
 
-    /// Whether the ground around a place drops off in the direction of the unit vector `away`: between two returns it is somewhere as
-    /// steep as the line through both.
+    /// Whether the ground around a place drops along the unit vector `away`: between two returns it is
+    /// somewhere as steep as the line through both.
     fn has_drop(&self, place_m: DVec2, away: DVec2) -> bool {
         let near = || self.cells_near(place_m, DROP_RADIUS_M).map(|cell| cell.mean_m);
         let lowest_m = near().map(|mean_m| mean_m.z).fold(f64::INFINITY, f64::min);
@@ -118,7 +120,7 @@ impl ElevationWindow {
         })
     }
 
-    /// Whether ground with this plane would have been seen at a place, while it was not too near.
+    /// Whether ground with this plane at a place was in view before it was too near.
     fn was_in_view(&self, place_m: DVec2, plane: &Plane) -> bool {
         let point_m = place_m.extend(plane.height_m);
         self.views.iter().filter(|view| view.holds(point_m, plane, &self.sensor)).count() >= FEWEST_VIEWS
@@ -150,7 +152,7 @@ impl View {
     }
 }
 
-/// Whether all ground near the robot is below the highest ring, but for what rises.
+/// Whether all ground near the robot is below the highest ring, except for rises.
 fn sees_over_its_horizon(sensor: &SensorModel) -> bool {
     sensor.roll_rad == 0.0 && sensor.pitch_rad == 0.0 && sensor.highest_elevation_rad > 0.0
 }
@@ -163,7 +165,7 @@ mod tests {
 
     const AHEAD_M: DVec2 = DVec2::new(2.0, 0.0);
 
-    /// Has looked around while it drove to the origin from `from_m`, nose up by `pitch_rad`.
+    /// The window of a robot that has driven to the origin from `from_m`, nose up by `pitch_rad`.
     fn come_from(from_m: DVec2, pitch_rad: f64) -> ElevationWindow {
         let mut ground = ElevationWindow::new(&PlannerConfig::default());
         look_on_the_way(&mut ground, from_m, pitch_rad);
@@ -265,7 +267,7 @@ mod tests {
         let from_m = DVec2::new(-3.0, 0.0);
         let sees = |sensor, place_m| come_with(sensor, from_m).was_in_view(place_m, &sloping(0.0));
         let vlp16 = SensorModel::vlp16();
-        // Too far for a low sensor, and for a high one too near.
+        // Too far for a low sensor, too near for a high one.
         let (low, high) = (SensorModel { height_m: 0.4, ..vlp16 }, SensorModel { height_m: 1.7, ..vlp16 });
         assert!(sees(vlp16, DVec2::new(2.0, 0.0)) && sees(low, DVec2::new(0.5, 0.0)));
         assert!(!sees(low, DVec2::new(2.4, 0.0)) && !sees(high, DVec2::new(2.0, 0.0)));

@@ -1,7 +1,7 @@
-//! How the robot would stand on its wheels, where the ground under each was seen.
+//! Footprint slopes: the robot's attitude on its wheels, if the ground under each was seen.
 //!
-//! A plane through everything around a place takes a ditch or a crest for roughness and has to fear it for every heading. Four
-//! wheels say how far the robot tilts on it, and with which heading it passes.
+//! A plane through all ground around a place takes a ditch or a crest for roughness, at every heading. The
+//! heights under four wheels give the tilt there, and the headings at which the robot passes.
 
 use glam::{DVec2, IVec2};
 
@@ -9,16 +9,16 @@ use super::ElevationWindow;
 use crate::math::elementary::floor;
 use crate::terrain::slopes::Slopes;
 
-/// The footprint is tried this share of the lattice's step before and behind each place, too.
+/// The footprint is also tried this share of the lattice's step before and behind each place.
 const SHIFT_STEPS: f64 = 0.5;
-/// Ground under a wheel was seen when a return lies this near.
+/// Ground under a wheel counts as seen if a return lies this near.
 const NEAR_M: f64 = 0.2;
-/// Returns nearer than this to a wheel count alike.
+/// Returns nearer than this to a wheel have equal weights.
 const BLUR_M: f64 = 0.05;
 
 impl ElevationWindow {
-    /// The steepest that the robot stands at a place and just before and behind it, facing along the unit vector `direction`;
-    /// `gradient` is that of the ground around. `None` where the ground under a wheel was not seen.
+    /// The largest slopes of the robot at a place and just before and behind it, facing along the unit vector
+    /// `direction`; `gradient` is that of the ground around. `None` if the ground under a wheel was not seen.
     pub(super) fn footprint_slopes(
         &self,
         place_m: DVec2,
