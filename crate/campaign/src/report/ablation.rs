@@ -324,7 +324,7 @@ mod tests {
         for needle in [
             "- **k_stp (`planner.decision.steepness_weight`)** of `default`, 1.0. Without it, 9 of 10 reach (1 tilt_limit) instead of 10 of 10, \
              within the 95 % intervals; max \\|roll\\| +50 % (higher on 9 of 9).\n",
-            "Charge k_stp for steep paths. **Bold**",
+            "Weight k_stp of steepness: the mean risk of the path. **Bold**",
             "| `default` | 0.0 | 9 of 10 (60–98 %) | 1 tilt_limit | 50.0 (+0 %) | 0.300 (+50 %) | | | | |\n",
             "| `default` | **1.0** | 10 of 10 (72–100 %) |  | 50.0 | 0.200 | | | | |\n",
         ] {
