@@ -205,7 +205,7 @@ fn a_scan_without_returns_has_a_named_result() {
     assert_eq!(empty["status"], "stopped");
     assert_eq!(empty["reason"], "the scan has no returns");
     let far = folder.json("far.csv", &[]);
-    assert_eq!((far["status"].as_str(), far["occupied_cells"].as_u64()), (Some("looking"), Some(0)));
+    assert_eq!((far["status"].as_str(), far["occupied_cells"].as_u64()), (Some("searching"), Some(0)));
     for result in [&empty, &far] {
         let profile = result["profile"].as_array().unwrap();
         assert!(profile.len() == 360 && profile.iter().all(|column| column["kind"] == "unknown"));

@@ -159,7 +159,7 @@ impl Navigator for Dropping {
     fn navigate(&mut self, points_m: &[Vec3], pose: &Pose, goal: &Goal, elapsed: Duration) -> Decision {
         self.since += elapsed;
         self.scans += 1;
-        if let Some(last) = self.last.filter(|_| self.scans % 3 != 0) {
+        if let Some(last) = self.last.filter(|_| !self.scans.is_multiple_of(3)) {
             return last;
         }
         let decision = self.planner.navigate(points_m, pose, goal, std::mem::take(&mut self.since));
