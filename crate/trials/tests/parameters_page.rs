@@ -3,8 +3,6 @@
 //! After a change of a parameter, `MAPLESS_RECORD_PARAMETERS=1 cargo test -p mapless-trials --test parameters_page` writes
 //! it anew.
 
-use std::fmt::Write as _;
-
 use mapless::PlannerConfig;
 use mapless_parameters::{Check, Kind, Value};
 use mapless_trials::parameters::{Valued, groups};
@@ -60,7 +58,7 @@ fn must_be(check: Check) -> String {
 fn page() -> String {
     let mut page = INTRODUCTION.to_owned();
     for group in groups(&PlannerConfig::default(), &SensorConfig::default(), &HuskyConfig::default()) {
-        write!(page, "\n## `{}`: {}\n\n", group.table, group.title).unwrap();
+        page += &format!("\n## `{}`: {}\n\n", group.table, group.title);
         page += "| key | unit | default | paper | range | must be | what it does |\n|---|---|---|---|---|---|---|\n";
         for Valued { parameter, value } in group.parameters {
             let cells = [
@@ -72,7 +70,7 @@ fn page() -> String {
                 must_be(parameter.check),
                 parameter.text.replace('|', "\\|"),
             ];
-            writeln!(page, "| {} |", cells.join(" | ")).unwrap();
+            page += &format!("| {} |\n", cells.join(" | "));
         }
     }
     page
