@@ -93,12 +93,11 @@ macro_rules! parameters {
 
             /// The same with every value that the paper gives.
             #[must_use]
-            pub fn with_paper_values(self) -> Self {
-                Self {
-                    $($($field: $paper,)?)*
-                    $($($table: self.$table.with_paper_values(),)*)?
-                    ..self
-                }
+            #[allow(unused_mut, reason = "the paper may give none")]
+            pub fn with_paper_values(mut self) -> Self {
+                $($(self.$field = $paper;)?)*
+                $($(self.$table = self.$table.with_paper_values();)*)?
+                self
             }
         }
     };
