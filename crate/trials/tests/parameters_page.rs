@@ -6,7 +6,7 @@
 use mapless::PlannerConfig;
 use mapless_parameters::{Check, Kind, Value};
 use mapless_trials::parameters::{Valued, groups};
-use mapless_world::{HuskyConfig, SensorConfig};
+use mapless_world::{RobotConfig, SensorConfig};
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/PARAMETERS.md");
 
@@ -57,7 +57,7 @@ fn must_be(check: Check) -> String {
 
 fn page() -> String {
     let mut page = INTRODUCTION.to_owned();
-    for group in groups(&PlannerConfig::default(), &SensorConfig::default(), &HuskyConfig::default()) {
+    for group in groups(&PlannerConfig::default(), &SensorConfig::default(), &RobotConfig::default()) {
         page += &format!("\n## `{}`: {}\n\n", group.table, group.title);
         page += "| key | unit | default | paper | range | must be | what it does |\n|---|---|---|---|---|---|---|\n";
         for Valued { parameter, value } in group.parameters {

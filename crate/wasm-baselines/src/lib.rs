@@ -1,4 +1,5 @@
-//! Whole trials of every navigator, for the page's ghosts and batches, and generated tasks. A module of its own: the page opens without it.
+//! Whole trials of every navigator, for the page's ghosts and batches, and generated tasks. A module of its
+//! own: the page opens without it.
 
 #[path = "../../wasm/src/shared/mod.rs"]
 mod shared;

@@ -58,8 +58,8 @@ impl From<&segments::Segment> for Segment {
     }
 }
 
-/// A place where the robot could go next: on the skyline, where it already heads, at the frontier of what was seen, or the
-/// goal itself once it is in sight.
+/// A place where the robot could go next: on the skyline, where it already heads, at the frontier of what was
+/// seen, or the goal itself once it is in sight.
 #[derive(Debug, Serialize, Tsify)]
 pub struct Subgoal {
     /// Direction in the sensor frame.

@@ -1,7 +1,7 @@
 //! The closed loop for the page: [`Trial`](mapless_trials::Trial) behind plain objects and typed arrays.
 //!
-//! Nothing is decided here. All numbers are in SI units and radians, in the frames of `mapless-world`. What crosses has a
-//! struct of its own, whose TypeScript is made from it: `web/src/wasm/mapless_wasm.d.ts`.
+//! Nothing is decided here. All numbers are in SI units and radians, in the frames of `mapless-world`. What
+//! crosses has a struct of its own, whose TypeScript is made from it: `web/src/wasm/mapless_wasm.d.ts`.
 
 mod decision;
 mod opening;

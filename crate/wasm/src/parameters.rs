@@ -53,8 +53,8 @@ pub enum ParameterKind {
     Choice,
 }
 
-/// All of them, with the values of the scenario `file`; what the planner takes from sensor and robot follows `running`, the
-/// scenario with its overrides.
+/// All of them, with the values of the scenario `file`; what the planner takes from sensor and robot follows
+/// `running`, the scenario with its overrides.
 pub(crate) fn groups(
     file: &Scenario,
     running: &Scenario,

@@ -28,7 +28,8 @@ use crate::terrain::{Ground, GroundPatch};
 #[derive(Debug)]
 pub struct Session {
     now: Moment,
-    /// Where the trial has been since its start or since the ground changed; there is none before the first decision.
+    /// Where the trial has been since its start or since the ground changed; there is none before the first
+    /// decision.
     history: Option<History<Moment>>,
     /// Whether the ground has changed since the last scan.
     ground_changed: bool,
@@ -93,8 +94,8 @@ impl Session {
         })
     }
 
-    /// Begins anew with these overrides in place of all others. Ground, start and route stay as they are, and so does the
-    /// seed unless another is given.
+    /// Begins anew with these overrides in place of all others. Ground, start and route stay as they are, and
+    /// so does the seed unless another is given.
     ///
     /// # Errors
     /// A value that makes no sense, with its place and what was expected; nothing then changes.
@@ -161,8 +162,8 @@ impl Session {
         Ok(())
     }
 
-    /// Goes back to `tick`, or to the nearest one that can be gone to; gives that. The session may stand shortly before it:
-    /// running forward from there repeats what happened.
+    /// Goes back to `tick`, or to the nearest one that can be gone to; gives that. The session may stand
+    /// shortly before it: running forward from there repeats what happened.
     pub fn go_back(&mut self, tick: f64) -> f64 {
         let now = self.now.trial.ticks();
         let Some(history) = &self.history else { return now as f64 };
@@ -203,8 +204,8 @@ impl Session {
         Ok(())
     }
 
-    /// Looks at new ground while nothing moves. Before the first tick the trial begins anew on it: the run is then that of
-    /// the ground as it is.
+    /// Looks at new ground while nothing moves. Before the first tick the trial begins anew on it: the run is
+    /// then that of the ground as it is.
     fn look_again(&mut self) -> Result<(), JsError> {
         if !std::mem::take(&mut self.ground_changed) {
             return Ok(());

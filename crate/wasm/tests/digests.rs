@@ -1,12 +1,13 @@
-//! In the browser, kernel, mean, variance, bound and gradients agree with gpflow, and every scenario gives the trajectory recorded natively,
-//! to the bit.
+//! In the browser, kernel, mean, variance, bound and gradients agree with gpflow, and every scenario gives
+//! the trajectory recorded natively, to the bit.
 #![cfg(target_arch = "wasm32")]
 #![allow(clippy::panic, clippy::unwrap_used)]
 
 use mapless_tests::{gpflow, learned_bits, scenarios_text::SCENARIOS};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
-// As the page does: a trial takes minutes, and the driver gives up on a page that does not answer for half of one.
+// As the page does: a trial takes minutes, and the driver gives up on a page that does not answer for half of
+// one.
 wasm_bindgen_test_configure!(run_in_dedicated_worker);
 
 #[wasm_bindgen_test]

@@ -252,12 +252,14 @@ fn returns_lie_on_the_ground() {
     let count = number(&shown, "returns") as usize;
     assert!(count > 5_000, "{count} returns");
     let points = array("points")[..3 * count].to_vec();
-    // South of y = 2 the hill is 16 m or four sigma away: the ground is level at 0, and the range noise is 2 cm.
+    // South of y = 2 the hill is 16 m or four sigma away: the ground is level at 0, and the range noise is 2
+    // cm.
     let level: Vec<_> = points.chunks_exact(3).filter(|p| p[1] < 2.0).collect();
     assert!(level.len() > 50 && level.iter().all(|p| p[2].abs() < 0.1));
     let short = session.frame(Ts::new_unchecked(buffers(&session, 10)), false);
     assert_eq!(number(&got(short), "returns"), 10.0);
-    // Each return leaves the sensor along one of its rings: whole even degrees, but for a little noise of the range.
+    // Each return leaves the sensor along one of its rings: whole even degrees, but for a little noise of the
+    // range.
     let vector = |name: &str| {
         DVec3::from_array(["x", "y", "z"].map(|axis| number(&shown, &format!("sensor.{name}.{axis}"))))
     };

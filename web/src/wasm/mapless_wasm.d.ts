@@ -41,8 +41,8 @@ export interface Place {
 }
 
 /**
- * A place where the robot could go next: on the skyline, where it already heads, at the frontier of what was seen, or the
- * goal itself once it is in sight.
+ * A place where the robot could go next: on the skyline, where it already heads, at the frontier of what was
+ * seen, or the goal itself once it is in sight.
  */
 export interface Subgoal {
     /**
@@ -182,8 +182,8 @@ export interface Frame {
     segments: Segment[];
     subgoals: Subgoal[];
     /**
-     * The path to the chosen subgoal, from where the robot stands; empty without one, and where subgoals are judged by the
-     * paper's height alone.
+     * The path to the chosen subgoal, from where the robot stands; empty without one, and where subgoals are
+     * judged by the paper's height alone.
      */
     path: PathPoint[];
     metrics: Metrics;
@@ -226,7 +226,8 @@ export interface ImageSize {
 }
 
 /**
- * One tick: where the robot was when the scan was taken, what the planner decided on it, and what came of it.
+ * One tick: where the robot was when the scan was taken, what the planner decided on it, and what came of
+ * it.
  */
 export interface Tick {
     tick: number;
@@ -252,7 +253,8 @@ export interface Tick {
     motion_ms: number;
     after: Standing;
     /**
-     * Whether the route is another one now: what was changed at this tick before is changed again as it is repeated.
+     * Whether the route is another one now: what was changed at this tick before is changed again as it is
+     * repeated.
      */
     rerouted: boolean;
 }
@@ -282,8 +284,8 @@ export interface Stroke {
 }
 
 /**
- * Parameters by the names and tables of scenario files: nothing but `planner`, `sensor` and `robot`, and within them what
- * differs.
+ * Parameters by the names and tables of scenario files: nothing but `planner`, `sensor` and `robot`, and
+ * within them what differs.
  */
 export type Overrides = { readonly [key: string]: OverrideValue | Overrides };
 
@@ -362,8 +364,8 @@ export interface FrameBuffers {
      */
     points: Float32Array<ArrayBuffer>;
     /**
-     * Observed occupancy in metres, azimuth-major from straight behind over the right, lowest ring first; NaN without a
-     * return.
+     * Observed occupancy in metres, azimuth-major from straight behind over the right, lowest ring first;
+     * NaN without a return.
      */
     observed: Float32Array<ArrayBuffer>;
     /**
@@ -614,16 +616,16 @@ export class Session {
      */
     digest(): string;
     /**
-     * The present state. Fills `buffers`; the surfaces only where `surfaces` is set, since predicting them takes longer than
-     * deciding.
+     * The present state. Fills `buffers`; the surfaces only where `surfaces` is set, since predicting them
+     * takes longer than deciding.
      *
      * # Errors
      * A start whose ground has gone.
      */
     frame(buffers: FrameBuffers, surfaces: boolean): Frame;
     /**
-     * Goes back to `tick`, or to the nearest one that can be gone to; gives that. The session may stand shortly before it:
-     * running forward from there repeats what happened.
+     * Goes back to `tick`, or to the nearest one that can be gone to; gives that. The session may stand
+     * shortly before it: running forward from there repeats what happened.
      */
     go_back(tick: number): number;
     /**
@@ -676,8 +678,8 @@ export class Session {
      */
     sculpt(stroke: Stroke): GroundPatch | undefined;
     /**
-     * Begins anew with these overrides in place of all others. Ground, start and route stay as they are, and so does the
-     * seed unless another is given.
+     * Begins anew with these overrides in place of all others. Ground, start and route stay as they are, and
+     * so does the seed unless another is given.
      *
      * # Errors
      * A value that makes no sense, with its place and what was expected; nothing then changes.

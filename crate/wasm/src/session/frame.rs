@@ -32,8 +32,8 @@ pub struct Frame {
     threshold: f64,
     segments: Vec<Segment>,
     subgoals: Vec<Subgoal>,
-    /// The path to the chosen subgoal, from where the robot stands; empty without one, and where subgoals are judged by the
-    /// paper's height alone.
+    /// The path to the chosen subgoal, from where the robot stands; empty without one, and where subgoals are
+    /// judged by the paper's height alone.
     path: Vec<PathPoint>,
     metrics: Metrics,
     /// Digest of the whole trajectory so far; the command line prints the same one.
@@ -49,8 +49,8 @@ pub struct FrameBuffers {
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Float32Array<ArrayBuffer>")]
     points: Float32Array,
-    /// Observed occupancy in metres, azimuth-major from straight behind over the right, lowest ring first; NaN without a
-    /// return.
+    /// Observed occupancy in metres, azimuth-major from straight behind over the right, lowest ring first;
+    /// NaN without a return.
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Float32Array<ArrayBuffer>")]
     observed: Float32Array,
@@ -119,8 +119,8 @@ pub struct Timeline {
 
 #[wasm_bindgen]
 impl Session {
-    /// The present state. Fills `buffers`; the surfaces only where `surfaces` is set, since predicting them takes longer than
-    /// deciding.
+    /// The present state. Fills `buffers`; the surfaces only where `surfaces` is set, since predicting them
+    /// takes longer than deciding.
     ///
     /// # Errors
     /// A start whose ground has gone.

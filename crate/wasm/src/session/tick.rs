@@ -18,7 +18,8 @@ use crate::shared::{Metrics, Outcome, Pose, give};
 const COPY_EVERY_TICKS: u64 = 10;
 const MOST_COPIES: usize = 96;
 
-/// One tick: where the robot was when the scan was taken, what the planner decided on it, and what came of it.
+/// One tick: where the robot was when the scan was taken, what the planner decided on it, and what came of
+/// it.
 #[derive(Debug, Serialize, Tsify)]
 pub struct Tick {
     tick: u64,
@@ -37,7 +38,8 @@ pub struct Tick {
     planner_ms: f64,
     motion_ms: f64,
     after: Standing,
-    /// Whether the route is another one now: what was changed at this tick before is changed again as it is repeated.
+    /// Whether the route is another one now: what was changed at this tick before is changed again as it is
+    /// repeated.
     rerouted: bool,
 }
 

@@ -1,4 +1,5 @@
-//! What both modules of the page say to it in the same words. Every name is the same on both sides, with its unit.
+//! What both modules of the page say to it in the same words. Every name is the same on both sides, with its
+//! unit.
 
 mod motion;
 mod overrides;
