@@ -7,8 +7,9 @@ use std::sync::LazyLock;
 
 use glam::DVec2;
 use mapless_baselines::{NavigatorKind, OracleConfig, PlanPose, shortest_path};
+use mapless_terrain::load_terrain;
 use mapless_trials::{LoadedScenario, Outcome, Scenario, Trial};
-use mapless_world::{HuskyConfig, attitude_on, load_terrain};
+use mapless_world::{HuskyConfig, attitude_on};
 
 const SCENARIOS: [&str; 10] =
     ["cht-ab", "cht-ac", "cht-ad", "cht-ae", "cht-ba", "cht-bd", "gsb", "ht", "ml", "vta"];

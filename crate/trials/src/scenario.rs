@@ -13,7 +13,8 @@
 
 use glam::DVec2;
 use mapless::PlannerConfig;
-use mapless_world::{HuskyConfig, SensorConfig, TerrainError};
+use mapless_terrain::TerrainError;
+use mapless_world::{HuskyConfig, SensorConfig};
 
 use crate::places::{self, StartPose};
 
@@ -258,7 +259,7 @@ pub struct LoadedScenario {
     /// The scenario.
     pub scenario: Scenario,
     /// Its terrain.
-    pub terrain: mapless_world::Terrain,
+    pub terrain: mapless_terrain::Terrain,
 }
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -274,7 +275,7 @@ impl LoadedScenario {
             fault: ScenarioFault::Read(error.to_string()),
         })?;
         let scenario = Scenario::parse(&file, &text)?;
-        let terrain = mapless_world::load_terrain(&path.with_file_name(&scenario.terrain))
+        let terrain = mapless_terrain::load_terrain(&path.with_file_name(&scenario.terrain))
             .map_err(|error| ScenarioError { file, fault: ScenarioFault::Terrain(error) })?;
         Ok(Self { scenario, terrain })
     }

@@ -21,8 +21,8 @@ use crate::files::write_atomically;
 use crate::results::Manifest;
 use crate::row::TrialRow;
 use comparison::EVEN;
+use mapless_terrain::generate::Difficulty;
 use mapless_trials::statistics as stats;
-use mapless_world::generate::Difficulty;
 
 /// Pages, figures and rows stand in a folder of this name beside `RESULTS.md`.
 const PAGES: &str = "results";

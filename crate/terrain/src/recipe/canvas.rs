@@ -1,7 +1,7 @@
 //! The grid a recipe works on, in double precision.
 
-use crate::height_field::HeightField;
 use glam::DVec2;
+use mapless_world::HeightField;
 use std::ops::Range;
 
 /// Samples that all features and strokes of a recipe may touch, each time counted anew: a few seconds of work, more than a
