@@ -39,5 +39,7 @@ export default defineConfig({
     command: `npx vite preview --port ${port} --strictPort`,
     url: `http://127.0.0.1:${port}/`,
     reuseExistingServer: false,
+    // The server is up when it answers; on a busy machine that takes longer than the minute given by default.
+    timeout: 600_000,
   },
 });

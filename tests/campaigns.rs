@@ -1,4 +1,5 @@
-//! `mapless trials` through the real binary: resumed after kills, in shards and with several jobs, always the same bytes.
+//! `mapless trials` through the real binary: resumed after kills, in shards and with several jobs, always the
+//! same bytes.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -7,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -143,8 +144,9 @@ fn jobs_shards_and_kills_change_no_byte() {
     assert_eq!(timing.lines().count(), TRIALS + 1);
 }
 
-/// Starts the campaign ten times and kills it each time before its end: in turn at any moment of its first 100 ms and soon after the next trial
-/// was written, the last times with pieces of a line behind it as a power failure may leave them.
+/// Starts the campaign ten times and kills it each time before its end: in turn at any moment of its first
+/// 100 ms and soon after the next trial was written, the last times with pieces of a line behind it as a
+/// power failure may leave them.
 fn kill_ten_times(folder: &Folder) {
     // A small generator of its own, so that a failure can be repeated.
     let mut state = 0x2545_f491_4f6c_dd1d_u64;
@@ -164,9 +166,8 @@ fn kill_ten_times(folder: &Folder) {
         if round % 2 == 0 {
             thread::sleep(Duration::from_millis(random() % 100));
         } else {
-            let begun = Instant::now();
             while folder.journalled("killed") <= before {
-                assert!(begun.elapsed() < Duration::from_secs(30), "round {round} got nowhere");
+                assert_eq!(child.try_wait().unwrap(), None, "round {round} wrote no trial");
                 thread::sleep(Duration::from_millis(5));
             }
             thread::sleep(Duration::from_millis(random() % 20));

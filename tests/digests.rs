@@ -1,8 +1,8 @@
-//! Every scenario gives the recorded trajectory, to the bit. The browser tests of `mapless-wasm` compare with the same
-//! file, so a pass of both shows that native and wasm agree.
+//! Every scenario gives the recorded trajectory, to the bit. The browser tests of `mapless-wasm` compare with
+//! the same file, so a pass of both shows that native and wasm agree.
 //!
-//! After a change that is meant to change trajectories, `MAPLESS_RECORD_DIGESTS=1 cargo test -p mapless-tests --test
-//! digests` records them anew.
+//! After a change that is meant to change trajectories, `MAPLESS_RECORD_DIGESTS=1 cargo test -p mapless-tests
+//! --test digests` records them anew.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -21,9 +21,9 @@ fn every_scenario_reaches_its_goal_with_the_recorded_digest() {
         let mut done = Vec::new();
         while let Some(scenario) = SCENARIOS.get(next.fetch_add(1, Ordering::Relaxed)) {
             if record {
-                let (outcome, digest) = scenario.run().unwrap();
-                assert_eq!(outcome, Outcome::Reached, "{}", scenario.name);
-                done.push((scenario.name, digest));
+                let trial = scenario.drive().unwrap();
+                assert_eq!(trial.outcome(), Some(Outcome::Reached), "{}", scenario.name);
+                done.push((scenario.name, trial.digest()));
             } else {
                 scenario.check().unwrap_or_else(|difference| panic!("{difference}"));
             }

@@ -8,7 +8,8 @@ use mapless::gp::kernel::RationalQuadratic;
 use mapless::gp::sparse::SparseGp;
 use serde::Deserialize;
 
-/// One scene with gpflow's posterior and bound for several hyperparameters, and its exact process on a part of the inputs.
+/// One scene with gpflow's posterior and bound for several hyperparameters, and its exact process on a part
+/// of the inputs.
 #[derive(Debug, Deserialize)]
 struct Scene {
     scene: String,
@@ -195,8 +196,8 @@ fn compare_scene(scene: &Scene) -> Result<usize, String> {
     Ok(scene.cases.len() + 1)
 }
 
-/// The bound and its gradients; a condition above 1e9 leaves gpflow four digits of the bound and two of the gradient, as 80-bit
-/// arithmetic shows.
+/// The bound and its gradients; a condition above 1e9 leaves gpflow four digits of the bound and two of the
+/// gradient, as 80-bit arithmetic shows.
 fn compare_bound(place: &str, case: &Case, elbo: f64, bound: &CollapsedBound) -> Result<(), String> {
     let lost = case.condition > 1e9;
     let relative = if lost { 1e-4 } else { 1e-8 };

@@ -1,5 +1,5 @@
-//! Learning on the repository's scene gives recorded bits; native and browser tests compare with the same number, so a pass of
-//! both shows that bound, gradient and both optimisers agree on every target.
+//! Learning on the repository's scene gives recorded bits; native and browser tests compare with the same
+//! number, so a pass of both shows that bound, gradient and both optimisers agree on every target.
 
 use mapless::gp::hyperparameters::Hyperparameters;
 use mapless::gp::kernel::RationalQuadratic;

@@ -1,5 +1,5 @@
-//! What learning does to the skyline: within the default bounds the edge of the variance surface stays just above the returns,
-//! and without bounds it leaves them.
+//! What learning does to the skyline: within the default bounds the edge of the variance surface stays just
+//! above the returns, and without bounds it leaves them.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 

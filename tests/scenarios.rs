@@ -2,68 +2,45 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use glam::DVec2;
 use mapless_baselines::{NavigatorKind, OracleConfig, PlanPose, shortest_path};
-use mapless_terrain::load_terrain;
+use mapless_tests::scenarios_text;
 use mapless_trials::{LoadedScenario, Outcome, Scenario, Trial};
 use mapless_world::{HuskyConfig, attitude_on};
-
-const SCENARIOS: [&str; 10] =
-    ["cht-ab", "cht-ac", "cht-ad", "cht-ae", "cht-ba", "cht-bd", "gsb", "ht", "ml", "vta"];
-const TERRAINS: [&str; 5] = ["cht", "gsb", "ht", "ml", "vta"];
 
 fn terrains() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../terrains")
 }
 
-/// Every scenario, loaded once for all tests.
-static LOADED: LazyLock<Vec<LoadedScenario>> = LazyLock::new(|| {
-    let load = |name| {
-        let path = terrains().join("scenarios").join(name).with_extension("toml");
-        LoadedScenario::read(&path).unwrap_or_else(|error| panic!("{error}"))
-    };
-    SCENARIOS.map(load).into()
+/// Every scenario of the repository by its name, loaded once for all tests.
+static LOADED: LazyLock<BTreeMap<String, LoadedScenario>> = LazyLock::new(|| {
+    let files = std::fs::read_dir(terrains().join("scenarios")).unwrap().map(|entry| entry.unwrap().path());
+    files
+        .map(|path| {
+            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+            (name, LoadedScenario::read(&path).unwrap_or_else(|error| panic!("{error}")))
+        })
+        .collect()
 });
 
-fn loaded() -> impl Iterator<Item = (&'static str, &'static LoadedScenario)> {
-    SCENARIOS.into_iter().zip(LOADED.iter())
-}
-
-/// Names of the recipes or scenarios in a folder, in order.
-fn names(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut names: Vec<String> = entries
-        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
-        .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
-        .collect();
-    names.sort();
-    names
-}
-
+/// A scenario without a recorded trajectory would be compared on no target.
 #[test]
-fn all_are_there() {
-    assert_eq!(names(&terrains().join("scenarios")), SCENARIOS);
-    assert_eq!(names(&terrains()), TERRAINS);
-}
-
-#[test]
-fn a_recipe_gives_the_same_bits_twice() {
-    for name in TERRAINS {
-        let bits = || -> Vec<u32> {
-            let terrain = load_terrain(&terrains().join(name).with_extension("toml")).unwrap();
-            terrain.field.heights_m().iter().map(|height| height.to_bits()).collect()
-        };
-        assert!(bits() == bits(), "{name}");
-    }
+fn every_scenario_is_bundled_with_its_digest() {
+    let bundled: Vec<&str> = scenarios_text::SCENARIOS.iter().map(|scenario| scenario.name).collect();
+    let digests: BTreeMap<String, String> = toml::from_str(scenarios_text::DIGESTS).unwrap();
+    let names: Vec<&str> = LOADED.keys().map(String::as_str).collect();
+    assert_eq!(bundled, names);
+    assert_eq!(digests.keys().collect::<Vec<_>>(), names);
 }
 
 /// The same letter is the same place in every route of the Challenging Hilly Terrain.
 #[test]
 fn routes_share_their_places() {
-    let scenario = |wanted| &loaded().find(|(name, _)| *name == wanted).unwrap().1.scenario;
+    let scenario = |name| &LOADED[name].scenario;
     let start = |name| scenario(name).start.position_m;
     let goal = |name| scenario(name).goal_m;
     let (a, b, d) = (start("cht-ab"), goal("cht-ab"), goal("cht-ad"));
@@ -76,7 +53,7 @@ fn routes_share_their_places() {
 
 #[test]
 fn driving_straight_at_the_goal_fails() {
-    for (name, LoadedScenario { scenario, terrain }) in loaded() {
+    for (name, LoadedScenario { scenario, terrain }) in LOADED.iter() {
         let straight = NavigatorKind::Direct.build(&terrain.field, scenario, 1).unwrap();
         let mut trial = Trial::with_navigator(terrain.field.clone(), scenario, straight, 1).unwrap();
         while trial.tick().is_none() {}
@@ -86,7 +63,7 @@ fn driving_straight_at_the_goal_fails() {
 
 #[test]
 fn a_safe_way_to_the_goal_exists() {
-    for (name, LoadedScenario { scenario, terrain }) in loaded() {
+    for (name, LoadedScenario { scenario, terrain }) in LOADED.iter() {
         let Scenario { start, goal_m, robot, .. } = scenario;
         let from = PlanPose { position_m: start.position_m, yaw_rad: start.heading_rad };
         let path = shortest_path(&terrain.field, robot, from, *goal_m, &OracleConfig::default());
@@ -99,7 +76,7 @@ fn a_safe_way_to_the_goal_exists() {
 /// Start and goal are places to stand on, away from the border.
 #[test]
 fn start_and_goal_are_nearly_level() {
-    for (name, LoadedScenario { scenario, terrain }) in loaded() {
+    for (name, LoadedScenario { scenario, terrain }) in LOADED.iter() {
         for (what, centre) in [("start", scenario.start.position_m), ("goal", scenario.goal_m)] {
             let inside = centre.min_element().min((terrain.field.extent_m() - centre).min_element());
             assert!(inside >= 5.0, "{name}: {what} is {inside} m from the border");

@@ -1,5 +1,8 @@
 """The peers of `cargo xtask bench`: gpflow and Embree, answering as `mapless-bench` does.
 
+PyPI's lightgp 0.1.2 does other work and is left out: its sparse process knows the squared-exponential kernel alone, with one
+length-scale, in single precision, and chooses the inducing inputs itself.
+
 `peers.py FOLDER` reads the inputs that `mapless-bench FOLDER` wrote, then answers a line for each request until its input ends:
 `NAME N` runs a piece of work N times, `{"ms": [...]}`; `NAME values` tells what it gives, `{"values": {...}}`; `versions all` tells the versions, `{"versions": {...}}`.
 """

@@ -84,9 +84,7 @@ test('a subgoal pointed at anywhere shows its cost terms and is marked everywher
   const row = page.locator('.candidate').nth(1);
   const where = await row.locator('.candidate-where').textContent();
   await row.hover();
-  await expect(card.locator('.detail-title')).toHaveText(
-    new RegExp(`^(Subgoal|Frontier or committed target,) ${where}$`),
-  );
+  await expect(card.locator('.detail-title')).toHaveText(new RegExp(`^(Subgoal|Target or frontier,) ${where}$`));
   await page.mouse.move(5, 5);
   await expect(card).toBeHidden();
   // The chosen one first, and then its neighbour.
@@ -112,7 +110,7 @@ test('a subgoal pointed at anywhere shows its cost terms and is marked everywher
   for (let turn = 0; turn < 2 * Math.PI && !(await card.isVisible()); turn += 0.05) {
     await page.mouse.move(middle.x + reach_px * Math.cos(turn), middle.y + reach_px * Math.sin(turn));
   }
-  await expect(card.locator('.detail-title')).toHaveText(/^(Subgoal|Frontier) /);
+  await expect(card.locator('.detail-title')).toHaveText(/^(Subgoal|Target) /);
 });
 
 test('a refused segment says which number failed', async ({ mapless: page }) => {

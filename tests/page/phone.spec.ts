@@ -102,7 +102,7 @@ test('what is pointed at can be closed, however long its title', async ({ maples
     await page.keyboard.press('ArrowRight');
     const card = page.locator('#detail');
     const [title, chip] = [card.locator('.detail-title'), card.locator('.detail-chip')];
-    await title.evaluate((one) => one.replaceChildren('Frontier or committed target, 179° right'));
+    await title.evaluate((one) => one.replaceChildren('Target or frontier, 179° right'));
     await chip.evaluate((one) => one.replaceChildren('candidate'));
     const [outer, close] = [await card.boundingBox(), await card.getByRole('button', { name: 'Close' }).boundingBox()];
     if (!outer || !close) throw new Error('The card is not shown.');

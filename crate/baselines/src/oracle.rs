@@ -68,7 +68,7 @@ impl OraclePath {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OracleError {
     /// A value of the configuration makes no sense.
-    #[error("oracle.{0}")]
+    #[error(transparent)]
     Config(#[from] ConfigError),
     /// Start or goal is not a place on the terrain, with all wheels for the start.
     #[error("{what} = ({:.3}, {:.3}) m: expected a place on the terrain, which spans (0, 0) to ({:.3}, {:.3}) m", place_m.x, place_m.y, extent_m.x, extent_m.y)]

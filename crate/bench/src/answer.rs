@@ -28,8 +28,9 @@ enum Answer {
 impl Bench {
     /// Answers a request with one line of JSON.
     ///
-    /// `NAME N` runs the piece of work N times: `{"ms": [...]}`, one time for each. `NAME values` gives what the last run gave,
-    /// running it once if it has not run: `{"values": {"what": [...]}}`. A fault is told as `{"error": "..."}`.
+    /// `NAME N` runs the piece of work N times: `{"ms": [...]}`, one time for each. `NAME values` gives what
+    /// the last run gave, running it once if it has not run: `{"values": {"what": [...]}}`. A fault is told
+    /// as `{"error": "..."}`.
     pub fn answer(&mut self, request: &str) -> String {
         let answer = self.run(request).unwrap_or_else(|error| Answer::Error(error.to_string()));
         // Maps with names for keys and numbers always have a JSON form.

@@ -48,8 +48,8 @@ pub(crate) fn beam(azimuth_rad: f64, elevation_rad: f64) -> DVec3 {
     DVec3::new(cos * cos_azimuth, cos * sin_azimuth, sin)
 }
 
-/// Slightly undulating level ground with a rise ahead: five whole rings within 7 m and 23 columns of the sixth, which makes
-/// 1823 occupied cells.
+/// Slightly undulating level ground with a rise ahead: five whole rings within 7 m and 23 columns of the
+/// sixth, which makes 1823 occupied cells.
 pub(crate) fn level_scan() -> Vec<Vec3> {
     scan(|azimuth, ring| {
         let downward = -libm::sin(ring_elevation_rad(ring));
@@ -64,7 +64,8 @@ pub(crate) fn level_scan() -> Vec<Vec3> {
     })
 }
 
-/// Level ground in an undulating round wall, 6 m away: all 28 800 beams return within 7 m and occupy all 5760 cells.
+/// Level ground in an undulating round wall, 6 m away: all 28 800 beams return within 7 m and occupy all 5760
+/// cells.
 pub(crate) fn full_scan() -> Vec<Vec3> {
     scan(|azimuth, ring| {
         let elevation = ring_elevation_rad(ring);
@@ -92,7 +93,8 @@ pub(crate) fn queries() -> Vec<DVec2> {
         .collect()
 }
 
-/// At most `count` of the inputs, each the farthest from those before it in length-scales; the first input comes first.
+/// At most `count` of the inputs, each the farthest from those before it in length-scales; the first input
+/// comes first.
 pub(crate) fn farthest_points(inputs: &[DVec2], count: usize) -> Vec<DVec2> {
     let [azimuth, elevation] = hyperparameters().kernel.length_scales_rad;
     let scale = DVec2::new(azimuth, elevation);

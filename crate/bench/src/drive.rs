@@ -20,7 +20,8 @@ fn start(scenario: &Bundled) -> Result<Trial, BenchError> {
     scenario.trial().map_err(BenchError::Scenario)
 }
 
-/// The planner's steps along the first seconds of drives over every terrain; the world between them is not timed.
+/// The planner's steps along the first seconds of drives over every terrain; the world between them is not
+/// timed.
 pub(crate) struct Drive {
     starts: Vec<Trial>,
     trials: Vec<Trial>,
@@ -71,7 +72,8 @@ impl Work for Drive {
     }
 }
 
-/// A whole trial with the preset `default` and the scenario's own seed: scans, planner and motion, without loading its terrain.
+/// A whole trial with the preset `default` and the scenario's own seed: scans, planner and motion, without
+/// loading its terrain.
 pub(crate) struct WholeTrial {
     scenario: &'static Bundled,
     trial: Trial,

@@ -17,12 +17,9 @@ pub enum BenchError {
     /// The terrain cannot be made.
     #[error(transparent)]
     Field(#[from] mapless_world::FieldError),
-    /// The sensor cannot be made.
+    /// Sensor or planner cannot be made.
     #[error(transparent)]
-    Sensor(#[from] mapless_world::ConfigError),
-    /// The planner cannot be made.
-    #[error(transparent)]
-    Planner(#[from] mapless::ConfigError),
+    Config(#[from] mapless::ConfigError),
     /// The process has no posterior.
     #[error(transparent)]
     Posterior(#[from] GpError),

@@ -83,8 +83,9 @@ impl Bound {
         Ok(Self { bound: CollapsedBound::new(), inputs, targets, inducing, value: 0.0 })
     }
 
-    /// Additions and multiplications of the dense algebra, without those of the kernel: A = L⁻¹ K_uf and the lower half of A Aᵀ
-    /// take n m² each and the product for ∂F/∂K_uf 2 n m²; two factors and five solves of m × m are left.
+    /// Additions and multiplications of the dense algebra, without those of the kernel: A = L⁻¹ K_uf and the
+    /// lower half of A Aᵀ take n m² each and the product for ∂F/∂K_uf 2 n m²; two factors and five solves of
+    /// m × m are left.
     fn operations(&self) -> f64 {
         let (n, m) = (self.inputs.len() as f64, self.inducing.len() as f64);
         4.0 * n * m * m + (2.0 / 3.0 + 5.0) * m * m * m

@@ -36,8 +36,8 @@ struct Inputs {
     sensors_m: BTreeMap<String, [f64; 3]>,
 }
 
-/// Writes `inputs.json`, and as little-endian single precision the directions of the beams, `directions.f32`, and the heights of
-/// each field, row by row from the south-west, `NAME.f32`.
+/// Writes `inputs.json`, and as little-endian single precision the directions of the beams, `directions.f32`,
+/// and the heights of each field, row by row from the south-west, `NAME.f32`.
 ///
 /// # Errors
 /// [`BenchError`] when a file cannot be written.

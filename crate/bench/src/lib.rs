@@ -1,8 +1,8 @@
-//! What `cargo xtask bench` measures of mapless: pieces of work with inputs made by rule, the same natively, in Node and in
-//! Chromium, and written to files for the peers.
+//! What `cargo xtask bench` measures of mapless: pieces of work with inputs made by rule, the same natively,
+//! in Node and in Chromium, and written to files for the peers.
 //!
-//! A line asks for a piece of work and a line answers; [`Bench::answer`] has the words. Both sides of a comparison are asked in
-//! turn, so that what else the machine does falls on both.
+//! A line asks for a piece of work and a line answers; [`Bench::answer`] has the words. Both sides of a
+//! comparison are asked in turn, so that what else the machine does falls on both.
 
 mod answer;
 mod clock;

@@ -1,4 +1,5 @@
-//! `mapless-bench FOLDER` writes the peers' inputs into the folder and then answers requests, a line each, until its input ends.
+//! `mapless-bench FOLDER` writes the peers' inputs into the folder and then answers requests, a line each,
+//! until its input ends.
 
 /// Reads lines, writes lines.
 #[cfg(not(target_arch = "wasm32"))]

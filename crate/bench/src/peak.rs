@@ -14,7 +14,8 @@ const STEPS: u32 = 1_000_000;
 /// As many as keep the machine busiest while they fit its registers.
 const CHAINS: usize = 8;
 
-/// Chains of multiply, then add, unfused like all arithmetic here, in the widest registers that the planner uses.
+/// Chains of multiply, then add, unfused like all arithmetic here, in the widest registers that the planner
+/// uses.
 pub(crate) struct Peak;
 
 impl Work for Peak {
@@ -28,7 +29,8 @@ impl Work for Peak {
     }
 }
 
-/// Leaves the chains where the caller can see them: a sum over them would make the compiler shuffle them in every step.
+/// Leaves the chains where the caller can see them: a sum over them would make the compiler shuffle them in
+/// every step.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn multiply_and_add(chains: &mut [[f64; LANES]; CHAINS], factor: f64, summand: f64) {
     let mut values = *chains;

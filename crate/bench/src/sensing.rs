@@ -49,7 +49,8 @@ impl Scanning {
         scan.ranges_m.into_iter().map(f64::from).collect()
     }
 
-    /// The most by which a cell's bilinear patch and two triangles on the same corners differ in height: a quarter of its twist.
+    /// The most by which a cell's bilinear patch and two triangles on the same corners differ in height: a
+    /// quarter of its twist.
     fn triangle_difference_m(&self) -> f64 {
         let field = self.caster.field();
         let rows: Vec<&[f32]> = field.heights_m().chunks_exact(field.columns()).collect();
@@ -71,8 +72,8 @@ impl Work for Scanning {
         Ok(())
     }
 
-    /// The ranges, and those from as much lower and higher as the triangulated ground can differ, with a millimetre for single
-    /// precision: the range to any surface in between lies in between.
+    /// The ranges, and those from as much lower and higher as the triangulated ground can differ, with a
+    /// millimetre for single precision: the range to any surface in between lies in between.
     fn values(&mut self) -> Values {
         let slack_m = self.triangle_difference_m() + 1e-3;
         Values::from([

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::BenchError;
 
-/// What a piece of work gave, by name. What does not exist, such as the range of a beam without a return, is NaN.
+/// What a piece of work gave, by name. What does not exist, such as the range of a beam without a return, is
+/// NaN.
 pub(crate) type Values = BTreeMap<&'static str, Vec<f64>>;
 
 /// A piece of work that can be repeated.

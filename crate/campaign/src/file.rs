@@ -24,6 +24,7 @@ use toml::Spanned;
 use crate::error::CampaignError;
 use crate::files::tidy;
 use mapless_baselines::Truth;
+use mapless_trials::{current_path, current_value};
 
 use crate::navigators;
 use crate::parameters::{self, Parameter, Variation};
@@ -236,20 +237,21 @@ impl Place<'_> {
     fn parameters(&self, tables: &[ParameterTable]) -> Result<Vec<Parameter>, CampaignError> {
         let mut parameters: Vec<Parameter> = Vec::new();
         for table in tables {
-            let path = table.path.as_ref();
-            if parameters.iter().any(|before| before.path == *path) {
+            let path = current_path(table.path.as_ref());
+            if parameters.iter().any(|before| before.path == path) {
                 let reason = format!("parameters: {path:?} stands here twice: expected it once");
                 return Err(self.error(table.path.span().start, &reason));
             }
             let mut values = Vec::new();
             for value in table.values.as_ref() {
-                let normalised = parameters::normalised(path, value.as_ref());
+                let current = current_value(table.path.as_ref(), value.as_ref());
+                let normalised = parameters::normalised(&path, &current);
                 values.push(normalised.map_err(|reason| {
                     self.error(value.span().start, &format!("parameters: {}: {reason}", value.as_ref()))
                 })?);
             }
             self.distinct("values", &table.values, ToString::to_string)?;
-            parameters.push(Parameter { path: path.clone(), values });
+            parameters.push(Parameter { path, values });
         }
         Ok(parameters)
     }
@@ -346,6 +348,19 @@ mod tests {
         assert_eq!(campaign.truths, [Truth::None]);
         assert_eq!(campaign.variations, [Variation::new()]);
         assert_eq!(parse(&GOOD.replace("{ from = 3, to = 5 }", "[9, 2]")).unwrap().seeds, [9, 2]);
+    }
+
+    #[test]
+    fn old_paths_of_parameters_are_read_as_the_new_ones() {
+        let old = "[[parameters]]\npath = \"planner.forecast.escape_m\"\nvalues = [1, 2]\n";
+        let new = old.replace("forecast.escape_m", "state_lattice.recovery_radius_m");
+        let variations = |parameters: &str| parse(&format!("{GOOD}{parameters}")).unwrap().variations;
+        assert_eq!(variations(old), variations(&new));
+        let error = parse(&format!("{GOOD}{old}{new}")).unwrap_err();
+        assert!(
+            error.contains("line 8") && error.contains("recovery_radius_m\" stands here twice"),
+            "{error}"
+        );
     }
 
     #[test]

@@ -162,8 +162,9 @@ fn expand(campaign: &Campaign, routes: &[Route]) -> Vec<TrialSpec> {
                     {
                         continue;
                     }
-                    let config = config
-                        .and_then(|config| config.validate().map(|()| config).map_err(|e| e.to_string()));
+                    let config = config.and_then(|config| {
+                        config.validate("planner").map(|()| config).map_err(|e| e.to_string())
+                    });
                     let config = Arc::new(config);
                     let parameters = parameters::name(variation);
                     trials.extend(seeds.iter().map(|&seed| TrialSpec {
@@ -296,7 +297,7 @@ mod tests {
         for other in [
             hash(&format!("{RECIPE}{noise}"), SCENARIO, CAMPAIGN),
             hash(RECIPE, &SCENARIO.replace("9.0", "9.5"), CAMPAIGN),
-            hash(RECIPE, &format!("{SCENARIO}[planner.decision]\nlook_ticks = 5\n"), CAMPAIGN),
+            hash(RECIPE, &format!("{SCENARIO}[planner.decision]\nspin_recovery_s = 0.5\n"), CAMPAIGN),
             hash(RECIPE, SCENARIO, &CAMPAIGN.replace('7', "8")),
             hash(RECIPE, SCENARIO, &format!("trajectories = true\n{CAMPAIGN}")),
         ] {

@@ -6,7 +6,8 @@ use mapless_baselines::{NavigatorKind, Truth};
 use mapless_terrain::generate::Difficulty;
 use mapless_trials::Preset;
 
-/// Reads the name of a configuration of this project's planner, for `--planner` where nothing else can be meant.
+/// Reads the name of a configuration of this project's planner, for `--planner` where nothing else can be
+/// meant.
 pub(crate) fn preset() -> impl TypedValueParser<Value = Preset> {
     PossibleValuesParser::new(Preset::ALL.map(Preset::name)).try_map(|name| name.parse::<Preset>())
 }

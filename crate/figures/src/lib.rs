@@ -1,7 +1,7 @@
 //! Figures as SVG: line plots, and maps of a terrain.
 //!
-//! [`plot`] draws lines over one axis. [`map`] draws a shaded and contoured terrain on a white [`page`], on which the caller
-//! puts routes and [`marks`]. The same input gives the same bytes.
+//! [`plot`] draws lines over one axis. [`map`] draws a shaded and contoured terrain on a white [`page`], on
+//! which the caller puts routes and [`marks`]. The same input gives the same bytes.
 
 #[cfg(feature = "maps")]
 mod contours;

@@ -28,8 +28,9 @@ pub struct Map<'a> {
 }
 
 impl<'a> Map<'a> {
-    /// Begins a page with the map of `field`; the caller ends it with `</svg>`. The relief has `detail` pixels for one of the
-    /// page: 1 is sharp, less makes a smaller file. Lines of legend beyond the first make the page longer.
+    /// Begins a page with the map of `field`; the caller ends it with `</svg>`. The relief has `detail`
+    /// pixels for one of the page: 1 is sharp, less makes a smaller file. Lines of legend beyond the first
+    /// make the page longer.
     ///
     /// # Errors
     /// [`FigureError`] when the relief cannot be encoded.

@@ -11,8 +11,8 @@ use crate::scale::{nice_step, ticks};
 /// Colour of lines and words.
 pub const INK: &str = "#1c1c1c";
 
-/// Begins a white page of `size` pixels with a title and a line below it, `left` from the edge. The caller ends it with
-/// `</svg>`.
+/// Begins a white page of `size` pixels with a title and a line below it, `left` from the edge. The caller
+/// ends it with `</svg>`.
 pub fn begin(svg: &mut String, size: DVec2, left: f64, title: &str, subtitle: &str) -> fmt::Result {
     let (width, height) = (size.x, size.y);
     writeln!(

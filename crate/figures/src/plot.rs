@@ -10,7 +10,8 @@ const TOP: f64 = 16.0;
 const BOTTOM: f64 = 52.0;
 /// Labels of neighbouring lines keep this distance.
 const LABEL_HEIGHT: f64 = 15.0;
-/// Okabe and Ito's colours for everybody, but for black, which is the text's, and yellow, which a white sheet hides, with two more.
+/// Okabe and Ito's colours for everybody, but for black, which is the text's, and yellow, which a white sheet
+/// hides, with two more.
 pub const COLOURS: [&str; 8] =
     ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1", "#888888"];
 

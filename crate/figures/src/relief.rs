@@ -40,8 +40,8 @@ pub(crate) fn png(field: &HeightField, size: DVec2) -> Result<Vec<u8>, FigureErr
     page::png(width, height, &rgb)
 }
 
-/// Colour of the share `height` of the elevation range: a perceptually even map that also reads in grey and with
-/// colour-blind eyes. Channels from 0 to 255.
+/// Colour of the share `height` of the elevation range: a perceptually even map that also reads in grey and
+/// with colour-blind eyes. Channels from 0 to 255.
 pub(crate) fn tint(height: f64) -> [f64; 3] {
     let (r, g, b) = colorous::CIVIDIS.eval_continuous(height.clamp(0.0, 1.0)).as_tuple();
     [r, g, b].map(|channel| f64::from(channel) * (1.0 - PALENESS) + 255.0 * PALENESS)

@@ -39,7 +39,6 @@
 pub mod config;
 pub mod control;
 pub mod decision;
-mod error;
 mod goal;
 pub mod gp;
 pub mod math;
@@ -56,8 +55,8 @@ mod testing;
 pub use config::PlannerConfig;
 pub use control::controller::Command;
 pub use decision::step::{PerceptionOverride, Status, Step, StopReason, TerrainOverride};
-pub use error::ConfigError;
 pub use goal::Goal;
+pub use mapless_parameters::ConfigError;
 pub use planner::Planner;
 pub use pose::Pose;
 pub use robot_model::RobotModel;

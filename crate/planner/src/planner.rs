@@ -3,6 +3,7 @@
 use core::time::Duration;
 
 use glam::{DVec2, Vec3};
+use mapless_parameters::ConfigError;
 
 use crate::config::{CostModel, PlannerConfig};
 use crate::control::controller::{Command, Controller};
@@ -10,7 +11,6 @@ use crate::decision::forecast_policy::ForecastPolicy;
 use crate::decision::paper_policy::PaperPolicy;
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::step::{PerceptionOverride, Status, Step, StopReason};
-use crate::error::ConfigError;
 use crate::goal::Goal;
 use crate::gp::GpError;
 use crate::math::angle::difference_rad;
@@ -87,7 +87,7 @@ impl Planner {
     /// # Errors
     /// [`ConfigError`] for a value that makes no sense.
     pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
-        config.validate()?;
+        config.validate("planner")?;
         Ok(Self {
             observed: OccupancySurface::new(config.perception.surface_radius_m),
             perception: Perception::new(config.perception),

@@ -1,46 +1,41 @@
 //! The robot as data.
 
-/// Dimensions and limits of a wheeled robot that turns by the difference of its wheels' speeds. The default is a Clearpath Husky A200.
-///
-/// All lengths are in metres, angles in radians.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields, default)]
-#[non_exhaustive]
-pub struct RobotModel {
-    /// Overall length of the body.
-    pub length_m: f64,
-    /// Overall width w_r over the wheels.
-    pub width_m: f64,
-    /// Distance between front and rear axle.
-    pub wheelbase_m: f64,
-    /// Distance between the middles of left and right wheels.
-    pub track_m: f64,
-    /// Radius of the wheels.
-    pub wheel_radius_m: f64,
-    /// Height of the belly above the ground that the wheels stand on.
-    pub ground_clearance_m: f64,
-    /// Highest vertical step that the wheels climb.
-    pub max_step_m: f64,
-    /// Largest safe |roll|. Paper: 0.524.
-    pub roll_limit_rad: f64,
-    /// Largest safe |pitch|. Paper: 0.785.
-    pub pitch_limit_rad: f64,
+use mapless_parameters::{ConfigError, parameters};
+
+parameters! {
+    /// Dimensions and limits of a wheeled robot that turns by the difference of its wheels' speeds. The default is a Clearpath
+    /// Husky A200.
+    ///
+    /// All lengths are in metres, angles in radians.
+    #[derive(Copy)]
+    #[non_exhaustive]
+    pub struct RobotModel {
+        /// Overall length of the body.
+        length_m: f64 = 0.99, unit "m", range [0.55, 3.0], check Positive;
+        /// Overall width w_r over the wheels, which a segment must let through.
+        width_m: f64 = 0.685, unit "m", range [0.3, 1.5], check Positive;
+        /// Distance between front and rear axle.
+        wheelbase_m: f64 = 0.512, unit "m", range [0.2, 0.95], check Positive;
+        /// Distance between the middles of left and right wheels.
+        track_m: f64 = 0.571, unit "m", range [0.2, 1.5], check Positive;
+        /// Radius of the wheels.
+        wheel_radius_m: f64 = 0.165, unit "m", range [0.05, 0.5], check Positive;
+        /// Height of the belly above the ground that the wheels stand on.
+        ground_clearance_m: f64 = 0.13, unit "m", range [0.02, 0.5], check Positive;
+        /// Highest vertical step that the wheels climb.
+        max_step_m: f64 = 0.165, unit "m", range [0.0, 0.5], check NotNegative;
+        /// Largest safe |roll|.
+        roll_limit_rad: f64 = 0.524, paper 0.524, unit "rad", range [0.1, 1.2], check Angle;
+        /// Largest safe |pitch|.
+        pitch_limit_rad: f64 = 0.785, paper 0.785, unit "rad", range [0.1, 1.2], check Angle;
+    }
+    relations check_axles;
 }
 
 impl RobotModel {
     /// Clearpath Husky A200.
     pub fn husky() -> Self {
-        Self {
-            length_m: 0.99,
-            width_m: 0.685,
-            wheelbase_m: 0.512,
-            track_m: 0.571,
-            wheel_radius_m: 0.165,
-            ground_clearance_m: 0.13,
-            max_step_m: 0.165,
-            roll_limit_rad: 0.524,
-            pitch_limit_rad: 0.785,
-        }
+        Self::default()
     }
 
     /// Clearpath Jackal J100.
@@ -70,10 +65,9 @@ impl RobotModel {
             ..Self::husky()
         }
     }
-}
 
-impl Default for RobotModel {
-    fn default() -> Self {
-        Self::husky()
+    fn check_axles(&self, place: &str) -> Result<(), ConfigError> {
+        let fits = self.wheelbase_m <= self.length_m;
+        ConfigError::require(fits, place, "wheelbase_m", self.wheelbase_m, "at most length_m")
     }
 }

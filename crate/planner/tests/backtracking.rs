@@ -51,7 +51,7 @@ fn steepen(planner: &mut Planner, x_m: f64, to_pitch_rad: f64, step_rad: f64) ->
 #[test]
 fn it_turns_back_the_sooner_the_faster_the_ground_gets_steeper() {
     let PlannerConfig { robot: limits, state_lattice: forecast, .. } = PlannerConfig::default();
-    let pitch_rad = limits.pitch_limit_rad - forecast.escape_margin_rad - 0.03;
+    let pitch_rad = limits.pitch_limit_rad - forecast.recovery_margin_rad - 0.03;
     for (step_rad, turns_back) in [(0.01, false), (0.04, true)] {
         let mut planner = Planner::new(PlannerConfig::default()).unwrap();
         drive(&mut planner, 3.0);
@@ -70,7 +70,7 @@ fn a_robot_that_has_not_driven_has_no_way_back() {
 fn without_patience_it_goes_on_where_it_would_have_turned_back() {
     let PlannerConfig { robot: limits, state_lattice: forecast, .. } = PlannerConfig::default();
     let steep_rad =
-        limits.pitch_limit_rad - 0.5 * (forecast.escape_margin_rad + forecast.impatient_margin_rad);
+        limits.pitch_limit_rad - 0.5 * (forecast.recovery_margin_rad + forecast.over_budget_margin_rad);
     // 3 m and 45 m; patience lasts for 40 m.
     for (laps, turns_back) in [(1, true), (15, false)] {
         let mut planner = Planner::new(PlannerConfig::default()).unwrap();

@@ -1,7 +1,7 @@
 //! Captures of a VLP-16: pcap, Ethernet or IP, UDP, data packets, revolutions.
 //!
-//! A data packet is a UDP payload of 1206 bytes that begins with the flag of a block, on any port. Everything else, such
-//! as the sensor's position packets, is passed over.
+//! A data packet is a UDP payload of 1206 bytes that begins with the flag of a block, on any port. Everything
+//! else, such as the sensor's position packets, is passed over.
 
 use etherparse::{SlicedPacket, TransportSlice};
 use glam::Vec3;
@@ -74,7 +74,8 @@ struct Turns {
 }
 
 impl Turns {
-    /// Takes the azimuth of the next firing and gives the revolution it belongs to; none before the first passing.
+    /// Takes the azimuth of the next firing and gives the revolution it belongs to; none before the first
+    /// passing.
     fn passed(&mut self, azimuth: f64) -> Option<usize> {
         let past = (azimuth + 0.5 * TURN).rem_euclid(TURN);
         // The azimuth jitters; only a passing takes it back by most of a turn.
@@ -108,7 +109,8 @@ mod tests {
         capture.extend(frame);
     }
 
-    /// Ten revolutions a second from `from` on, each packet 4.8° and all distances 3 m plus the number of the packet.
+    /// Ten revolutions a second from `from` on, each packet 4.8° and all distances 3 m plus the number of the
+    /// packet.
     fn capture(from: u16, packets: u16) -> Vec<u8> {
         let mut capture = HEADER.to_vec();
         for number in 0..packets {

@@ -1,17 +1,18 @@
 //! Reading recorded LiDAR scans.
 //!
-//! [`read_scan`] gives the returns of one scan in the project's sensor frame: x forward, y left, z up, metres. The
-//! extension of the file says its format:
+//! [`read_scan`] gives the returns of one scan in the project's sensor frame: x forward, y left, z up,
+//! metres. The extension of the file says its format:
 //!
-//! - `.pcd`: a point cloud of the Point Cloud Library, version 0.5 to 0.7, `ascii`, `binary` or `binary_compressed`, with
-//!   fields `x`, `y` and `z` of type F. Its coordinates are taken as the sensor frame's and its viewpoint is not applied.
-//!   Points that are not finite are beams without a return and are passed over.
-//! - `.csv`, `.txt` or `.xyz`: text with one point a line, x y z, separated by a comma or by blanks. The first line may
-//!   be the header `x,y,z`. Every value must be a finite number.
-//! - `.pcap`: a capture of one Velodyne VLP-16, with one or two returns a beam. Its azimuth turns clockwise as seen from
-//!   above, from the sensor's y axis, which looks forward: forward is Velodyne's y and left its -x. A revolution goes
-//!   from behind the sensor round to behind it again, so that what lies ahead is seen in one sweep. What stands before
-//!   the first whole revolution and after the last one is left out.
+//! - `.pcd`: a point cloud of the Point Cloud Library, version 0.5 to 0.7, `ascii`, `binary` or
+//!   `binary_compressed`, with fields `x`, `y` and `z` of type F. Its coordinates are taken as the sensor
+//!   frame's and its viewpoint is not applied. Points that are not finite are beams without a return and are
+//!   passed over.
+//! - `.csv`, `.txt` or `.xyz`: text with one point a line, x y z, separated by a comma or by blanks. The
+//!   first line may be the header `x,y,z`. Every value must be a finite number.
+//! - `.pcap`: a capture of one Velodyne VLP-16, with one or two returns a beam. Its azimuth turns clockwise
+//!   as seen from above, from the sensor's y axis, which looks forward: forward is Velodyne's y and left its
+//!   -x. A revolution goes from behind the sensor round to behind it again, so that what lies ahead is seen
+//!   in one sweep. What stands before the first whole revolution and after the last one is left out.
 
 mod capture;
 mod csv;
@@ -30,10 +31,12 @@ pub use error::{ScanError, ScanFault};
 /// Largest file read, in bytes: a quarter of an hour of a VLP-16.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// Reads one scan from the bytes of a file: its returns in the sensor frame, metres, in the order of the file. A scan without
-/// a return is no error. The extension of `file` decides the format: `.pcd`, `.csv`, `.txt` and `.xyz` hold a scan, `.pcap` a capture.
+/// Reads one scan from the bytes of a file: its returns in the sensor frame, metres, in the order of the
+/// file. A scan without a return is no error. The extension of `file` decides the format: `.pcd`, `.csv`,
+/// `.txt` and `.xyz` hold a scan, `.pcap` a capture.
 ///
-/// `revolution` counts the whole revolutions of a capture from 0; a file of another format holds revolution 0 alone.
+/// `revolution` counts the whole revolutions of a capture from 0; a file of another format holds revolution 0
+/// alone.
 ///
 /// # Errors
 /// [`ScanError`] names the file, the place in it, the value and what was expected.

@@ -1,7 +1,8 @@
 //! The data packets of a VLP-16 (Velodyne, *VLP-16 User Manual*, 63-9243, chapters 6 to 9).
 //!
-//! A packet has twelve blocks of two firing sequences of the sixteen lasers, and at its end says which returns it holds
-//! and of which sensor. A block gives the azimuth of its first firing alone; the others are interpolated.
+//! A packet has twelve blocks of two firing sequences of the sixteen lasers, and at its end says which
+//! returns it holds and of which sensor. A block gives the azimuth of its first firing alone; the others are
+//! interpolated.
 
 use glam::Vec3;
 
@@ -48,7 +49,8 @@ pub(crate) struct Firing {
 }
 
 impl Firing {
-    /// The returns in the project's sensor frame, metres: Velodyne's azimuth turns clockwise, ours anticlockwise.
+    /// The returns in the project's sensor frame, metres: Velodyne's azimuth turns clockwise, ours
+    /// anticlockwise.
     pub(crate) fn points_m(&self) -> impl Iterator<Item = Vec3> {
         self.distances.iter().enumerate().filter(|(_, distance)| **distance > 0).map(|(laser, &distance)| {
             let turned = self.turn_per_block * LASER_US * laser as f64 / BLOCK_US;
@@ -145,7 +147,8 @@ pub(crate) mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A packet whose first block looks to `azimuth`, each next one 0.4° further, with `distance` in every return.
+    /// A packet whose first block looks to `azimuth`, each next one 0.4° further, with `distance` in every
+    /// return.
     pub(crate) fn packet(
         azimuth: u16,
         mode: u8,

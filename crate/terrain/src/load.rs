@@ -7,7 +7,8 @@ use crate::terrain::{Terrain, TerrainError, TerrainFault};
 /// Loads a terrain from the bytes of a file. The extension of `file` decides the format:
 ///
 /// - `.toml`: a recipe; see [`crate::recipe`] for its tables.
-/// - `.png`: 16-bit greyscale, first row north, one grey level = 1 mm; spacing from pHYs in metres, otherwise 0.25 m.
+/// - `.png`: 16-bit greyscale, first row north, one grey level = 1 mm; spacing from pHYs in metres, otherwise
+///   0.25 m.
 /// - `.asc`: ESRI ASCII grid.
 /// - `.tif`, `.tiff`: GeoTIFF with one band of heights in metres.
 ///
@@ -77,18 +78,15 @@ mod tests {
         assert!(error.to_string().starts_with("no/such.asc: cannot be read: "), "{error}");
     }
 
-    fn shared_grids() -> Option<PathBuf> {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/dem");
-        if folder.is_dir() {
-            return Some(folder);
-        }
-        println!("skipped: {} is not there", folder.display());
-        None
+    /// Real elevation models.
+    fn grids() -> PathBuf {
+        Path::new(&std::env::var_os("MAPLESS_DATA").unwrap()).join("data/dem")
     }
 
     #[test]
+    #[ignore = "reads the data that MAPLESS_DATA names"]
     fn real_elevation_grids_load() {
-        let Some(folder) = shared_grids() else { return };
+        let folder = grids();
         let bank = load_terrain(&folder.join("kootenai_37x50_1m_mit.asc")).unwrap();
         assert_eq!((bank.field.columns(), bank.field.rows()), (50, 37));
         assert!((bank.field.cell_m() - 1.0).abs() < 1e-12);
@@ -105,8 +103,9 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "reads the data that MAPLESS_DATA names"]
     fn damaged_real_grids_never_panic() {
-        let Some(folder) = shared_grids() else { return };
+        let folder = grids();
         for file in ["kootenai_37x50_1m_mit.asc", "moon_80x80m_apache2.tif"] {
             let whole = std::fs::read(folder.join(file)).unwrap();
             for length in (0..whole.len()).step_by(101) {

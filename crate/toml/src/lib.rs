@@ -1,8 +1,8 @@
 //! Reads TOML into structs.
 //!
-//! The `toml` crate parses the text. Its own way from there into structs lets every struct be written as a list, a string
-//! or a date too, and compiles all of that once for each struct: a third of the page's wasm. Here a struct is a table.
-//! Messages are those of the `toml` crate, with line, column and the line itself.
+//! The `toml` crate parses the text. Its own way from there into structs lets every struct be written as a
+//! list, a string or a date too, and compiles all of that once for each struct: a third of the page's wasm.
+//! Here a struct is a table. Messages are those of the `toml` crate, with line, column and the line itself.
 //!
 //! ```
 //! #[derive(serde::Deserialize)]
@@ -18,6 +18,7 @@
 
 mod error;
 mod located;
+mod rename;
 mod value;
 
 #[cfg(test)]
@@ -25,8 +26,12 @@ mod tests;
 
 pub use error::Error;
 pub use located::Located;
+pub use rename::Rename;
+
+use std::cell::OnceCell;
 
 use serde::de::DeserializeOwned;
+use toml::Spanned;
 use toml::de::DeTable;
 
 /// Reads a whole document.
@@ -34,6 +39,25 @@ use toml::de::DeTable;
 /// # Errors
 /// What is wrong and where: not TOML, a wrong key, a missing one, or a value of the wrong kind.
 pub fn from_str<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
-    let read = DeTable::parse(text).map_err(Error::from).and_then(|table| value::read(&table));
-    read.map_err(|error| error.within(text))
+    from_str_renamed(text, &[])
+}
+
+/// As [`from_str`], with keys that had other names before: see [`Rename`].
+///
+/// # Errors
+/// As [`from_str`]; a value that is given under both its names.
+pub fn from_str_renamed<T: DeserializeOwned>(text: &str, renames: &[Rename]) -> Result<T, Error> {
+    let scaled: Vec<OnceCell<String>> = renames.iter().map(|_| OnceCell::new()).collect();
+    let table = renamed(text, renames, &scaled);
+    table.and_then(|table| value::read(&table)).map_err(|error| error.within(text))
+}
+
+fn renamed<'a>(
+    text: &'a str,
+    renames: &[Rename],
+    scaled: &'a [OnceCell<String>],
+) -> Result<Spanned<DeTable<'a>>, Error> {
+    let mut table = DeTable::parse(text)?;
+    rename::apply(table.get_mut(), renames, scaled)?;
+    Ok(table)
 }

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use crate::{Located, from_str};
+use crate::{Located, Rename, from_str, from_str_renamed};
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -135,7 +135,8 @@ fn without_carets(message: String) -> String {
 }
 
 proptest! {
-    /// A byte of a good document changed, left out or doubled: the same value or the same fault as with the toml crate.
+    /// A byte of a good document changed, left out or doubled: the same value or the same fault as with the
+    /// toml crate.
     #[test]
     fn damaged_documents_are_judged_alike(at in 0..GOOD.len(), byte in 0x09..0x7f_u8, how in 0..3) {
         let mut bytes = GOOD.as_bytes().to_vec();
@@ -150,6 +151,69 @@ proptest! {
                 prop_assert_eq!(ours_read.map_err(without_carets), theirs_read.map_err(without_carets));
             }
             prop_assert_eq!(ours::<Document>(&text).is_ok(), theirs::<Document>(&text).is_ok(), "{}", text);
+        }
+    }
+}
+
+#[derive(Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Renamed {
+    deep: BTreeMap<String, Inner>,
+}
+
+#[derive(Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+#[derive(Default)]
+struct Inner {
+    wait_s: f64,
+    size_m: f64,
+}
+
+const RENAMES: &[Rename] = &[
+    Rename { divisor: Some(10.0), ..Rename::new("deep.old.wait_ticks", "deep.new.wait_s") },
+    Rename::new("size_m", "deep.new.size_m"),
+    Rename::new("deep.old", "deep.new"),
+];
+
+fn renamed(text: &str) -> Result<Inner, String> {
+    let read: Result<Renamed, _> = from_str_renamed(text, RENAMES);
+    read.map(|mut read| read.deep.remove("new").unwrap()).map_err(|error| error.to_string())
+}
+
+#[test]
+fn old_keys_give_the_values_of_the_new_ones() {
+    let expected = Ok(Inner { wait_s: 0.3, size_m: 2.0 });
+    for text in [
+        "[deep.new]\nwait_s = 0.3\nsize_m = 2",
+        "[deep.old]\nwait_ticks = 3\nsize_m = 2",
+        "deep.old = { wait_ticks = 3.0 }\nsize_m = 2",
+        "size_m = 2\ndeep.old.wait_ticks = 3",
+        "[deep.old]\nwait_ticks = 3\n[deep.new]\nsize_m = 2",
+    ] {
+        assert_eq!(renamed(text), expected, "{text}");
+    }
+}
+
+#[test]
+fn what_is_wrong_with_an_old_key_is_named_where_it_stands() {
+    for (text, needles) in [
+        (
+            "[deep.new]\nwait_s = 1\n[deep.old]\nwait_ticks = 3",
+            ["line 4, column 1", "`deep.old.wait_ticks` is now `deep.new.wait_s`, and both are given"],
+        ),
+        (
+            "[deep.old]\nsize_m = 3\n[deep.new]\nsize_m = 3",
+            ["line 2, column 1", "`deep.old.size_m` is now `deep.new.size_m`, and both are given"],
+        ),
+        ("[deep.old]\nwait_ticks = true", ["line 2, column 14", "invalid type: boolean"]),
+        (
+            "[deep.old]\nheight_m = 3",
+            ["line 2, column 1", "unknown field `height_m`, expected `wait_s` or `size_m`"],
+        ),
+    ] {
+        let error = renamed(text).unwrap_err();
+        for needle in needles {
+            assert!(error.contains(needle), "not in the message: {needle}\n{error}");
         }
     }
 }

@@ -95,7 +95,8 @@ fn float(text: &str) -> Option<f64> {
 impl<'de> Deserializer<'de> for Value<'_> {
     type Error = Error;
 
-    // Not inlined: each visitor has one of these, and the compiler would copy it to every field that reads it.
+    // Not inlined: each visitor has one of these, and the compiler would copy it to every field that reads
+    // it.
     #[inline(never)]
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         let read = match self.kind {

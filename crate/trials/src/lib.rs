@@ -25,5 +25,6 @@ pub use profile_accuracy::{ColumnKind, ProfileAccuracy, profile_accuracy};
 pub use progress_checker::{BASE_TIME_LIMIT_S, MOST_STRAIGHT_TIMES};
 #[cfg(not(target_arch = "wasm32"))]
 pub use scenario::LoadedScenario;
+pub use scenario::renamed_keys::{current_path, current_value};
 pub use scenario::{Preset, Scenario, ScenarioError, ScenarioFault};
 pub use trial::{Trial, TrialError};

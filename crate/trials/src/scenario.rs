@@ -11,12 +11,15 @@
 //! steepness_weight = 0.8
 //! ```
 
+pub(crate) mod renamed_keys;
+
 use glam::DVec2;
 use mapless::PlannerConfig;
 use mapless_terrain::TerrainError;
 use mapless_world::{HuskyConfig, SensorConfig};
 
 use crate::places::{self, StartPose};
+use renamed_keys::RENAMED_KEYS;
 
 /// Which planner configuration a scenario's `[planner]` section starts from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -155,16 +158,16 @@ impl Scenario {
     pub fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
         let fail = |fault| ScenarioError { file: file.to_owned(), fault };
         let syntax = |error: mapless_toml::Error| fail(ScenarioFault::Syntax(error.to_string()));
-        let parsed: File = mapless_toml::from_str(text).map_err(syntax)?;
-        let mut table: toml::Table = mapless_toml::from_str(text).map_err(syntax)?;
+        let parsed: File = mapless_toml::from_str_renamed(text, RENAMED_KEYS).map_err(syntax)?;
+        let mut table: toml::Table = mapless_toml::from_str_renamed(text, RENAMED_KEYS).map_err(syntax)?;
         let planner = match table.remove("planner") {
             Some(toml::Value::Table(planner)) => planner,
             _ => toml::Table::new(),
         };
         let value = |reason: String| fail(ScenarioFault::Value(reason));
-        parsed.planner.validate().map_err(|e| value(e.to_string()))?;
-        parsed.sensor.validate().map_err(|e| value(format!("sensor.{e}")))?;
-        parsed.robot.validate().map_err(|e| value(format!("robot.{e}")))?;
+        parsed.planner.validate("planner").map_err(|e| value(e.to_string()))?;
+        parsed.sensor.validate("sensor").map_err(|e| value(e.to_string()))?;
+        parsed.robot.validate("robot").map_err(|e| value(e.to_string()))?;
         Ok(Self {
             terrain: parsed.terrain,
             start: parsed.start,
@@ -186,14 +189,15 @@ impl Scenario {
     pub fn with_parameters(&self, file: &str, sections: &str) -> Result<Self, ScenarioError> {
         let fail = |fault| ScenarioError { file: file.to_owned(), fault };
         let syntax = |error: mapless_toml::Error| ScenarioFault::Syntax(error.to_string());
-        let sections: Sections = mapless_toml::from_str(sections).map_err(|error| fail(syntax(error)))?;
+        let sections: Sections =
+            mapless_toml::from_str_renamed(sections, RENAMED_KEYS).map_err(|error| fail(syntax(error)))?;
         let mut scenario = self.clone();
         merge(&mut scenario.planner, &sections.planner);
         scenario.sensor = overridden(&self.sensor, &sections.sensor, "sensor").map_err(fail)?;
         scenario.robot = overridden(&self.robot, &sections.robot, "robot").map_err(fail)?;
         let value = |reason: String| fail(ScenarioFault::Value(reason));
-        scenario.sensor.validate().map_err(|e| value(format!("sensor.{e}")))?;
-        scenario.robot.validate().map_err(|e| value(format!("robot.{e}")))?;
+        scenario.sensor.validate("sensor").map_err(|e| value(e.to_string()))?;
+        scenario.robot.validate("robot").map_err(|e| value(e.to_string()))?;
         Ok(scenario)
     }
 
@@ -207,12 +211,14 @@ impl Scenario {
         config.sensor.height_m = self.sensor.height_m;
         config.robot.width_m = self.robot.width_m;
         config.robot.wheelbase_m = self.robot.wheelbase_m;
+        // The simulated robot has no length of its own.
+        config.robot.length_m = config.robot.length_m.max(self.robot.wheelbase_m);
         config.robot.track_m = self.robot.track_m;
         config.robot.roll_limit_rad = self.robot.roll_limit_rad;
         config.robot.pitch_limit_rad = self.robot.pitch_limit_rad;
 
         let config: PlannerConfig = overridden(&config, &self.planner, "planner")?;
-        config.validate().map_err(|e| ScenarioFault::Value(e.to_string()))?;
+        config.validate("planner").map_err(|e| ScenarioFault::Value(e.to_string()))?;
         Ok(config)
     }
 }
@@ -357,9 +363,9 @@ mod tests {
             "{fault_of}"
         );
         assert!(fault("seed = 1").contains("unknown field `seed`"));
-        let planner = scenario.with_parameters("settings", "[planner]\nperiod_s = -1").unwrap();
+        let planner = scenario.with_parameters("settings", "[planner]\ngoal_tolerance_m = -1").unwrap();
         let fault = planner.planner_config(Preset::Default).unwrap_err().to_string();
-        assert_eq!(fault, "planner.period_s = -1: expected a positive number");
+        assert_eq!(fault, "planner.goal_tolerance_m = -1: expected a positive number");
     }
 
     #[test]
@@ -390,8 +396,8 @@ mod tests {
                 .contains("expected 2 or 3 numbers: x, y, heading")
         );
         assert!(error(&SCENARIO.replace("[3.0, 4.0]", "{ x = 1 }")).contains("missing field `y`"));
-        let text = format!("{SCENARIO}[planner.forecast]\nstep_m = -1.0\n");
-        assert_eq!(error(&text), "x.toml: planner.forecast.step_m = -1: expected a positive number");
+        let text = format!("{SCENARIO}[planner.state_lattice]\nstep_m = -1.0\n");
+        assert_eq!(error(&text), "x.toml: planner.state_lattice.step_m = -1: expected at least 0.2");
         assert!(
             error(&format!("{SCENARIO}[sensor]\nrange_noise_m = inf\n")).contains("sensor.range_noise_m")
         );

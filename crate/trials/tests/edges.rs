@@ -1,5 +1,5 @@
-//! Where the ground ends, the robot does not drive on: no return comes from beyond an edge, and from above a ledge looks
-//! like the plain.
+//! Where the ground ends, the robot does not drive on: no return comes from beyond an edge, and from above a
+//! ledge looks like the plain.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use glam::DVec2;
@@ -22,8 +22,9 @@ fn outcome_within(trial: &mut Trial, seconds: u64) -> Option<Outcome> {
     (0..10 * seconds).find_map(|_| trial.tick())
 }
 
-/// Level ground that ends where `beyond_m` is above 0, with a fall of `depth_m` there. The goal lies beyond. A robot that
-/// does not notice the fall is over it in a quarter of a minute; this one gets there, and drives along it.
+/// Level ground that ends where `beyond_m` is above 0, with a fall of `depth_m` there. The goal lies beyond.
+/// A robot that does not notice the fall is over it in a quarter of a minute; this one gets there, and drives
+/// along it.
 fn stays_before_the_fall(beyond_m: fn(DVec2) -> f64, depth_m: f64, seed: u64) {
     let mut trial = trial(|place| if beyond_m(place) > 0.0 { -depth_m } else { 0.0 }, seed);
     let mut nearest_m = f64::INFINITY;

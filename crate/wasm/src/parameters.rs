@@ -1,9 +1,8 @@
 //! Every parameter that a scenario file may set, described for people.
 
-use mapless_trials::parameters::{self, Kind};
+use mapless_trials::parameters::{self, Kind, Value, Valued};
 use mapless_trials::{Preset, Scenario};
 use serde::Serialize;
-use toml::{Table, Value};
 use tsify::Tsify;
 use wasm_bindgen::prelude::JsError;
 
@@ -32,7 +31,7 @@ pub struct Parameter {
     choices: Option<&'static [&'static str]>,
     /// What holds where nothing is overridden.
     #[tsify(type = "OverrideValue")]
-    value: Option<Value>,
+    value: Value,
     /// What the paper gives, where it gives one.
     #[tsify(type = "OverrideValue | undefined")]
     paper: Option<Value>,
@@ -62,16 +61,15 @@ pub(crate) fn groups(
     preset: Preset,
 ) -> Result<Vec<ParameterGroup>, JsError> {
     let values = parameters::values(file, running, preset)?;
-    let groups = parameters::GROUPS.into_iter().flatten().map(|group| ParameterGroup {
+    let groups = values.into_iter().map(|group| ParameterGroup {
         table: group.table,
         title: group.title,
-        parameters: group.parameters.iter().map(|one| described(one, &values, group.table)).collect(),
+        parameters: group.parameters.iter().map(described).collect(),
     });
     Ok(groups.collect())
 }
 
-fn described(parameter: &parameters::Parameter, values: &Table, table: &str) -> Parameter {
-    let table = table.split('.').try_fold(values, |table, name| table.get(name)?.as_table());
+fn described(Valued { parameter, value }: &Valued) -> Parameter {
     let (kind, range, choices) = match parameter.kind {
         Kind::Number(low, high) => (ParameterKind::Number, Some([low, high]), None),
         Kind::Whole(low, high) => (ParameterKind::Whole, Some([low.into(), high.into()]), None),
@@ -86,12 +84,7 @@ fn described(parameter: &parameters::Parameter, values: &Table, table: &str) -> 
         kind,
         range,
         choices,
-        value: table.and_then(|table| table.get(parameter.name)).cloned(),
-        paper: parameter.paper.and_then(value),
+        value: *value,
+        paper: parameter.paper,
     }
-}
-
-/// The value that the text of one says.
-fn value(text: &str) -> Option<Value> {
-    mapless_toml::from_str::<Table>(&format!("it = {text}")).ok()?.remove("it")
 }

@@ -12,7 +12,6 @@
 
 mod attitude;
 mod caster;
-mod config;
 mod height_field;
 mod husky;
 mod husky_config;
@@ -27,12 +26,12 @@ mod vlp16;
 
 pub use attitude::{Attitude, attitude_on, world_from_body};
 pub use caster::Caster;
-pub use config::ConfigError;
 pub use height_field::{
     FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M, check_grid,
 };
 pub use husky::{DriveCommand, DriveError, Husky, HuskyState};
 pub use husky_config::HuskyConfig;
+pub use mapless_parameters::ConfigError;
 pub use sculpt::{Brush, BrushKind, SampleRect, smooth_step};
 pub use sensor_pose::SensorPose;
 pub use skyline::{Skyline, true_skyline};

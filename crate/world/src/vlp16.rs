@@ -2,11 +2,10 @@
 
 use crate::attitude::{Attitude, world_from_body};
 use crate::caster::{Caster, Fan};
-use crate::config::{ConfigError, within};
 use crate::random;
 use crate::sensor_pose::SensorPose;
 use glam::{DVec2, DVec3, Vec3};
-use serde::{Deserialize, Serialize};
+use mapless_parameters::{ConfigError, parameters};
 use std::f64::consts::{PI, TAU};
 
 /// Rings of a VLP-16.
@@ -18,57 +17,33 @@ pub fn ring_elevation_rad(ring: usize) -> f64 {
     (2.0 * ring as f64 - 15.0) * (PI / 180.0)
 }
 
-/// Mounting, resolution and faults of the sensor.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct SensorConfig {
-    /// Time between two scans, in seconds; 0.1 at 10 Hz.
-    pub period_s: f64,
-    /// Azimuths per revolution, from 1 to 36 000; a VLP-16 at 10 Hz has 1800.
-    pub columns: usize,
-    /// Standard deviation of the range, in metres.
-    pub range_noise_m: f64,
-    /// Share of returns that are lost, from 0 to 1.
-    pub dropout_probability: f64,
-    /// Nothing closer than this is reported, in metres.
-    pub min_range_m: f64,
-    /// Nothing farther than this is reported, in metres.
-    pub max_range_m: f64,
-    /// Height of the sensor above the contact plane along the body's z, in metres.
-    pub height_m: f64,
-    /// Distance of the sensor ahead of the middle of the wheelbase along the body's x, in metres.
-    pub forward_m: f64,
-}
-
-impl Default for SensorConfig {
-    fn default() -> Self {
-        Self {
-            period_s: 0.1,
-            columns: 1800,
-            range_noise_m: 0.02,
-            dropout_probability: 0.0,
-            min_range_m: 0.5,
-            max_range_m: 100.0,
-            height_m: 0.8,
-            forward_m: 0.0,
-        }
+parameters! {
+    /// Mounting, resolution and faults of the sensor.
+    pub struct SensorConfig {
+        /// Standard deviation of each range.
+        range_noise_m: f64 = 0.02, unit "m", range [0.0, 0.5], check Within(0.0, 1.0);
+        /// Share of returns that are lost at random.
+        dropout_probability: f64 = 0.0, range [0.0, 1.0], check Within(0.0, 1.0);
+        /// Time between two scans; 0.1 s at 10 Hz.
+        period_s: f64 = 0.1, paper 0.1, unit "s", range [0.05, 0.5], check Within(0.01, 1.0);
+        /// Azimuths in one revolution; a VLP-16 at 10 Hz has 1800.
+        columns: usize = 1800, range [90, 3600], check Within(1.0, 36_000.0);
+        /// Nothing nearer is reported.
+        min_range_m: f64 = 0.5, unit "m", range [0.0, 5.0], check NotNegative;
+        /// Nothing farther is reported.
+        max_range_m: f64 = 100.0, unit "m", range [5.0, 200.0], check Within(1.0, 1000.0);
+        /// Height of the sensor above the contact plane along the body's z.
+        height_m: f64 = 0.8, unit "m", range [0.2, 3.0], check Within(0.05, 5.0);
+        /// Distance of the sensor ahead of the middle of the wheels along the body's x.
+        forward_m: f64 = 0.0, unit "m", range [-1.0, 1.0], check Within(-5.0, 5.0);
     }
+    relations check_reach;
 }
 
 impl SensorConfig {
-    /// Checks every value.
-    ///
-    /// # Errors
-    /// [`ConfigError`] names the first field outside its range.
-    pub fn validate(&self) -> Result<(), ConfigError> {
-        within("period_s", self.period_s, 0.01, 1.0)?;
-        within("columns", self.columns as f64, 1.0, 36_000.0)?;
-        within("range_noise_m", self.range_noise_m, 0.0, 1.0)?;
-        within("dropout_probability", self.dropout_probability, 0.0, 1.0)?;
-        within("max_range_m", self.max_range_m, 1.0, 1000.0)?;
-        within("min_range_m", self.min_range_m, 0.0, self.max_range_m)?;
-        within("height_m", self.height_m, 0.05, 5.0)?;
-        within("forward_m", self.forward_m, -5.0, 5.0)
+    fn check_reach(&self, place: &str) -> Result<(), ConfigError> {
+        let ok = self.min_range_m <= self.max_range_m;
+        ConfigError::require(ok, place, "min_range_m", self.min_range_m, "at most max_range_m")
     }
 
     /// Pose of the sensor on a robot that stands at `position` with heading `yaw_rad`.
@@ -109,7 +84,7 @@ impl Vlp16 {
     /// # Errors
     /// [`ConfigError`] when the configuration is not valid.
     pub fn new(config: SensorConfig) -> Result<Self, ConfigError> {
-        config.validate()?;
+        config.validate("sensor")?;
         let azimuths = (0..config.columns)
             .map(|column| libm::sincos(-PI + column as f64 * (TAU / config.columns as f64)))
             .collect();
@@ -318,7 +293,7 @@ mod tests {
             (SensorConfig { min_range_m: 200.0, ..SensorConfig::default() }, "min_range_m"),
             (SensorConfig { height_m: -1.0, ..SensorConfig::default() }, "height_m"),
         ] {
-            assert_eq!(Vlp16::new(bad).unwrap_err().field, field);
+            assert_eq!(Vlp16::new(bad).unwrap_err().name, field);
         }
         assert!(mapless_toml::from_str::<SensorConfig>("noise = 1").is_err());
     }

@@ -40,8 +40,10 @@ impl Browser {
         let Some(packages) = apt_packages(sh).filter(|_| !is_named) else {
             bail!("{missing}. {HOW_TO_INSTALL}");
         };
-        cmd!(sh, "apt-get update").run()?;
-        cmd!(sh, "apt-get install --yes --no-install-recommends {packages...}")
+        // Another installation may be under way.
+        let wait = "DPkg::Lock::Timeout=600";
+        cmd!(sh, "apt-get -o {wait} update").run()?;
+        cmd!(sh, "apt-get -o {wait} install --yes --no-install-recommends {packages...}")
             .env("DEBIAN_FRONTEND", "noninteractive")
             .run()?;
         Self::find(sh).with_context(|| format!("apt installed {packages:?}, yet {missing}. {HOW_TO_INSTALL}"))

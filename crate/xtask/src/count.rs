@@ -9,7 +9,8 @@ pub(crate) enum Runner {
     Cargo,
     /// `node --test`: one line for each number, `# pass 3` or `ℹ pass 3`.
     Node,
-    /// Playwright, and our tests in Python, which say it as it does: one line for each number, `3 passed (1.2s)`.
+    /// Playwright, and our tests in Python, which say it as it does: one line for each number, `3 passed
+    /// (1.2s)`.
     Playwright,
 }
 

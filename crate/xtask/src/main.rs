@@ -1,8 +1,8 @@
 //! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build`, and
 //! `cargo xtask profile`, `cargo xtask results`, `cargo xtask bench` and `cargo xtask fuzz`, which measure.
 //!
-//! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a browser),
-//! so that a fresh clone on a machine with Rust and Node needs nothing by hand.
+//! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a
+//! browser), so that a fresh clone on a machine with Rust and Node needs nothing by hand.
 
 mod bench;
 mod browser;
@@ -52,7 +52,8 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 200)]
         poses: usize,
     },
-    /// Run campaigns of terrains/campaigns, or what is left of them, and write their pages in docs/results and docs/RESULTS.md.
+    /// Run campaigns of terrains/campaigns, or what is left of them, and write their pages in docs/results
+    /// and docs/RESULTS.md.
     Results {
         #[arg(help = format!("Campaigns by name; {} when absent", results::ALL.join(", ")))]
         campaigns: Vec<String>,

@@ -31,12 +31,13 @@ pub(crate) fn demo(sh: &Shell, port: u16) -> anyhow::Result<()> {
     become_command(command.into())
 }
 
-/// Builds the wasm modules and their JavaScript bindings into `web/src/wasm/`, and reports the size of the first: the page
-/// opens with it, and loads the baselines when somebody asks for them.
+/// Builds the wasm modules and their JavaScript bindings into `web/src/wasm/`, and reports the size of the
+/// first: the page opens with it, and loads the baselines when somebody asks for them.
 fn bindings(sh: &Shell) -> anyhow::Result<()> {
     setup::wasm_target(sh)?;
     let wasm_bindgen = setup::wasm_bindgen(sh)?.join("wasm-bindgen");
-    // The messages of panics name source files: those of the packages without the folder that this machine keeps them in.
+    // The messages of panics name source files: those of the packages without the folder that this machine
+    // keeps them in.
     let home = env::home_dir().context("the home folder")?.join(".cargo");
     let cargo_home = env::var_os("CARGO_HOME").map_or(home, PathBuf::from);
     let flags = ["--remap-path-prefix".to_owned(), format!("{}=cargo", cargo_home.display())];
@@ -45,7 +46,8 @@ fn bindings(sh: &Shell) -> anyhow::Result<()> {
     cmd!(sh, "cargo build --config {flags} --profile page {packages...} --target wasm32-unknown-unknown")
         .run()?;
     let built = setup::target_dir(sh).join("wasm32-unknown-unknown/page");
-    // Without its names the file is 7 % smaller (brotli); wasm-opt would take another 1.5 %, and no time off a step.
+    // Without its names the file is 7 % smaller (brotli); wasm-opt would take another 1.5 %, and no time off
+    // a step.
     let strip = ["--remove-name-section", "--remove-producers-section"];
     for module in ["mapless_wasm.wasm", "mapless_wasm_baselines.wasm"] {
         let module = built.join(module);

@@ -1,4 +1,5 @@
-//! The elevation profile against the truth, for several settings of the perception, written up in `docs/PROFILE.md`.
+//! The elevation profile against the truth, for several settings of the perception, written up in
+//! `docs/PROFILE.md`.
 
 use std::collections::BTreeMap;
 use std::env::consts::EXE_EXTENSION;
@@ -51,7 +52,8 @@ struct Job {
     terrain: String,
 }
 
-/// Measures the presets at `poses` poses on each terrain and other settings at as many, and writes the report with its figure.
+/// Measures the presets at `poses` poses on each terrain and other settings at as many, and writes the report
+/// with its figure.
 pub(crate) fn run(sh: &Shell, poses: usize) -> anyhow::Result<()> {
     cmd!(sh, "cargo build --release --package mapless-cli").run()?;
     let target = setup::target_dir(sh);

@@ -12,11 +12,13 @@ const FOLDER: &str = "terrains/campaigns";
 pub(crate) const QUICK: [&str; 2] = ["quick", "quick-generated"];
 /// The full form, which has all that `docs/RESULTS.md` shows.
 pub(crate) const ALL: [&str; 5] = ["paper", "generated", "thousand", "faults", "ablation"];
-/// Generated tasks: their folder under `target/`, by which campaign files name them, their seed, and how many there are of each difficulty.
+/// Generated tasks: their folder under `target/`, by which campaign files name them, their seed, and how many
+/// there are of each difficulty.
 const TASKS: [(&str, u32, u32); 2] = [("generated/quick", 1, 10), ("generated/thousand", 500, 334)];
 const DIFFICULTIES: [&str; 3] = ["easy", "moderate", "hard"];
 
-/// Runs the named campaigns, or all of the full form where none is named, or what is left of them after an interruption; then writes the report.
+/// Runs the named campaigns, or all of the full form where none is named, or what is left of them after an
+/// interruption; then writes the report.
 pub(crate) fn run(sh: &Shell, names: &[String]) -> anyhow::Result<()> {
     let names: Vec<&str> =
         if names.is_empty() { ALL.to_vec() } else { names.iter().map(String::as_str).collect() };

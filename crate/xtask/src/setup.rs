@@ -52,8 +52,8 @@ pub(crate) fn wasm_bindgen(sh: &Shell) -> anyhow::Result<PathBuf> {
     }
     println!("Building wasm-bindgen {version} into {}; this takes a few minutes, once.", root.display());
     let build = tools.join("build");
-    // Without its default features it has no TLS: the tools talk to this machine only. Less optimisation builds
-    // sooner, and the tools run for less than a second.
+    // Without its default features it has no TLS: the tools talk to this machine only. Less optimisation
+    // builds sooner, and the tools run for less than a second.
     cmd!(sh, "cargo install wasm-bindgen-cli --version {version} --no-default-features")
         .args(["--bin", "wasm-bindgen", "--bin", "wasm-bindgen-test-runner"])
         .arg("--root")

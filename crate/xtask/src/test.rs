@@ -1,6 +1,9 @@
 //! Every check and test, the fast ones first.
 
+use std::env;
+use std::fmt::Write as _;
 use std::io::{self, Read as _, Write as _};
+use std::net::{Ipv4Addr, TcpListener};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -25,8 +28,16 @@ pub(crate) enum Part {
     Wasm,
     /// Unit and browser tests of the page.
     Page,
-    /// Campaigns on a local Ray cluster; only when asked for, as it needs Python 3.10 or newer and installs Ray under target/.
+    /// Campaigns on a local Ray cluster; only when asked for, as it needs Python 3.10 or newer and installs
+    /// Ray under target/.
     Ray,
+}
+
+impl Part {
+    /// The name on the command line.
+    fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
 }
 
 /// One step: its heading, the parts it belongs to (at least one), and what it does.
@@ -48,6 +59,7 @@ const STAGES: &[Stage] = &[
     Stage { title: "clippy", parts: &[Part::Lint], run: clippy },
     Stage { title: "clippy for wasm", parts: &[Part::Lint], run: clippy_wasm },
     Stage { title: "documentation", parts: &[Part::Lint], run: documentation },
+    Stage { title: "package", parts: &[Part::Lint], run: package },
     // The page's types include those of the wasm bindings, which the build makes.
     Stage { title: "build of the page", parts: &[Part::Lint, Part::Page], run: build_page },
     Stage { title: "lint and types of the page", parts: &[Part::Lint], run: check_page },
@@ -63,28 +75,46 @@ const STAGES: &[Stage] = &[
 /// Runs the stages of `part`, or all of them, up to the first that fails.
 pub(crate) fn run(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     set_up(sh, part)?;
-    let mut times: Vec<(&str, Duration)> = Vec::new();
+    let mut times = Vec::new();
     let mut sum = Count::default();
     for stage in STAGES.iter().filter(|stage| stage.belongs_to(part)) {
         println!("\n=== {} ===", stage.title);
         let start = Instant::now();
         sum += (stage.run)(sh).map_err(|error| {
-            let name = format!("{:?}", part.unwrap_or(stage.parts[0])).to_lowercase();
-            anyhow!("{} failed: {error:#}\nTo run this part alone: cargo xtask test {name}", stage.title)
+            let part = part.unwrap_or(stage.parts[0]).name();
+            anyhow!("{} failed: {error:#}\nTo run this part alone: cargo xtask test {part}", stage.title)
         })?;
         let time = start.elapsed();
         println!("=== {}: {:.1} s ===", stage.title, time.as_secs_f64());
-        times.push((stage.title, time));
+        times.push((part.unwrap_or(stage.parts[0]), stage.title, time));
     }
-    println!();
-    for (title, time) in times {
-        println!("{:8.1} s  {title}", time.as_secs_f64());
-    }
+    print!("\n{}", summary(&times));
     if sum.skipped > 0 {
         println!("{} skipped", sum.skipped);
     }
     println!("\n{} passed, {} failed", sum.passed, sum.failed);
     Ok(())
+}
+
+/// How long each part took, with its stages, and all of them.
+fn summary(times: &[(Part, &str, Duration)]) -> String {
+    let seconds = |part: Option<Part>| -> f64 {
+        let stages = times.iter().filter(|stage| part.is_none_or(|part| stage.0 == part));
+        stages.map(|(_, _, time)| time.as_secs_f64()).sum()
+    };
+    let mut text = String::new();
+    // A String takes whatever is written to it.
+    for part in Part::value_variants() {
+        let mut stages = times.iter().filter(|stage| stage.0 == *part).peekable();
+        if stages.peek().is_some() {
+            let _ = writeln!(text, "{:8.1} s  {}", seconds(Some(*part)), part.name());
+        }
+        for (_, title, time) in stages {
+            let _ = writeln!(text, "{:16.1} s  {title}", time.as_secs_f64());
+        }
+    }
+    let _ = writeln!(text, "{:8.1} s  in all", seconds(None));
+    text
 }
 
 /// Sets up all that the stages of `part` need, so that what is missing shows before anything runs.
@@ -132,6 +162,12 @@ fn documentation(sh: &Shell) -> anyhow::Result<Count> {
     check(cmd!(sh, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "--deny warnings"))
 }
 
+/// Packs the crate that is published, and builds what is packed as somebody else's machine would.
+fn package(sh: &Shell) -> anyhow::Result<Count> {
+    // What is not committed is packed, too, and all that it needs is there: the stages before have built it.
+    check(cmd!(sh, "cargo package --package mapless --allow-dirty --offline"))
+}
+
 fn build_page(sh: &Shell) -> anyhow::Result<Count> {
     // They are in the repository, for whoever checks the page before building the modules.
     let files =
@@ -153,8 +189,21 @@ fn check_page(sh: &Shell) -> anyhow::Result<Count> {
 }
 
 fn test_native(sh: &Shell) -> anyhow::Result<Count> {
-    // The same property-test cases every time, so that a run fails for a change and never by chance. `cargo test` by itself draws new ones.
-    count(cmd!(sh, "cargo test --workspace").env("PROPTEST_RNG_SEED", "1"), Runner::Cargo)
+    // The same property-test cases every time, so that a run fails for a change and never by chance. `cargo
+    // test` by itself draws new ones.
+    let mut test = cmd!(sh, "cargo test --workspace").env("PROPTEST_RNG_SEED", "1");
+    if let Some(data) = data(sh) {
+        test = test.env("MAPLESS_DATA", data).args(["--", "--include-ignored"]);
+    }
+    count(test, Runner::Cargo)
+}
+
+/// Recorded scans, elevation models and gpflow's values that are not in the repository; without them the
+/// tests that read them count as skipped.
+fn data(sh: &Shell) -> Option<PathBuf> {
+    let root = sh.current_dir();
+    let named = env::var_os("MAPLESS_DATA").map(|named| root.join(named));
+    named.or_else(|| Some(root.parent()?.join("shared"))).filter(|folder| folder.is_dir())
 }
 
 fn test_wasm(sh: &Shell) -> anyhow::Result<Count> {
@@ -162,14 +211,15 @@ fn test_wasm(sh: &Shell) -> anyhow::Result<Count> {
     let capabilities = sh.current_dir().join("target/webdriver.json");
     sh.write_file(&capabilities, browser.webdriver_json())?;
     let runner = setup::wasm_bindgen(sh)?.join("wasm-bindgen-test-runner");
-    // Optimised as in the page, with which it shares all that is built; a whole trial takes longer than the
-    // runner's 20 seconds.
+    // Optimised as in the page, with which it shares all that is built. The runner would wait 5 s for the
+    // driver and 20 s for all tests: too short for a busy machine and for whole trials.
     let test =
         cmd!(sh, "cargo test --release --package mapless-wasm --target wasm32-unknown-unknown --tests")
             .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER", runner)
             .env("CHROMEDRIVER", &browser.driver)
             .env("WASM_BINDGEN_TEST_WEBDRIVER_JSON", &capabilities)
-            .env("WASM_BINDGEN_TEST_TIMEOUT", "1800");
+            .env("WASM_BINDGEN_TEST_DRIVER_TIMEOUT", "300")
+            .env("WASM_BINDGEN_TEST_TIMEOUT", "7200");
     count(test, Runner::Cargo)
 }
 
@@ -185,13 +235,21 @@ fn build_command_line(sh: &Shell) -> anyhow::Result<Count> {
 fn test_page(sh: &Shell) -> anyhow::Result<Count> {
     let browser = Browser::set_up(sh)?;
     let npm = setup::NPM;
-    count(cmd!(sh, "{npm} run test:page").env("CHROME", &browser.chrome), Runner::Playwright)
+    let test = cmd!(sh, "{npm} run test:page")
+        .env("CHROME", &browser.chrome)
+        .env("MAPLESS_PAGE_PORT", free_port()?.to_string());
+    count(test, Runner::Playwright)
+}
+
+/// A port that no other server on this machine has.
+fn free_port() -> anyhow::Result<u16> {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).context("no port is free")?;
+    Ok(listener.local_addr()?.port())
 }
 
 fn test_ray(sh: &Shell) -> anyhow::Result<Count> {
     let python = ray(sh)?;
-    let program =
-        setup::target_dir(sh).join("release/mapless").with_extension(std::env::consts::EXE_EXTENSION);
+    let program = setup::target_dir(sh).join("release/mapless").with_extension(env::consts::EXE_EXTENSION);
     count(cmd!(sh, "{python} crate/campaign/ray/test_run.py {program}"), Runner::Playwright)
 }
 
@@ -238,4 +296,32 @@ fn count(command: Cmd<'_>, runner: Runner) -> anyhow::Result<Count> {
     ensure!(count.failed == 0, "`{shown}` reported {} failed tests, yet ended well", count.failed);
     ensure!(count.passed > 0, "`{shown}` ran no test");
     Ok(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_summary_has_the_sum_of_each_part_that_ran() {
+        let times = [
+            (Part::Lint, "format", Duration::from_millis(1500)),
+            (Part::Lint, "clippy", Duration::from_secs(40)),
+            (Part::Page, "browser tests of the page", Duration::from_secs(100)),
+        ];
+        let expected = "    41.5 s  lint\n             1.5 s  format\n            40.0 s  clippy\n   \
+            100.0 s  page\n           100.0 s  browser tests of the page\n   141.5 s  in all\n";
+        assert_eq!(summary(&times), expected);
+    }
+
+    #[test]
+    fn a_stage_of_two_parts_runs_with_either_and_those_on_ray_only_when_asked_for() {
+        let titles = |part| -> Vec<&str> {
+            STAGES.iter().filter(|stage| stage.belongs_to(part)).map(|stage| stage.title).collect()
+        };
+        assert!(titles(Some(Part::Lint)).contains(&"build of the page"));
+        assert!(titles(Some(Part::Page)).contains(&"build of the page"));
+        assert!(!titles(None).contains(&"campaigns on Ray"));
+        assert!(titles(Some(Part::Ray)).contains(&"campaigns on Ray"));
+    }
 }

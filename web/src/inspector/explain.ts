@@ -16,7 +16,7 @@ export const VERDICT_WORDS: Record<Verdict, string> = {
 export function subgoalTitle(one: Subgoal): string {
   if (isGoal(one)) return 'The goal itself';
   const where = direction(one.azimuth_rad);
-  return one.segment === undefined ? `Frontier or committed target, ${where}` : `Subgoal ${where}`;
+  return one.segment === undefined ? `Target or frontier, ${where}` : `Subgoal ${where}`;
 }
 
 export function subgoalState(one: Subgoal): string {

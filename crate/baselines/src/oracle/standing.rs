@@ -2,7 +2,8 @@
 
 use super::{OracleConfig, OracleError, PlanPose};
 use glam::DVec2;
-use mapless_world::{ConfigError, HeightField, HuskyConfig, attitude_on};
+use mapless_parameters::{Check, ConfigError, Value};
+use mapless_world::{HeightField, HuskyConfig, attitude_on};
 use std::f64::consts::TAU;
 
 /// Headings tried before a place is called too steep, or safe for every heading.
@@ -27,16 +28,14 @@ impl<'a> Standing<'a> {
         robot: &'a HuskyConfig,
         config: &OracleConfig,
     ) -> Result<Self, OracleError> {
-        robot.validate()?;
-        let refuse = |name, value, expected: String| Err(ConfigError { field: name, value, expected }.into());
-        if !(config.cell_m >= 0.1 && config.cell_m <= 10.0) {
-            return refuse("cell_m", config.cell_m, "a number from 0.1 to 10".to_owned());
-        }
+        robot.validate("robot")?;
+        let place = "oracle";
+        Check::Within(0.1, 10.0).require(place, "cell_m", Value::Number(config.cell_m))?;
+        Check::NotNegative.require(place, "margin_rad", Value::Number(config.margin_rad))?;
         let least_rad = robot.roll_limit_rad.min(robot.pitch_limit_rad);
-        if !(config.margin_rad >= 0.0 && config.margin_rad < least_rad) {
-            let expected = format!("a number from 0 to below the robot's limits, {least_rad}");
-            return refuse("margin_rad", config.margin_rad, expected);
-        }
+        let is_inside = config.margin_rad < least_rad;
+        let expected = "less than the robot's tilt limits";
+        ConfigError::require(is_inside, place, "margin_rad", config.margin_rad, expected)?;
         let max_roll_rad = robot.roll_limit_rad - config.margin_rad;
         let max_pitch_rad = robot.pitch_limit_rad - config.margin_rad;
         let gentle = gentle_cells(field, robot, safe_gradient(max_roll_rad, max_pitch_rad));

@@ -167,7 +167,7 @@ fn places_and_values_are_checked() {
     );
     let wide = OracleConfig { margin_rad: 0.6, ..ok };
     assert!(
-        search(START, GOAL_M, wide).to_string().starts_with("oracle.margin_rad = 0.6: expected a number")
+        search(START, GOAL_M, wide).to_string().starts_with("oracle.margin_rad = 0.6: expected less than")
     );
     let far = HeightField::new(3, 3, 1000.0, vec![0.0; 9]).unwrap();
     let error = shortest_path(&far, &robot, START, GOAL_M, &ok).unwrap_err();

@@ -3,8 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
+use mapless::PlannerConfig;
 use mapless_figures::plot::{Line, Plot, Scale};
-use mapless_trials::parameters::GROUPS;
+use mapless_trials::current_path;
+use mapless_trials::parameters::groups;
+use mapless_world::{HuskyConfig, SensorConfig};
 
 use super::comparison::{Contest, EVEN, contests};
 use super::figures::Figures;
@@ -71,11 +74,13 @@ fn name(path: &str) -> String {
     symbol.map_or_else(|| format!("`{path}`"), |(_, symbol)| format!("{symbol} (`{path}`)"))
 }
 
-/// What a parameter does, from the table that describes all of them.
+/// What a parameter does, by the path that it has now or had before.
 fn purpose(path: &str) -> Option<&'static str> {
+    let path = current_path(path);
     let (table, name) = path.rsplit_once('.')?;
-    let group = GROUPS.iter().flat_map(|groups| groups.iter()).find(|group| group.table == table)?;
-    group.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| parameter.text)
+    let groups = groups(&PlannerConfig::default(), &SensorConfig::default(), &HuskyConfig::default());
+    let parameters = groups.into_iter().find(|group| group.table == table)?.parameters;
+    parameters.iter().map(|valued| valued.parameter).find(|one| one.name == name).map(|one| one.text)
 }
 
 fn heading(text: &mut String, first: &str) -> fmt::Result {
@@ -316,7 +321,7 @@ mod tests {
         for needle in [
             "- **k_stp (`planner.decision.steepness_weight`)** of `default`, 1.0. Without it, 9 of 10 reach (1 tilt_limit) instead of 10 of 10, \
              within the 95 % intervals; max \\|roll\\| +50 % (higher on 9 of 9).\n",
-            "Charge for steep ways. **Bold**",
+            "Charge k_stp for steep paths. **Bold**",
             "| `default` | 0.0 | 9 of 10 (60–98 %) | 1 tilt_limit | 50.0 (+0 %) | 0.300 (+50 %) | | | | |\n",
             "| `default` | **1.0** | 10 of 10 (72–100 %) |  | 50.0 | 0.200 | | | | |\n",
         ] {
@@ -330,5 +335,7 @@ mod tests {
         for (path, _) in SYMBOLS {
             assert!(purpose(path).is_some(), "{path}");
         }
+        assert_eq!(purpose("planner.forecast.step_m"), purpose("planner.state_lattice.step_m"));
+        assert_eq!(purpose("planner.forecast.step"), None);
     }
 }

@@ -1,225 +1,80 @@
-//! Checks every value, with its place and what was expected.
+//! What relates several parameters. What a single one must hold stands in its entry.
 
-use super::{
-    ControllerConfig, DecisionConfig, ElevationWindowConfig, InducingInputs, PerceptionConfig, PlannerConfig,
-    SegmentConfig, StateLatticeConfig, WINDOW_CELLS,
-};
-use crate::error::{ConfigError, require};
+use mapless_parameters::ConfigError;
+
+use super::{ElevationWindowConfig, InducingInputs, PerceptionConfig, PlannerConfig, WINDOW_CELLS};
 use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::learning::LearningMode;
-use crate::robot_model::RobotModel;
-use crate::sensor_model::SensorModel;
 
 impl PlannerConfig {
-    /// Checks every value.
-    ///
-    /// # Errors
-    /// [`ConfigError`] with the first value that makes no sense, its place and what was expected.
-    pub fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner";
-        positive(self.goal_tolerance_m, place, "goal_tolerance_m")?;
-        self.robot.validate()?;
-        self.sensor.validate()?;
-        self.perception.validate()?;
-        self.segments.validate()?;
-        self.elevation_window.validate()?;
-        self.state_lattice.validate()?;
-        let step_m = self.state_lattice.step_m;
-        require(
-            step_m >= 0.2 && self.perception.surface_radius_m <= 40.0 * step_m,
-            "planner.state_lattice",
+    pub(super) fn check_relations(&self, place: &str) -> Result<(), ConfigError> {
+        let place = mapless_parameters::inside(place, "state_lattice");
+        let lattice = &self.state_lattice;
+        ConfigError::require(
+            self.perception.surface_radius_m <= 40.0 * lattice.step_m,
+            &place,
             "step_m",
-            step_m,
-            "at least 0.2 m and a fortieth of planner.perception.surface_radius_m",
+            lattice.step_m,
+            "at least a fortieth of planner.perception.surface_radius_m",
         )?;
-        let StateLatticeConfig { tilt_margin_rad, escape_margin_rad, impatient_margin_rad, .. } =
-            self.state_lattice;
-        for (name, margin) in [
-            ("tilt_margin_rad", tilt_margin_rad),
-            ("escape_margin_rad", escape_margin_rad),
-            ("impatient_margin_rad", impatient_margin_rad),
+        let least_rad = self.robot.roll_limit_rad.min(self.robot.pitch_limit_rad);
+        for (name, margin_rad) in [
+            ("tilt_margin_rad", lattice.tilt_margin_rad),
+            ("recovery_margin_rad", lattice.recovery_margin_rad),
+            ("over_budget_margin_rad", lattice.over_budget_margin_rad),
         ] {
-            let least = self.robot.roll_limit_rad.min(self.robot.pitch_limit_rad);
-            require(margin < least, "planner.state_lattice", name, margin, "less than both tilt limits")?;
+            let expected = "less than both tilt limits";
+            ConfigError::require(margin_rad < least_rad, &place, name, margin_rad, expected)?;
         }
-        self.decision.validate()?;
-        self.controller.validate()
-    }
-}
-
-impl RobotModel {
-    fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner.robot";
-        for (name, value) in [
-            ("length_m", self.length_m),
-            ("width_m", self.width_m),
-            ("wheelbase_m", self.wheelbase_m),
-            ("track_m", self.track_m),
-            ("wheel_radius_m", self.wheel_radius_m),
-            ("ground_clearance_m", self.ground_clearance_m),
-        ] {
-            positive(value, place, name)?;
-        }
-        not_negative(self.max_step_m, place, "max_step_m")?;
-        angle(self.roll_limit_rad, place, "roll_limit_rad")?;
-        angle(self.pitch_limit_rad, place, "pitch_limit_rad")
-    }
-}
-
-impl SensorModel {
-    fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner.sensor";
-        positive(self.height_m, place, "height_m")?;
-        require(self.forward_m.is_finite(), place, "forward_m", self.forward_m, "a number")
+        Ok(())
     }
 }
 
 impl PerceptionConfig {
-    fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner.perception";
-        positive(self.surface_radius_m, place, "surface_radius_m")?;
-        self.kernel.validate("planner.perception.kernel")?;
-        positive(self.noise_variance_m2, place, "noise_variance_m2")?;
-        positive(self.inducing_spacing_length_scales, place, "inducing_spacing_length_scales")?;
-        require(self.max_inducing_inputs > 0, place, "max_inducing_inputs", 0, "at least 1")?;
-        self.learning.validate("planner.perception.learning")?;
-        if self.learning.mode != LearningMode::Fixed {
-            let start = Hyperparameters { kernel: self.kernel, noise_variance: self.noise_variance_m2 };
-            let expected = "a start (kernel, noise_variance_m2) within its bounds";
-            let fault = self.learning.check_start(&start).err();
-            let value = fault.as_ref().map_or(String::new(), ToString::to_string);
-            require(fault.is_none(), "planner.perception", "learning", value, expected)?;
-            let lattice = self.inducing_inputs == InducingInputs::Lattice;
-            let place = "planner.perception.learning";
-            let expected = "false with inducing_inputs = \"lattice\", which cannot move";
-            require(
-                !(lattice && self.learning.learn_inducing_inputs),
-                place,
-                "learn_inducing_inputs",
-                true,
-                expected,
-            )?;
+    pub(super) fn check_learning(&self, place: &str) -> Result<(), ConfigError> {
+        if self.learning.mode == LearningMode::Fixed {
+            return Ok(());
         }
-        let threshold = self.variance_threshold;
-        require(
-            threshold > 0.0 && threshold < 1.0,
-            place,
-            "variance_threshold",
-            threshold,
-            "a share of the signal variance between 0 and 1",
+        let start = Hyperparameters { kernel: self.kernel, noise_variance: self.noise_variance_m2 };
+        if let Err(fault) = self.learning.check_start(&start) {
+            let expected = "a start (kernel, noise_variance_m2) within its bounds";
+            ConfigError::require(false, place, "learning", fault, expected)?;
+        }
+        ConfigError::require(
+            !(self.inducing_inputs == InducingInputs::Lattice && self.learning.learn_inducing_inputs),
+            &mapless_parameters::inside(place, "learning"),
+            "learn_inducing_inputs",
+            true,
+            "false with inducing_inputs = \"lattice\", which cannot move",
         )
     }
 }
 
-impl SegmentConfig {
-    fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner.segments";
-        angle(self.elevation_tolerance_rad, place, "elevation_tolerance_rad")?;
-        not_negative(self.safety_margin_m, place, "safety_margin_m")?;
-        angle(self.max_slope_rad, place, "max_slope_rad")
-    }
-}
-
 impl ElevationWindowConfig {
-    fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner.elevation_window";
-        positive(self.radius_m, place, "radius_m")?;
-        positive(self.cell_m, place, "cell_m")?;
-        // Two different places inside the window must not share a slot.
-        require(
+    /// Two different places inside the window must not share a slot.
+    pub(super) fn check_span(&self, place: &str) -> Result<(), ConfigError> {
+        ConfigError::require(
             self.cell_m * WINDOW_CELLS as f64 > 2.0 * self.radius_m,
             place,
             "cell_m",
             self.cell_m,
             "cells large enough that 96 of them span twice radius_m",
-        )?;
-        not_negative(self.curvature_per_m, place, "curvature_per_m")?;
-        time(self.memory_s, place, "memory_s")
+        )
     }
-}
-
-impl StateLatticeConfig {
-    fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner.state_lattice";
-        positive(self.step_m, place, "step_m")?;
-        not_negative(self.tilt_margin_rad, place, "tilt_margin_rad")?;
-        not_negative(self.escape_margin_rad, place, "escape_margin_rad")?;
-        not_negative(self.impatient_margin_rad, place, "impatient_margin_rad")?;
-        not_negative(self.change_cost_m, place, "change_cost_m")?;
-        let reverse = self.reverse_price;
-        require(reverse >= 1.0 && reverse.is_finite(), place, "reverse_price", reverse, "at least 1")?;
-        not_negative(self.escape_m, place, "escape_m")?;
-        not_negative(self.deviations, place, "deviations")?;
-        not_negative(self.blind_radius_m, place, "blind_radius_m")?;
-        not_negative(self.tilt_price, place, "tilt_price")?;
-        not_negative(self.climb_price, place, "climb_price")?;
-        let turn = self.turn_cost_m;
-        require(turn >= 0.1 && turn.is_finite(), place, "turn_cost_m", turn, "at least 0.1 m")?;
-        not_negative(self.clearance_m, place, "clearance_m")?;
-        not_negative(self.min_reach_m, place, "min_reach_m")
-    }
-}
-
-impl DecisionConfig {
-    fn validate(&self) -> Result<(), ConfigError> {
-        let place = "planner.decision";
-        not_negative(self.direction_weight, place, "direction_weight")?;
-        not_negative(self.distance_weight, place, "distance_weight")?;
-        not_negative(self.steepness_weight, place, "steepness_weight")?;
-        not_negative(self.climb_weight, place, "climb_weight")?;
-        not_negative(self.commitment_weight, place, "commitment_weight")?;
-        not_negative(self.dead_end_weight, place, "dead_end_weight")?;
-        time(self.spin_recovery_s, place, "spin_recovery_s")
-    }
-}
-
-impl ControllerConfig {
-    fn validate(&self) -> Result<(), ConfigError> {
-        for (gains, place) in
-            [(self.distance, "planner.controller.distance"), (self.yaw, "planner.controller.yaw")]
-        {
-            not_negative(gains.proportional, place, "proportional")?;
-            not_negative(gains.integral, place, "integral")?;
-            not_negative(gains.derivative, place, "derivative")?;
-        }
-        let place = "planner.controller";
-        positive(self.max_speed_m_s, place, "max_speed_m_s")?;
-        positive(self.max_turn_rate_rad_s, place, "max_turn_rate_rad_s")?;
-        angle(self.turn_first_rad, place, "turn_first_rad")?;
-        positive(self.look_turn_rate_rad_s, place, "look_turn_rate_rad_s")?;
-        let from = self.slow_from_share;
-        require((0.0..1.0).contains(&from), place, "slow_from_share", from, "a share below 1")?;
-        let least = self.least_speed_share;
-        require(least > 0.0 && least <= 1.0, place, "least_speed_share", least, "a share above 0")
-    }
-}
-
-/// Seconds; a year is as good as for ever.
-fn time(value: f64, place: &str, name: &'static str) -> Result<(), ConfigError> {
-    require((0.0..=3.2e7).contains(&value), place, name, value, "a time from 0 to 3.2e7 s")
-}
-
-fn positive(value: f64, place: &str, name: &'static str) -> Result<(), ConfigError> {
-    require(value.is_finite() && value > 0.0, place, name, value, "a positive number")
-}
-
-fn not_negative(value: f64, place: &str, name: &'static str) -> Result<(), ConfigError> {
-    require(value.is_finite() && value >= 0.0, place, name, value, "zero or a positive number")
-}
-
-fn angle(value: f64, place: &str, name: &'static str) -> Result<(), ConfigError> {
-    let right = core::f64::consts::FRAC_PI_2;
-    require(value > 0.0 && value < right, place, name, value, "an angle between 0 and π/2 rad")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn fault(config: &PlannerConfig) -> String {
+        config.validate("planner").unwrap_err().to_string()
+    }
+
     #[test]
     fn both_presets_are_valid() {
-        PlannerConfig::default().validate().unwrap();
-        PlannerConfig::paper().validate().unwrap();
+        assert_eq!(PlannerConfig::default().validate("planner"), Ok(()));
+        assert_eq!(PlannerConfig::paper().validate("planner"), Ok(()));
     }
 
     #[test]
@@ -228,18 +83,32 @@ mod tests {
             let mut config = PlannerConfig::default();
             config.state_lattice.step_m = step_m;
             config.perception.surface_radius_m = surface_radius_m;
-            let error = config.validate().unwrap_err().to_string();
+            let error = fault(&config);
             assert!(error.starts_with("planner.state_lattice.step_m = "), "{error}");
         }
+    }
+
+    #[test]
+    fn a_margin_as_large_as_a_tilt_limit_is_refused() {
+        let mut config = PlannerConfig::default();
+        config.robot.roll_limit_rad = config.state_lattice.recovery_margin_rad;
+        config.state_lattice.tilt_margin_rad = 0.01;
+        let expected =
+            "planner.state_lattice.recovery_margin_rad = 0.06: expected less than both tilt limits";
+        assert_eq!(fault(&config), expected);
+    }
+
+    #[test]
+    fn a_window_that_its_cells_do_not_span_is_refused() {
+        let mut config = PlannerConfig::default();
+        config.elevation_window.cell_m = 0.1;
+        assert!(fault(&config).starts_with("planner.elevation_window.cell_m = 0.1: expected cells"));
     }
 
     #[test]
     fn an_error_names_place_value_and_expectation() {
         let mut config = PlannerConfig::default();
         config.perception.kernel.alpha = f64::NAN;
-        assert_eq!(
-            config.validate().unwrap_err().to_string(),
-            "planner.perception.kernel.alpha = NaN: expected a positive number"
-        );
+        assert_eq!(fault(&config), "planner.perception.kernel.alpha = NaN: expected a positive number");
     }
 }

@@ -71,7 +71,7 @@ impl Controller {
         let bearing = wrap_rad(bearing_rad);
         let turning = self.yaw.update(bearing, &config.yaw, elapsed, config.max_turn_rate_rad_s);
         let forward = self.distance.update(distance_m, &config.distance, elapsed, config.max_speed_m_s);
-        let ahead = if bearing.abs() > config.turn_first_rad { 0.0 } else { libm::cos(bearing) };
+        let ahead = if bearing.abs() > config.rotate_in_place_rad { 0.0 } else { libm::cos(bearing) };
         Command { linear_m_s: forward.max(0.0) * ahead, angular_rad_s: turning }
     }
 
@@ -93,10 +93,10 @@ impl Controller {
     /// The command as slow as a robot should drive that takes up `share` of a tilt limit. A turn in place leaves its wheels where they
     /// are, by and large, and is not slowed as much.
     pub(crate) fn regulated(&self, command: Command, share: f64) -> Command {
-        let ControllerConfig { slow_from_share, least_speed_share, .. } = self.config;
-        let left = (1.0 - share) / (1.0 - slow_from_share);
+        let ControllerConfig { regulate_from_utilisation, min_speed_share, .. } = self.config;
+        let left = (1.0 - share) / (1.0 - regulate_from_utilisation);
         let in_place = command.linear_m_s == 0.0;
-        let least = if in_place { least_speed_share.max(LEAST_TURN_SHARE) } else { least_speed_share };
+        let least = if in_place { min_speed_share.max(LEAST_TURN_SHARE) } else { min_speed_share };
         let speed = left.clamp(least, 1.0);
         Command { linear_m_s: speed * command.linear_m_s, angular_rad_s: speed * command.angular_rad_s }
     }
@@ -104,7 +104,7 @@ impl Controller {
     /// Turns in place to look around.
     pub fn spin(&mut self) -> Command {
         self.reset();
-        Command { linear_m_s: 0.0, angular_rad_s: self.config.look_turn_rate_rad_s }
+        Command { linear_m_s: 0.0, angular_rad_s: self.config.spin_turn_rate_rad_s }
     }
 }
 
@@ -115,11 +115,11 @@ mod tests {
     #[test]
     fn near_the_limits_a_drive_is_slowed_more_than_a_turn_in_place() {
         let controller = Controller::new(ControllerConfig::default());
-        let ControllerConfig { slow_from_share, least_speed_share, .. } = controller.config;
+        let ControllerConfig { regulate_from_utilisation, min_speed_share, .. } = controller.config;
         let drive = Command { linear_m_s: 0.8, angular_rad_s: 0.5 };
         let turn = Command { linear_m_s: 0.0, angular_rad_s: 1.0 };
-        for (command, least_share) in [(drive, least_speed_share), (turn, LEAST_TURN_SHARE)] {
-            assert_eq!(controller.regulated(command, slow_from_share), command);
+        for (command, least_share) in [(drive, min_speed_share), (turn, LEAST_TURN_SHARE)] {
+            assert_eq!(controller.regulated(command, regulate_from_utilisation), command);
             let slowest = controller.regulated(command, 1.5);
             assert!((slowest.linear_m_s - least_share * command.linear_m_s).abs() < 1e-12);
             assert!((slowest.angular_rad_s - least_share * command.angular_rad_s).abs() < 1e-12);

@@ -19,7 +19,7 @@ pub(crate) fn choose_cheapest(subgoals: &mut [Subgoal], config: &DecisionConfig)
         cost.distance *= config.distance_weight;
         cost.steepness *= config.steepness_weight;
         cost.commitment *= config.commitment_weight;
-        cost.correction *= config.dead_end_weight;
+        cost.correction *= config.correction_weight;
         let total = cost.total();
         if best.is_none_or(|(_, least)| total < least) {
             best = Some((index, total));

@@ -75,9 +75,12 @@ impl ForecastPolicy {
 
     /// Counts the cost of slopes as configured or, beyond the detour budget, less: on paths and in the choice.
     fn scale_slope_cost(&mut self, within_budget: bool) {
-        let StateLatticeConfig { escape_margin_rad, impatient_margin_rad, .. } = self.lattice_config;
-        let (share, least_margin_rad) =
-            if within_budget { (1.0, escape_margin_rad) } else { (OVER_BUDGET_SHARE, impatient_margin_rad) };
+        let StateLatticeConfig { recovery_margin_rad, over_budget_margin_rad, .. } = self.lattice_config;
+        let (share, least_margin_rad) = if within_budget {
+            (1.0, recovery_margin_rad)
+        } else {
+            (OVER_BUDGET_SHARE, over_budget_margin_rad)
+        };
         self.lattice.scale_slope_cost(share);
         self.lattice.keep_margin(least_margin_rad);
         self.weights.steepness_weight = share * self.configured.steepness_weight;

@@ -6,7 +6,8 @@ use crate::gp::jitter::GpError;
 use crate::gp::kernel::RationalQuadratic;
 
 /// What a regression is given besides its data.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hyperparameters {
     /// The kernel: signal variance, length-scales and alpha.
     pub kernel: RationalQuadratic,

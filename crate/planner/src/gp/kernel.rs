@@ -3,38 +3,23 @@
 
 use glam::DVec2;
 
-use crate::error::{ConfigError, require};
+use mapless_parameters::parameters;
 
-/// Hyperparameters of the rational quadratic kernel.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct RationalQuadratic {
-    /// Signal variance σ², in square metres of occupancy.
-    pub variance: f64,
-    /// Length-scales ℓ over azimuth and elevation; equal ones give the paper's isotropic kernel.
-    pub length_scales_rad: [f64; 2],
-    /// Weighting of length-scales γ (alpha elsewhere); whole numbers need no power function.
-    pub alpha: f64,
-}
-
-impl Default for RationalQuadratic {
-    /// An elevation length-scale near the sensor's ring spacing; DESIGN.md says how the values were chosen.
-    fn default() -> Self {
-        Self { variance: 1.0, length_scales_rad: [0.15, 0.04], alpha: 10.0 }
+parameters! {
+    /// Hyperparameters of the rational quadratic kernel.
+    #[derive(Copy)]
+    pub struct RationalQuadratic {
+        /// Signal variance σ² of the occupancy. The paper learns it.
+        variance: f64 = 1.0, unit "m²", range [0.05, 10.0], check Positive;
+        /// Length-scales ℓ over azimuth and elevation. The paper learns one for both, so its kernel is isotropic. By default
+        /// the one over elevation is near the sensor's ring spacing.
+        length_scales_rad: [f64; 2] = [0.15, 0.04], unit "rad", range [0.01, 0.5], check Positive;
+        /// Weighting of length-scales γ in the rational quadratic, alpha elsewhere. Whole numbers are faster.
+        alpha: f64 = 10.0, range [0.5, 50.0], check Positive;
     }
 }
 
 impl RationalQuadratic {
-    /// Checks every hyperparameter; `place` names the table in error messages.
-    pub(crate) fn validate(&self, place: &str) -> Result<(), ConfigError> {
-        let positive = |v: f64| v.is_finite() && v > 0.0;
-        require(positive(self.variance), place, "variance", self.variance, "a positive number")?;
-        for length_scale in self.length_scales_rad {
-            require(positive(length_scale), place, "length_scales_rad", length_scale, "two positive angles")?;
-        }
-        require(positive(self.alpha), place, "alpha", self.alpha, "a positive number")
-    }
-
     /// The covariance of two points given as (azimuth, elevation) in radians.
     pub fn covariance(&self, a: DVec2, b: DVec2) -> f64 {
         let [azimuth, elevation] = self.length_scales_rad;

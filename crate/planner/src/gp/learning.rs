@@ -11,96 +11,72 @@
 mod space;
 
 use glam::DVec2;
+use mapless_parameters::{ConfigError, choices, parameters};
 
-use crate::error::{ConfigError, require};
 use crate::gp::bound::CollapsedBound;
 use crate::gp::hyperparameters::{Hyperparameters, RegressionError};
 use crate::math::optimiser;
 pub use crate::math::optimiser::{Optimiser, Stop};
 use space::Space;
 
-/// When hyperparameters are learned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LearningMode {
-    /// Never: the configured values hold.
-    Fixed,
-    /// On the first scan; the values then hold.
-    Once,
-    /// On every scan, from the values of the scan before. Paper.
-    EveryScan,
+choices! {
+    /// When hyperparameters are learned.
+    pub enum LearningMode {
+        /// Never: the configured values hold.
+        Fixed = "fixed",
+        /// On the first scan; the values then hold.
+        Once = "once",
+        /// On every scan, from the values of the scan before. Paper.
+        EveryScan = "every_scan",
+    }
 }
 
 impl core::str::FromStr for LearningMode {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, String> {
-        match name {
-            "fixed" => Ok(Self::Fixed),
-            "once" => Ok(Self::Once),
-            "every_scan" => Ok(Self::EveryScan),
-            _ => Err(format!("learning \"{name}\": expected fixed, once or every_scan")),
-        }
+        let mode = Self::ALL.iter().find(|mode| mode.word() == name);
+        mode.copied().ok_or_else(|| format!("learning \"{name}\": expected fixed, once or every_scan"))
     }
 }
 
-/// What learning may do and how much work it may be.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct LearningConfig {
-    /// When.
-    pub mode: LearningMode,
-    /// Which method climbs the bound. Paper: not given.
-    pub optimiser: Optimiser,
-    /// Evaluations of the bound with its gradient for each scan learned from, the first included. From the default
-    /// hyperparameters within the default bounds the climb takes 7 to 15; moving inducing inputs take many more.
-    pub evaluations_per_scan: u32,
-    /// Whether the inducing inputs move too. Paper: yes.
-    pub learn_inducing_inputs: bool,
-    /// Whether one length-scale serves both axes, within the bounds of both. Paper: yes.
-    pub isotropic: bool,
-    /// Where the hyperparameters may go.
-    pub bounds: HyperparameterBounds,
-}
-
-/// Lowest and highest value of each hyperparameter; two equal ones hold it fixed.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct HyperparameterBounds {
-    /// Signal variance σ², square metres.
-    pub variance_m2: [f64; 2],
-    /// Length-scale over azimuth.
-    pub azimuth_length_scale_rad: [f64; 2],
-    /// Length-scale over elevation.
-    pub elevation_length_scale_rad: [f64; 2],
-    /// Weighting of length-scales γ.
-    pub alpha: [f64; 2],
-    /// Noise variance σₙ², square metres.
-    pub noise_variance_m2: [f64; 2],
-}
-
-impl Default for LearningConfig {
-    fn default() -> Self {
-        Self {
-            mode: LearningMode::Fixed,
-            optimiser: Optimiser::Lbfgs,
-            evaluations_per_scan: 20,
-            learn_inducing_inputs: false,
-            isotropic: false,
-            bounds: HyperparameterBounds::default(),
-        }
+parameters! {
+    /// What learning may do and how much work it may be.
+    #[derive(Copy)]
+    pub struct LearningConfig {
+        /// When the kernel and the noise are learned.
+        mode: LearningMode = LearningMode::Fixed, paper LearningMode::EveryScan;
+        /// Method that climbs the bound.
+        optimiser: Optimiser = Optimiser::Lbfgs;
+        /// Evaluations of the bound with its gradient for each scan learned from, the first included. From the default
+        /// hyperparameters within the default bounds the climb takes 7 to 15; moving inducing inputs take many more.
+        evaluations_per_scan: u32 = 20, range [2, 200], check AtLeast(2.0);
+        /// Whether the inducing inputs move too. Not with the lattice.
+        learn_inducing_inputs: bool = false, paper true;
+        /// Whether one length-scale serves both axes, within the bounds of both.
+        isotropic: bool = false, paper true;
     }
+    tables {
+        /// Where the hyperparameters may go.
+        bounds: HyperparameterBounds;
+    }
+    relations check_common_bounds;
 }
 
-impl Default for HyperparameterBounds {
-    fn default() -> Self {
-        Self {
-            variance_m2: [0.8, 1.25],
-            azimuth_length_scale_rad: [0.12, 0.2],
-            elevation_length_scale_rad: [0.035, 0.045],
-            alpha: [5.0, 20.0],
-            noise_variance_m2: [2.5, 4.0],
-        }
+parameters! {
+    /// Lowest and highest value of each hyperparameter; two equal ones hold it fixed.
+    #[derive(Copy)]
+    pub struct HyperparameterBounds {
+        /// Lowest and highest signal variance σ².
+        variance_m2: [f64; 2] = [0.8, 1.25], unit "m²", range [0.05, 10.0], check Ascending;
+        /// Lowest and highest length-scale over azimuth.
+        azimuth_length_scale_rad: [f64; 2] = [0.12, 0.2], unit "rad", range [0.01, 0.5], check Ascending;
+        /// Lowest and highest length-scale over elevation.
+        elevation_length_scale_rad: [f64; 2] = [0.035, 0.045], unit "rad", range [0.01, 0.5], check Ascending;
+        /// Lowest and highest weighting of length-scales γ.
+        alpha: [f64; 2] = [5.0, 20.0], range [0.5, 50.0], check Ascending;
+        /// Lowest and highest noise variance σₙ².
+        noise_variance_m2: [f64; 2] = [2.5, 4.0], unit "m²", range [0.001, 10.0], check Ascending;
     }
 }
 
@@ -109,50 +85,18 @@ impl LearningConfig {
     /// and noise of [`crate::PlannerConfig::paper`].
     pub fn paper() -> Self {
         let length_scale_rad = [0.03, 0.04];
-        Self {
-            mode: LearningMode::EveryScan,
-            learn_inducing_inputs: true,
-            isotropic: true,
-            bounds: HyperparameterBounds {
-                azimuth_length_scale_rad: length_scale_rad,
-                elevation_length_scale_rad: length_scale_rad,
-                noise_variance_m2: [0.01, 2.0],
-                ..HyperparameterBounds::default()
-            },
-            ..Self::default()
-        }
+        let mut config = Self::default().with_paper_values();
+        config.bounds.azimuth_length_scale_rad = length_scale_rad;
+        config.bounds.elevation_length_scale_rad = length_scale_rad;
+        config.bounds.noise_variance_m2 = [0.01, 2.0];
+        config
     }
-}
 
-impl LearningConfig {
-    /// Checks every value; `place` names the table in error messages.
-    ///
-    /// # Errors
-    /// [`ConfigError`] with the first value that makes no sense.
-    pub fn validate(&self, place: &str) -> Result<(), ConfigError> {
-        let evaluations = self.evaluations_per_scan;
-        require(evaluations >= 2, place, "evaluations_per_scan", evaluations, "at least 2")?;
-        let bounds = &self.bounds;
-        let ranges = [
-            ("bounds.variance_m2", bounds.variance_m2),
-            ("bounds.azimuth_length_scale_rad", bounds.azimuth_length_scale_rad),
-            ("bounds.elevation_length_scale_rad", bounds.elevation_length_scale_rad),
-            ("bounds.alpha", bounds.alpha),
-            ("bounds.noise_variance_m2", bounds.noise_variance_m2),
-        ];
-        for (name, [lowest, highest]) in ranges {
-            let ok = lowest > 0.0 && lowest <= highest && highest.is_finite();
-            let value = format!("[{lowest}, {highest}]");
-            require(ok, place, name, value, "two positive numbers, the lower one first")?;
-        }
-        let [lowest, highest] = bounds.common_length_scale_rad();
-        require(
-            !self.isotropic || lowest <= highest,
-            place,
-            "isotropic",
-            self.isotropic,
-            "bounds on both length-scales that overlap",
-        )
+    fn check_common_bounds(&self, place: &str) -> Result<(), ConfigError> {
+        let [lowest, highest] = self.bounds.common_length_scale_rad();
+        let ok = !self.isotropic || lowest <= highest;
+        let expected = "bounds on both length-scales that overlap";
+        ConfigError::require(ok, place, "isotropic", self.isotropic, expected)
     }
 }
 

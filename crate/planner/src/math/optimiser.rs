@@ -8,8 +8,8 @@ mod adam;
 mod lbfgs;
 
 /// Why an ascent ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Stop {
     /// The slope inside the box, or the last gain, is negligible.
     Converged,
@@ -21,14 +21,14 @@ pub enum Stop {
     IllConditioned,
 }
 
-/// Which method climbs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Optimiser {
-    /// Limited-memory BFGS with an active set of bounds and a backtracking search along the projected path.
-    Lbfgs,
-    /// Adam (Kingma and Ba 2015), whose rate is halved when it stalls; the best place it visited counts.
-    Adam,
+mapless_parameters::choices! {
+    /// Which method climbs.
+    pub enum Optimiser {
+        /// Limited-memory BFGS with an active set of bounds and a backtracking search along the projected path.
+        Lbfgs = "lbfgs",
+        /// Adam (Kingma and Ba 2015), whose rate is halved when it stalls; the best place it visited counts.
+        Adam = "adam",
+    }
 }
 
 /// Lowest and highest values of each coordinate.

@@ -207,7 +207,7 @@ mod tests {
     fn with_mode(mut config: PlannerConfig, mode: LearningMode) -> PerceptionConfig {
         config.perception.learning.mode = mode;
         config.perception.learning.evaluations_per_scan = 6;
-        config.validate().unwrap();
+        config.validate("planner").unwrap();
         config.perception
     }
 
@@ -254,12 +254,12 @@ mod tests {
         let mut config = PlannerConfig::default();
         config.perception.learning.mode = LearningMode::Once;
         config.perception.noise_variance_m2 = 100.0;
-        let error = config.validate().unwrap_err().to_string();
+        let error = config.validate("planner").unwrap_err().to_string();
         assert!(error.contains("noise_variance = 100: expected a start between"), "{error}");
         let mut config = PlannerConfig::default();
         config.perception.learning.mode = LearningMode::EveryScan;
         config.perception.learning.learn_inducing_inputs = true;
-        let error = config.validate().unwrap_err().to_string();
+        let error = config.validate("planner").unwrap_err().to_string();
         assert!(error.starts_with("planner.perception.learning.learn_inducing_inputs = true"), "{error}");
     }
 }

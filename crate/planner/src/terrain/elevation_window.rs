@@ -131,7 +131,7 @@ impl ElevationWindow {
     fn plane_within(&self, place_m: DVec2, radius_m: f64) -> Option<Plane> {
         let moments = self.moments_near(place_m, radius_m, |_| true);
         let plane = moments.plane()?;
-        let unseen = self.config.curvature_per_m * moments.distance_m();
+        let unseen = self.config.slope_deviation_per_m * moments.distance_m();
         Some(Plane { gradient_deviation: libm::hypot(plane.gradient_deviation, unseen), ..plane })
     }
 

@@ -105,7 +105,7 @@ impl TraversabilityMap {
             tilt_limits: *limits,
             limits: Slopes::of_limits(limits, 0.0),
             allowed: Slopes::of_limits(limits, config.tilt_margin_rad),
-            most: Slopes::of_limits(limits, config.escape_margin_rad),
+            most: Slopes::of_limits(limits, config.recovery_margin_rad),
             half,
             centre: IVec2::ZERO,
             places: vec![UNKNOWN; side * side],
@@ -199,7 +199,7 @@ impl TraversabilityMap {
                     let footprint_slopes = plane.map_or([None; HEADINGS / 2], |plane| {
                         DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
                     });
-                    let is_negative_obstacle = self.config.avoids_edges
+                    let is_negative_obstacle = self.config.avoids_negative_obstacles
                         && footprint_slopes.iter().any(Option::is_none)
                         && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
                     self.planes.set(world, Known { plane, footprint_slopes, is_negative_obstacle });
@@ -213,7 +213,7 @@ impl TraversabilityMap {
         for index in 0..self.places.len() {
             let offset = self.offset(index);
             let known = self.planes.get(self.centre + offset).copied();
-            let is_at_cliff = self.config.avoids_edges && self.is_beside_missing(offset);
+            let is_at_cliff = self.config.avoids_negative_obstacles && self.is_beside_missing(offset);
             self.places[index] = match known.and_then(|known| Some((known.plane?, known.footprint_slopes))) {
                 Some((plane, footprint_slopes)) => {
                     let place_m = self.position_m(offset);
@@ -258,13 +258,13 @@ impl TraversabilityMap {
 
     /// How many standard deviations of slopes are allowed for at a place.
     pub(crate) fn deviations_at(&self, place_m: DVec2) -> f64 {
-        (1.0 + self.doubt_at(place_m)) * self.config.deviations
+        (1.0 + self.doubt_at(place_m)) * self.config.slope_deviations
     }
 
     /// The risk of standing on slopes, with what is allowed for what is uncertain of them, at a distance from the robot; infinite where
     /// that is not safe.
     pub(crate) fn risk_on(&self, slopes: &Slopes, uncertain: f64, caution: Caution, away_m: f64) -> f64 {
-        let escapes = caution == Caution::Escape && away_m < self.config.escape_m;
+        let escapes = caution == Caution::Escape && away_m < self.config.recovery_radius_m;
         let (allowed, uncertain) = if escapes { (&self.most, 0.0) } else { (&self.allowed, uncertain) };
         let share = slopes.share_of(&self.limits);
         if slopes.within(allowed, uncertain) {

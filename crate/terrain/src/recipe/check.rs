@@ -63,7 +63,7 @@ impl<'a> Table<'a> {
             StrokeError::Syntax(reason) => TerrainFault::damaged("recipe", reason),
             StrokeError::Value { key, value, expected } => self.fault(&key, value, expected),
             StrokeError::Brush { point, fault } => {
-                self.fault(&format!("points[{point}], {}", fault.field), fault.value, fault.expected)
+                self.fault(&format!("points[{point}], {}", fault.name), fault.value, fault.expected)
             }
         }
     }

@@ -210,7 +210,7 @@ impl Recipe {
             let stroke = Stroke::try_from(&table.value).map_err(|error| at.stroke_fault(error))?;
             effort.spend(stroke.samples(field)).map_err(|much| at.too_much(much))?;
             for brush in stroke.brushes() {
-                field.sculpt(brush).map_err(|fault| at.fault(fault.field, fault.value, fault.expected))?;
+                field.sculpt(brush).map_err(|fault| at.fault(fault.name, fault.value, fault.expected))?;
             }
         }
         Ok(())

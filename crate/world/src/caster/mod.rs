@@ -10,10 +10,10 @@ mod fan;
 mod patch;
 mod pyramid;
 
-use crate::config::ConfigError;
 use crate::height_field::{FieldError, HeightField};
 use crate::sculpt::{Brush, SampleRect};
 use glam::DVec3;
+use mapless_parameters::ConfigError;
 use pyramid::{Plane, Pyramid, shift};
 
 pub(crate) use fan::Fan;

@@ -2,10 +2,10 @@
 
 mod profile;
 
-use crate::config::{ConfigError, positive, within};
 use crate::height_field::{FieldError, HEIGHT_LIMIT_M, HeightField};
 use crate::noise::GradientNoise;
 use glam::DVec2;
+use mapless_parameters::{Check, ConfigError, Value};
 use profile::{boulder, bump, crater, flat_bottom, flat_top};
 
 pub use profile::smooth_step;
@@ -97,17 +97,20 @@ impl Brush {
     /// # Errors
     /// [`ConfigError`] names the first field outside its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
-        within("centre.x", self.centre.x, f64::MIN, f64::MAX)?;
-        within("centre.y", self.centre.y, f64::MIN, f64::MAX)?;
-        positive("radius_m", self.radius_m)?;
-        within("strength_m", self.strength_m, 0.0, 100.0)?;
-        if let BrushKind::Level { height_m } = self.kind {
-            let limit_m = f64::from(HEIGHT_LIMIT_M);
-            within("height_m", height_m, -limit_m, limit_m)?;
-        }
+        let limit_m = f64::from(HEIGHT_LIMIT_M);
         let end = self.end();
-        within("to.x", end.x, f64::MIN, f64::MAX)?;
-        within("to.y", end.y, f64::MIN, f64::MAX)
+        let mut checks = vec![
+            ("centre.x", self.centre.x, Check::Finite),
+            ("centre.y", self.centre.y, Check::Finite),
+            ("radius_m", self.radius_m, Check::Positive),
+            ("strength_m", self.strength_m, Check::Within(0.0, 100.0)),
+            ("to.x", end.x, Check::Finite),
+            ("to.y", end.y, Check::Finite),
+        ];
+        if let BrushKind::Level { height_m } = self.kind {
+            checks.push(("height_m", height_m, Check::Within(-limit_m, limit_m)));
+        }
+        checks.into_iter().try_for_each(|(name, value, check)| check.require("", name, Value::Number(value)))
     }
 
     /// The samples that it may change; `None` where it is beside the field.

@@ -6,7 +6,8 @@ use super::runner::{Side, Values};
 
 /// How far gpflow's results may lie from ours, relative to the largest of them.
 const TOLERANCE: f64 = 1e-6;
-/// How far the median of Embree's ranges may lie from ours, metres: the roughness of the hills, which every cell has its own of.
+/// How far the median of Embree's ranges may lie from ours, metres: the roughness of the hills, which every
+/// cell has its own of.
 const RANGE_TOLERANCE_M: f64 = 0.01;
 
 /// A comparison of what two sides computed.
@@ -24,7 +25,8 @@ impl Agreement {
     }
 }
 
-/// Compares what `sides` computed, ours natively first: with the peer within its tolerance, with wasm to the bit.
+/// Compares what `sides` computed, ours natively first: with the peer within its tolerance, with wasm to the
+/// bit.
 pub(crate) fn check(work: &str, sides: &[Side], values: &[Values]) -> anyhow::Result<Vec<Agreement>> {
     let native = values.first().context("no side computed anything")?;
     let mut agreements = Vec::new();
@@ -71,7 +73,8 @@ fn relative(ours: &[Option<f64>], theirs: &[Option<f64>]) -> anyhow::Result<f64>
     Ok(apart / largest)
 }
 
-/// Beams whose range on the triangles lies outside what the difference of the surfaces allows, and the median difference of ranges.
+/// Beams whose range on the triangles lies outside what the difference of the surfaces allows, and the median
+/// difference of ranges.
 fn ranges(work: &str, ours: &Values, theirs: &Values) -> anyhow::Result<[Agreement; 2]> {
     let [range, nearest, farthest] = ["range_m", "nearest_m", "farthest_m"].map(|name| ours.get(name));
     let (range, nearest, farthest, theirs) = (range?, nearest?, farthest?, theirs.get("range_m")?);

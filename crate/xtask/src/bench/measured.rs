@@ -58,8 +58,8 @@ impl Measured {
         Times::of(times.with_context(|| format!("{side:?} was not asked for {work}"))?)
     }
 
-    /// The same, of each repetition of a round the fastest over all rounds: a round does the same work as the one before, so what
-    /// remains is the work's own, without the machine's other business.
+    /// The same, of each repetition of a round the fastest over all rounds: a round does the same work as the
+    /// one before, so what remains is the work's own, without the machine's other business.
     pub(crate) fn quiet_times(&self, work: &str, side: Side) -> anyhow::Result<Times> {
         let times = self.times.get(&(work.to_owned(), side));
         let times = times.with_context(|| format!("{side:?} was not asked for {work}"))?;

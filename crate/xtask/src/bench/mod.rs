@@ -1,7 +1,8 @@
 //! mapless against its peers and against real time, written up in `docs/BENCHMARKS.md`.
 //!
-//! Four programs hold the pieces of work ready: ours natively, in Node and in Chromium, and the peers' in Python. They are asked
-//! in turn, a few repetitions at a time, so that what else the machine does falls on all of them.
+//! Four programs hold the pieces of work ready: ours natively, in Node and in Chromium, and the peers' in
+//! Python. They are asked in turn, a few repetitions at a time, so that what else the machine does falls on
+//! all of them.
 
 mod agreement;
 mod environment;

@@ -66,6 +66,8 @@ pub(crate) fn report(measured: &Measured) -> anyhow::Result<String> {
          Everyone runs on one thread, in double precision (Embree in single), on the same inputs, which `crate/bench` makes by rule: the \
          1823 occupied cells that five rings and a part of the sixth see of undulating level ground, inducing inputs by farthest point, and the default preset's \
          hyperparameters (variance 1 m², length-scales 0.15 and 0.04 rad, alpha 10, noise 3 m²). gpflow is compiled by `tf.function`. \
+         lightgp (0.1.2) is no peer: its sparse process knows the squared-exponential kernel alone, with one length-scale, in single \
+         precision, and chooses the inducing inputs itself. \
          All are asked in turn, round by round, because the machine is not theirs alone; times are *fastest / median*, \
          and a target counts as met by the ratio of the fastest.\n",
         measured.rounds, measured.machine

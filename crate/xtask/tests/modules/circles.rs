@@ -19,12 +19,13 @@ struct Arrow {
 
 /// Every circle in the crate with this root file, each as a text that names its files and lines.
 ///
-/// A module *uses* another when its source, outside tests, has a path to what the other defines; a path through
-/// re-exports leads to the definition, and `mod` alone is no use. A module and its submodules are one room: they may
-/// use each other. Two modules of different rooms are compared by the rooms that stand side by side in the module that
-/// holds both, and there no room may come back to itself. So with `a`, `a/x`, `a/y` and `b`, `a` and `a/x` may use each
-/// other, `a/x` and `a/y` only one the other, and nothing in `b` may use anything in `a` if anything in `a` uses
-/// anything in `b`. The crate root stands beside the modules in it, as a room of its own.
+/// A module *uses* another when its source, outside tests, has a path to what the other defines; a path
+/// through re-exports leads to the definition, and `mod` alone is no use. A module and its submodules are one
+/// room: they may use each other. Two modules of different rooms are compared by the rooms that stand side by
+/// side in the module that holds both, and there no room may come back to itself. So with `a`, `a/x`, `a/y`
+/// and `b`, `a` and `a/x` may use each other, `a/x` and `a/y` only one the other, and nothing in `b` may use
+/// anything in `a` if anything in `a` uses anything in `b`. The crate root stands beside the modules in it,
+/// as a room of its own.
 pub(crate) fn circles(root: &Path) -> Vec<String> {
     let modules = read(root);
     let mut levels: BTreeMap<Option<usize>, Vec<(Arrow, [usize; 2])>> = BTreeMap::new();
@@ -106,8 +107,8 @@ fn imported(
     defining_module(modules, module, path, reexports)
 }
 
-/// The module that holds both ends of an arrow, `None` for the crate itself, and the two rooms side by side in it that the
-/// arrow joins; none where one end is within the other.
+/// The module that holds both ends of an arrow, `None` for the crate itself, and the two rooms side by side
+/// in it that the arrow joins; none where one end is within the other.
 fn rooms(modules: &[Module], arrow: &Arrow) -> Option<(Option<usize>, [usize; 2])> {
     let (from, to) = (rooms_above(modules, arrow.from), rooms_above(modules, arrow.to));
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();

@@ -67,13 +67,18 @@ fn read_items(modules: &mut Vec<Module>, index: usize, folder: &Path, items: &[s
             continue;
         }
         let beside = folder.join(&name).with_extension("rs");
+        let mut inside = folder.join(&name);
         child.file = match path_attribute(&submodule.attrs) {
             Some(path) => modules[index].file.with_file_name(path),
             None if beside.is_file() => beside,
-            None => folder.join(&name).join("mod.rs"),
+            None => inside.join("mod.rs"),
         };
+        // The submodules of a file with a path of its own lie beside it.
+        if path_attribute(&submodule.attrs).is_some() {
+            inside = child.file.parent().map_or(inside, Path::to_owned);
+        }
         modules.push(child);
-        read_file(modules, child_index, &folder.join(name));
+        read_file(modules, child_index, &inside);
     }
 }
 

@@ -154,7 +154,7 @@ fn on_a_slope_too_steep_to_turn_on_the_way_back_is_in_reverse() {
 #[test]
 fn a_turn_keeps_the_least_margin_in_roll_and_in_pitch() {
     let limits = PlannerConfig::default().robot;
-    let least_rad = PlannerConfig::default().state_lattice.escape_margin_rad;
+    let least_rad = PlannerConfig::default().state_lattice.recovery_margin_rad;
     let mut lattice = lattice();
     // Half-way between up and down a slope the robot rolls.
     for (excess_rad, may_turn) in [(-0.01, true), (0.01, false)] {
@@ -172,7 +172,7 @@ fn a_turn_keeps_the_least_margin_in_roll_and_in_pitch() {
 #[test]
 fn ground_with_the_least_margin_is_crossed_where_nothing_else_leads_on() {
     let config = PlannerConfig::default();
-    let steep = libm::tan(config.robot.pitch_limit_rad - config.state_lattice.escape_margin_rad - 0.005);
+    let steep = libm::tan(config.robot.pitch_limit_rad - config.state_lattice.recovery_margin_rad - 0.005);
     let slope = |place_m: DVec2, half_width_m: f64| {
         let on_bank = (1.9..3.1).contains(&place_m.x) && place_m.y.abs() < half_width_m;
         plane(place_m, if on_bank { DVec2::new(steep, 0.0) } else { DVec2::ZERO })
@@ -465,7 +465,7 @@ proptest! {
         let Some(reached) = lattice.to(DVec2::new(cos, sin) * 6.0) else { return Ok(()) };
         let mut path = Vec::new();
         let forecast = lattice.follow(reached, &mut path);
-        let margin_rad = PlannerConfig::default().state_lattice.escape_margin_rad;
+        let margin_rad = PlannerConfig::default().state_lattice.recovery_margin_rad;
         let limits = PlannerConfig::default().robot;
         prop_assert!(forecast.max_roll_rad <= limits.roll_limit_rad - margin_rad + 1e-6, "{forecast:?}");
         prop_assert!(forecast.max_pitch_rad <= limits.pitch_limit_rad - margin_rad + 1e-6, "{forecast:?}");
