@@ -4,8 +4,9 @@
 use std::path::{Path, PathBuf};
 
 use mapless::PlannerConfig;
+use mapless_terrain::{load_terrain, load_terrain_bytes};
 use mapless_trials::{ProfileAccuracy, TrialError, profile_accuracy};
-use mapless_world::{Caster, HeightField, RobotConfig, SensorConfig, load_terrain, load_terrain_bytes};
+use mapless_world::{Caster, HeightField, RobotConfig, SensorConfig};
 
 const POSES: usize = 25;
 

@@ -42,7 +42,7 @@ impl Bundled {
     pub fn trial(&self) -> Result<Trial, String> {
         let scenario = Scenario::parse(self.name, self.scenario).map_err(|e| e.to_string())?;
         let terrain =
-            mapless_world::load_terrain_bytes(&scenario.terrain, self.terrain.as_bytes(), &mut |file| {
+            mapless_terrain::load_terrain_bytes(&scenario.terrain, self.terrain.as_bytes(), &mut |file| {
                 Err(format!("{file}: not bundled"))
             })
             .map_err(|e| e.to_string())?;

@@ -6,9 +6,10 @@
 
 use crate::oracle::{OracleConfig, OracleError, OraclePath, PlanPose, SafePoses};
 use glam::DVec2;
-use mapless_world::generate::{Difficulty, terrain_recipe};
+use mapless_terrain::generate::{Difficulty, terrain_recipe};
+use mapless_terrain::{Terrain, TerrainError, load_terrain_bytes};
+use mapless_world::RobotConfig;
 use mapless_world::random::{Sequence, key};
-use mapless_world::{RobotConfig, Terrain, TerrainError, load_terrain_bytes};
 use std::f64::consts::TAU;
 use std::fmt;
 use std::str::FromStr;

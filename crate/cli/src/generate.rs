@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use indicatif::ProgressIterator as _;
 use mapless_baselines::{Task, TaskName};
-use mapless_world::generate::Difficulty;
+use mapless_terrain::generate::Difficulty;
 use summary::Summary;
 
 use crate::parsers;

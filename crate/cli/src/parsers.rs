@@ -3,8 +3,8 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use mapless::gp::learning::LearningMode;
 use mapless_baselines::{NavigatorKind, Truth};
+use mapless_terrain::generate::Difficulty;
 use mapless_trials::Preset;
-use mapless_world::generate::Difficulty;
 
 /// Parses the name of a configuration of the mapless planner, for `--planner` where baselines do not apply.
 pub(crate) fn preset() -> impl TypedValueParser<Value = Preset> {

@@ -75,6 +75,7 @@ macro_rules! parameters {
 
             /// The values of [`Self::PARAMETERS`], in the same order.
             #[must_use]
+            #[cold]
             pub fn values(&self) -> [$crate::Value; Self::PARAMETERS.len()] {
                 [$($crate::__value!($type, self.$field)),*]
             }
@@ -84,6 +85,7 @@ macro_rules! parameters {
             /// # Errors
             /// [`ConfigError`]($crate::ConfigError) with the first value that makes no sense, its place and
             /// what was expected.
+            #[cold]
             pub fn validate(&self, place: &str) -> Result<(), $crate::ConfigError> {
                 $crate::check_all(place, Self::PARAMETERS, &self.values())?;
                 $($(self.$table.validate(&$crate::inside(place, stringify!($table)))?;)*)?
@@ -94,6 +96,7 @@ macro_rules! parameters {
             /// The same with every value that the paper gives.
             #[must_use]
             #[allow(unused_mut, reason = "the paper may give none")]
+            #[cold]
             pub fn with_paper_values(mut self) -> Self {
                 $($(self.$field = $paper;)?)*
                 $($(self.$table = self.$table.with_paper_values();)*)?

@@ -159,8 +159,12 @@ impl Planner {
     /// Without this a jump of the pose tears the window apart. Only the turn about z and the shift between
     /// both poses count.
     pub fn relocalise(&mut self, before: &Pose, after: &Pose) {
-        if before.is_finite() && after.is_finite() {
-            self.policy.get_mut().relocalise(&FrameChange::between(before, after));
+        // The paper's choice remembers nothing.
+        if let Policy::Forecast(forecast) = &mut self.policy
+            && before.is_finite()
+            && after.is_finite()
+        {
+            forecast.relocalise(&FrameChange::between(before, after));
         }
     }
 

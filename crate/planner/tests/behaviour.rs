@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
+use core::f64::consts::PI;
 use core::time::Duration;
 
 use glam::{DVec2, DVec3, Vec3};
@@ -168,6 +169,68 @@ fn what_makes_no_sense_is_answered_with_a_stop_and_its_reason() {
         assert_eq!((step.status, step.command), (Status::Stopped(reason), Command::STOP));
     }
     assert_eq!(step(&mut planner, &points, &START, AHEAD).status, Status::Driving);
+}
+
+#[test]
+fn after_a_relocalisation_the_planner_decides_as_if_the_frame_had_always_been_this() {
+    let points = scan(level);
+    // The same drive in two frames: the second is turned by half a circle, shifted and raised.
+    let in_second = |x_m: f64| Pose::from_roll_pitch_yaw(DVec3::new(30.0 - x_m, 7.0, 2.0), 0.0, 0.0, PI);
+    let in_first = |x_m: f64| Pose::from_roll_pitch_yaw(DVec3::new(x_m, 0.0, 0.0), 0.0, 0.0, 0.0);
+    let (first_goal, second_goal) = (DVec2::new(20.0, 0.0), DVec2::new(10.0, 7.0));
+    let planner = || Planner::new(PlannerConfig::default()).unwrap();
+    let (mut moved, mut steady, mut torn) = (planner(), planner(), planner());
+    for tick in 0..20 {
+        let x_m = 0.05 * f64::from(tick);
+        step(&mut moved, &points, &in_first(x_m), first_goal);
+        step(&mut torn, &points, &in_first(x_m), first_goal);
+        step(&mut steady, &points, &in_second(x_m), second_goal);
+    }
+    moved.relocalise(&in_first(1.0), &in_second(1.0));
+    let window = |planner: &mut Planner| {
+        let found = step(planner, &points, &in_second(1.0), second_goal);
+        let reach_m = |subgoal: &Subgoal| subgoal.forecast.map_or(0.0, |forecast| forecast.reach_m);
+        (found.status, found.subgoals.iter().map(reach_m).sum::<f64>())
+    };
+    let (moved, steady, torn) = (window(&mut moved), window(&mut steady), window(&mut torn));
+    assert_eq!(moved.0, steady.0);
+    assert!((moved.1 - steady.1).abs() < 0.05 * steady.1, "{moved:?} {steady:?}");
+    assert!(
+        (torn.1 - steady.1).abs() > 0.05 * steady.1,
+        "without being told it has lost the ground: {torn:?}"
+    );
+}
+
+#[test]
+fn a_goal_that_moves_by_less_than_its_tolerance_forgets_nothing() {
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    let points = scan(walled(1.5));
+    let goal = Goal::at(AHEAD).within(0.5);
+    planner.set_goal(goal);
+    let seconds = |planner: &mut Planner, count: u32, goal: Goal| {
+        for _ in 0..10 * count {
+            planner.set_goal(goal);
+            planner.step(&points, &START, PERIOD);
+        }
+        planner.last_step().status
+    };
+    // The spin recovery gives up after 15 s, whether or not the goal is told anew a little elsewhere.
+    assert_eq!(seconds(&mut planner, 10, goal), Status::Searching);
+    let near = Goal::at(AHEAD + DVec2::new(0.3, 0.0)).within(0.5);
+    assert_eq!(seconds(&mut planner, 6, near), Status::Stopped(StopReason::NoSubgoal));
+    let far = Goal::at(AHEAD + DVec2::new(3.0, 0.0));
+    assert_eq!(seconds(&mut planner, 6, far), Status::Searching, "a new goal begins anew");
+}
+
+#[test]
+fn without_a_goal_it_stands_and_says_so() {
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    let step = planner.step(&scan(level), &START, PERIOD);
+    assert_eq!((step.status, step.command), (Status::Stopped(StopReason::NoGoal), Command::STOP));
+    planner.set_goal(Goal::at(AHEAD));
+    assert_eq!(planner.step(&scan(level), &START, PERIOD).status, Status::Driving);
+    planner.cancel_goal();
+    assert_eq!(planner.step(&scan(level), &START, PERIOD).status, Status::Stopped(StopReason::NoGoal));
 }
 
 proptest! {

@@ -15,7 +15,8 @@ pub(crate) mod renamed_keys;
 
 use glam::DVec2;
 use mapless::{PlannerConfig, RobotModel, SensorModel};
-use mapless_world::{RobotConfig, SensorConfig, TerrainError};
+use mapless_terrain::TerrainError;
+use mapless_world::{RobotConfig, SensorConfig};
 
 use crate::places::{self, StartPose};
 use renamed_keys::RENAMED_KEYS;
@@ -291,7 +292,7 @@ pub struct LoadedScenario {
     /// The scenario.
     pub scenario: Scenario,
     /// Its terrain.
-    pub terrain: mapless_world::Terrain,
+    pub terrain: mapless_terrain::Terrain,
 }
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -307,7 +308,7 @@ impl LoadedScenario {
             fault: ScenarioFault::Read(error.to_string()),
         })?;
         let scenario = Scenario::parse(&file, &text)?;
-        let terrain = mapless_world::load_terrain(&path.with_file_name(&scenario.terrain))
+        let terrain = mapless_terrain::load_terrain(&path.with_file_name(&scenario.terrain))
             .map_err(|error| ScenarioError { file, fault: ScenarioFault::Terrain(error) })?;
         Ok(Self { scenario, terrain })
     }

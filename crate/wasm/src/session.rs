@@ -10,8 +10,9 @@ pub use tick::{Activity, Standing, Tick, Velocity};
 
 use glam::DVec2;
 use mapless::gp::learning::LearningMode;
+use mapless_terrain::{Stroke as Brushes, StrokeTable};
 use mapless_trials::{History, Preset, Scenario, StartPose, Trial};
-use mapless_world::{HeightField, SampleRect, Stroke as Brushes, StrokeTable};
+use mapless_world::{HeightField, SampleRect};
 use tsify::Ts;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 use web_sys::Performance;

@@ -1,6 +1,6 @@
 //! A stroke of a brush as the page keeps it.
 
-use mapless_world::StrokeTable;
+use mapless_terrain::StrokeTable;
 use serde::Deserialize;
 use tsify::Tsify;
 
@@ -48,7 +48,7 @@ pub enum StrokeKind {
 
 impl From<Stroke> for StrokeTable {
     fn from(stroke: Stroke) -> Self {
-        use mapless_world::StrokeKind as Kind;
+        use mapless_terrain::StrokeKind as Kind;
         Self {
             kind: match stroke.kind {
                 StrokeKind::Raise => Kind::Raise,

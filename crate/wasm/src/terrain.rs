@@ -1,8 +1,9 @@
 //! Terrains: reading them, generating them, and their heights as a grid.
 
 use js_sys::{Float32Array, Uint8Array};
-use mapless_world::generate::{Difficulty, terrain_recipe};
-use mapless_world::{HeightField, SampleRect, load_terrain_bytes};
+use mapless_terrain::generate::{Difficulty, terrain_recipe};
+use mapless_terrain::load_terrain_bytes;
+use mapless_world::{HeightField, SampleRect};
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};

@@ -218,7 +218,7 @@ impl HeightField {
 
 /// Checks the shape of a grid before its heights are read, so that nothing absurd is allocated. Returns the
 /// number of samples.
-pub(crate) fn check_grid(columns: usize, rows: usize, cell_m: f64) -> Result<usize, FieldError> {
+pub fn check_grid(columns: usize, rows: usize, cell_m: f64) -> Result<usize, FieldError> {
     if columns < 2 || rows < 2 {
         return Err(FieldError::TooFewSamples { columns, rows });
     }

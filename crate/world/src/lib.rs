@@ -1,4 +1,4 @@
-//! The simulated world of `mapless`: terrain, a LiDAR and a wheeled robot.
+//! The simulated world of `mapless`: ground, a LiDAR and a wheeled robot.
 //!
 //! World frame: x east, y north, z up, with the origin at the south-west corner of the terrain. Robot frame:
 //! x forward, y left, z up. Pitch is positive nose-up, roll positive with the left side up, yaw positive
@@ -12,35 +12,28 @@
 
 mod attitude;
 mod caster;
-pub mod generate;
 mod height_field;
-mod import;
 mod level_places;
 mod lidar;
-mod load;
-mod noise;
+pub mod noise;
 pub mod random;
-pub mod recipe;
 mod robot;
 mod robot_config;
 mod sculpt;
 mod sensor_pose;
 mod skyline;
 mod slopes;
-mod terrain;
 
 pub use attitude::{Attitude, attitude_on, world_from_body};
 pub use caster::Caster;
-pub use height_field::{FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M};
+pub use height_field::{
+    FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M, check_grid,
+};
 pub use lidar::{Lidar, Scan, SensorConfig};
-#[cfg(not(target_arch = "wasm32"))]
-pub use load::load_terrain;
-pub use load::load_terrain_bytes;
 pub use mapless_parameters::ConfigError;
 pub use robot::{DriveCommand, DriveError, Robot, RobotState};
 pub use robot_config::RobotConfig;
-pub use sculpt::{Brush, BrushKind, SampleRect, Stroke, StrokeError, StrokeKind, StrokeTable};
+pub use sculpt::{Brush, BrushKind, SampleRect, smooth_step};
 pub use sensor_pose::SensorPose;
 pub use skyline::{Skyline, true_skyline};
 pub use slopes::SlopeDistribution;
-pub use terrain::{Terrain, TerrainError, TerrainFault};

@@ -30,7 +30,8 @@ const GRADIENTS: [[f64; 2]; 16] = {
 
 /// Noise of one seed, quick where places come one after the other: it remembers the lattice cell of the last
 /// one.
-pub(crate) struct GradientNoise {
+#[derive(Debug)]
+pub struct GradientNoise {
     seed: u64,
     /// Column and row of the cell.
     cell: Option<[i64; 2]>,
@@ -39,12 +40,13 @@ pub(crate) struct GradientNoise {
 }
 
 impl GradientNoise {
-    pub(crate) fn new(seed: u64) -> Self {
+    /// With nothing remembered.
+    pub fn new(seed: u64) -> Self {
         Self { seed, cell: None, gradients: [[0.0; 2]; 4] }
     }
 
     /// Noise in [-1, 1] with a period of about 1, zero at whole coordinates.
-    pub(crate) fn at(&mut self, at: DVec2) -> f64 {
+    pub fn at(&mut self, at: DVec2) -> f64 {
         let corner = at.floor();
         let DVec2 { x: u, y: v } = at - corner;
         self.enter([corner.x as i64, corner.y as i64]);

@@ -5,8 +5,8 @@ use crate::{RouteNavigator, Task, TaskName};
 use glam::DVec3;
 use mapless::Pose;
 use mapless::{Goal, PlannerConfig};
+use mapless_terrain::generate::Difficulty;
 use mapless_trials::Navigator as _;
-use mapless_world::generate::Difficulty;
 use mapless_world::{DriveCommand, Robot, attitude_on};
 use proptest::prelude::*;
 

@@ -22,8 +22,8 @@ use crate::files::write_atomically;
 use crate::results::Manifest;
 use crate::row::TrialRow;
 use comparison::EVEN;
+use mapless_terrain::generate::Difficulty;
 use mapless_trials::statistics as stats;
-use mapless_world::generate::Difficulty;
 
 /// Folder of pages, figures and rows beside `RESULTS.md`.
 const PAGES: &str = "results";

@@ -2,7 +2,7 @@
 
 use comfy_table::{CellAlignment, Table, presets};
 use mapless_baselines::Task;
-use mapless_world::generate::BANK_REACH_M;
+use mapless_terrain::generate::BANK_REACH_M;
 use mapless_world::{RobotConfig, SlopeDistribution};
 
 /// A measure of a task: its name, its unit and its decimals in the table.

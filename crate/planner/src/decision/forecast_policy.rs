@@ -273,6 +273,22 @@ impl ForecastPolicy {
     }
 }
 
+impl ForecastPolicy {
+    /// Moves all that is remembered from one world frame to another.
+    pub(crate) fn relocalise(&mut self, change: &FrameChange) {
+        self.window.relocalise(change);
+        self.lattice.relocalise(change);
+        self.heuristic.relocalise(change);
+        self.committed.relocalise(change);
+        self.backtrack.relocalise(change);
+        if let Some(budget) = &mut self.detour_budget {
+            budget.relocalise(change);
+        }
+        self.learned_at_m = self.learned_at_m.map(|place_m| change.place_m(place_m));
+        self.last_bearing_rad = self.last_bearing_rad.map(|bearing_rad| bearing_rad + change.turn_rad());
+    }
+}
+
 impl SubgoalPolicy for ForecastPolicy {
     fn start(&mut self) {
         self.heuristic.clear();
@@ -344,18 +360,5 @@ impl SubgoalPolicy for ForecastPolicy {
 
     fn may_spin(&self) -> bool {
         self.lattice.may_turn_around()
-    }
-
-    fn relocalise(&mut self, change: &FrameChange) {
-        self.window.relocalise(change);
-        self.lattice.relocalise(change);
-        self.heuristic.relocalise(change);
-        self.committed.relocalise(change);
-        self.backtrack.relocalise(change);
-        if let Some(budget) = &mut self.detour_budget {
-            budget.relocalise(change);
-        }
-        self.learned_at_m = self.learned_at_m.map(|place_m| change.place_m(place_m));
-        self.last_bearing_rad = self.last_bearing_rad.map(|bearing_rad| bearing_rad + change.turn_rad());
     }
 }

@@ -10,7 +10,7 @@ use crate::control::controller::Controller;
 use crate::decision::cost::{choose_cheapest, steepness_cost};
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::subgoals::{Cost, Subgoal, bearing_rad, on_segments};
-use crate::pose::{FrameChange, Pose};
+use crate::pose::Pose;
 use crate::skyline::occupancy::column_of;
 use crate::skyline::profile::Column;
 
@@ -51,8 +51,6 @@ impl SubgoalPolicy for PaperPolicy {
     fn may_spin(&self) -> bool {
         true
     }
-
-    fn relocalise(&mut self, _: &FrameChange) {}
 }
 
 /// The goal itself, if it is nearer than the profile in its direction.

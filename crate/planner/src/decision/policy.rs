@@ -73,7 +73,4 @@ pub(crate) trait SubgoalPolicy {
 
     /// Whether the robot may turn all around on the spot.
     fn may_spin(&self) -> bool;
-
-    /// Moves the remembered state from one world frame to another.
-    fn relocalise(&mut self, change: &crate::pose::FrameChange);
 }

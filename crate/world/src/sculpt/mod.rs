@@ -1,7 +1,6 @@
-//! Shaping the ground: brushes that change it at one place or along a line, and strokes of them.
+//! Shaping the ground: brushes that change it at one place or along a line.
 
 mod profile;
-mod stroke;
 
 use crate::height_field::{FieldError, HEIGHT_LIMIT_M, HeightField};
 use crate::noise::GradientNoise;
@@ -9,8 +8,7 @@ use glam::DVec2;
 use mapless_parameters::{Check, ConfigError, Value};
 use profile::{boulder, bump, crater, flat_bottom, flat_top};
 
-pub(crate) use profile::smooth_step;
-pub use stroke::{Stroke, StrokeError, StrokeKind, StrokeTable};
+pub use profile::smooth_step;
 
 /// What a brush does to the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,6 +113,26 @@ impl Brush {
         checks.into_iter().try_for_each(|(name, value, check)| check.require("", name, Value::Number(value)))
     }
 
+    /// The samples that it may change; `None` where it is beside the field.
+    #[must_use]
+    pub fn covered(&self, field: &HeightField) -> Option<SampleRect> {
+        let (low, high) = (self.centre.min(self.end()), self.centre.max(self.end()));
+        // A cast from float to integer saturates, so a brush far away or far too large needs no special case.
+        let span = |low_m: f64, high_m: f64, count: usize| {
+            let begin = ((low_m - self.radius_m) / field.cell_m()).max(0.0) as usize;
+            let end = (((high_m + self.radius_m) / field.cell_m() + 1.0).max(0.0) as usize).min(count);
+            (begin, end)
+        };
+        let (column_begin, column_end) = span(low.x, high.x, field.columns());
+        let (row_begin, row_end) = span(low.y, high.y, field.rows());
+        (column_begin < column_end && row_begin < row_end).then_some(SampleRect {
+            column_begin,
+            column_end,
+            row_begin,
+            row_end,
+        })
+    }
+
     /// Where the line ends; the centre, for a brush that works at one place.
     fn end(&self) -> DVec2 {
         match self.kind {
@@ -144,7 +162,7 @@ impl HeightField {
     /// [`ConfigError`] when the brush is not valid.
     pub fn sculpt(&mut self, brush: &Brush) -> Result<Option<SampleRect>, ConfigError> {
         brush.validate()?;
-        let Some(rect) = covered(self, brush) else { return Ok(None) };
+        let Some(rect) = brush.covered(self) else { return Ok(None) };
         let columns = self.columns();
         let ends_m = [brush.centre, brush.end()].map(|place| self.nearest_height_m(place));
         let mut changed = Vec::with_capacity(rect.samples());
@@ -246,24 +264,6 @@ impl HeightField {
         }
         sum / count
     }
-}
-
-fn covered(field: &HeightField, brush: &Brush) -> Option<SampleRect> {
-    let (low, high) = (brush.centre.min(brush.end()), brush.centre.max(brush.end()));
-    // A cast from float to integer saturates, so a brush far away or far too large needs no special case.
-    let span = |low_m: f64, high_m: f64, count: usize| {
-        let begin = ((low_m - brush.radius_m) / field.cell_m()).max(0.0) as usize;
-        let end = (((high_m + brush.radius_m) / field.cell_m() + 1.0).max(0.0) as usize).min(count);
-        (begin, end)
-    };
-    let (column_begin, column_end) = span(low.x, high.x, field.columns());
-    let (row_begin, row_end) = span(low.y, high.y, field.rows());
-    (column_begin < column_end && row_begin < row_end).then_some(SampleRect {
-        column_begin,
-        column_end,
-        row_begin,
-        row_end,
-    })
 }
 
 #[cfg(test)]

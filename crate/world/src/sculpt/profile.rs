@@ -5,7 +5,7 @@ const RIM_RADII: f64 = 0.6;
 const RIM_HEIGHT: f64 = 0.25;
 
 /// From 0 to 1 as `x` goes from 0 to 1, level at both ends and beyond.
-pub(crate) fn smooth_step(x: f64) -> f64 {
+pub fn smooth_step(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }

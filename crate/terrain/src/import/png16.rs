@@ -1,8 +1,8 @@
 //! 16-bit greyscale PNG: one grey level is 1 mm unless a recipe gives the heights of black and white.
 
 use super::{Scale, south_first};
-use crate::height_field::{HeightField, check_grid};
 use crate::terrain::TerrainFault;
+use mapless_world::{HeightField, check_grid};
 use png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Unit};
 use std::io::Cursor;
 

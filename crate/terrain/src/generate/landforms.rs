@@ -4,8 +4,8 @@
 //! a moderate terrain of 65 m with this kind alone.
 
 use super::writer::Writer;
-use crate::random::Sequence;
 use glam::DVec2;
+use mapless_world::random::Sequence;
 use std::f64::consts::{PI, TAU};
 
 /// Steepest slope of a Gaussian of unit height and unit standard deviation.

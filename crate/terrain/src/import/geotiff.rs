@@ -1,8 +1,8 @@
 //! GeoTIFF with one band of heights in metres, first row north. Only the pixel scale is used, not the origin.
 
 use super::south_first;
-use crate::height_field::{HeightField, check_grid};
 use crate::terrain::TerrainFault;
+use mapless_world::{HeightField, check_grid};
 use std::io::Cursor;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;

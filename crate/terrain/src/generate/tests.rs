@@ -1,5 +1,6 @@
 use super::*;
-use crate::{HeightField, SlopeDistribution, load_terrain_bytes};
+use crate::load_terrain_bytes;
+use mapless_world::{HeightField, SlopeDistribution};
 use proptest::prelude::*;
 
 fn field(difficulty: Difficulty, seed: u64) -> HeightField {

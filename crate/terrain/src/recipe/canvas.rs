@@ -1,7 +1,7 @@
 //! The grid a recipe works on, in double precision.
 
-use crate::height_field::HeightField;
 use glam::DVec2;
+use mapless_world::HeightField;
 use std::ops::Range;
 
 /// Bound on the samples that all features and strokes of a recipe touch, each time counted: a few seconds of

@@ -1,6 +1,6 @@
 //! A terrain, and what may be wrong with its file.
 
-use crate::height_field::{FieldError, HeightField};
+use mapless_world::{FieldError, HeightField};
 use thiserror::Error;
 
 /// A named piece of ground.

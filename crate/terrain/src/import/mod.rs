@@ -5,8 +5,8 @@ mod ascii_grid;
 mod geotiff;
 mod png16;
 
-use crate::height_field::HeightField;
 use crate::terrain::{TerrainError, TerrainFault};
+use mapless_world::HeightField;
 
 /// What a recipe says about the file it imports.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -4,8 +4,8 @@ use super::canvas::{Canvas, TooMuch};
 use super::check::{PerPoint, Table};
 use super::features::Feature;
 use super::line::Line;
-use crate::sculpt::smooth_step;
 use crate::terrain::TerrainFault;
+use mapless_world::smooth_step;
 use serde::Deserialize;
 
 #[derive(Deserialize)]

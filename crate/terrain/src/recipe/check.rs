@@ -1,7 +1,7 @@
 //! Checks of single values that name their table and line.
 
 use super::canvas::{MAX_TOUCHED_SAMPLES, TooMuch};
-use crate::sculpt::StrokeError;
+use crate::stroke::StrokeError;
 use crate::terrain::TerrainFault;
 use serde::Deserialize;
 

@@ -75,14 +75,14 @@ mod features;
 mod line;
 mod trail;
 
-use crate::height_field::{HeightField, check_grid};
 use crate::import::{self, Scale, split_name};
-use crate::sculpt::{Stroke, StrokeTable};
+use crate::stroke::{Stroke, StrokeTable};
 use crate::terrain::{Terrain, TerrainError, TerrainFault};
 use canvas::{Canvas, Effort};
 use check::Table;
 use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
 use mapless_toml::Located;
+use mapless_world::{HeightField, check_grid};
 use serde::Deserialize;
 use trail::Trail;
 
@@ -228,7 +228,7 @@ fn add<F: Feature>(
     for (index, feature) in features.iter().enumerate() {
         let table = Table::at(text, feature.begin, kind, index);
         feature.value.check(&table, canvas)?;
-        let applied = feature.value.apply(canvas, crate::random::key(seed, index as u64));
+        let applied = feature.value.apply(canvas, mapless_world::random::key(seed, index as u64));
         applied.map_err(|much| table.too_much(much))?;
     }
     Ok(())

@@ -3,10 +3,10 @@
 use super::canvas::{Canvas, TooMuch};
 use super::check::{PerPoint, Table};
 use super::line::Line;
-use crate::noise::GradientNoise;
-use crate::sculpt::smooth_step;
 use crate::terrain::TerrainFault;
 use glam::DVec2;
+use mapless_world::noise::GradientNoise;
+use mapless_world::smooth_step;
 use serde::Deserialize;
 
 /// A Gaussian is cut where it has fallen below 2e-8 of its height.
@@ -209,7 +209,7 @@ impl Feature for Noise {
         for octave in 0..self.octaves {
             let share = f64::from(1u32 << octave);
             let (amplitude_m, frequency) = (self.amplitude_m / share, share / self.wavelength_m);
-            let octave_seed = crate::random::key(seed, u64::from(octave));
+            let octave_seed = mapless_world::random::key(seed, u64::from(octave));
             let mut noise = GradientNoise::new(octave_seed);
             canvas.each(|at, height_m| *height_m += amplitude_m * noise.at(at * frequency))?;
         }

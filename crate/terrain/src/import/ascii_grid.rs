@@ -4,8 +4,8 @@
 //! local grid. Holes (`NODATA_value`) are refused.
 
 use super::south_first;
-use crate::height_field::{HeightField, check_grid};
 use crate::terrain::TerrainFault;
+use mapless_world::{HeightField, check_grid};
 
 const FORMAT: &str = "ESRI ASCII grid";
 const KEYS: &str = "ncols, nrows, xllcorner, yllcorner, xllcenter, yllcenter, cellsize or nodata_value";

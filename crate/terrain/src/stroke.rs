@@ -1,9 +1,7 @@
 //! Strokes: the touches of one brush, as the table of a recipe that describes them.
 
-use super::{Brush, BrushKind, SampleRect, covered};
-use crate::height_field::HeightField;
 use glam::DVec2;
-use mapless_parameters::ConfigError;
+use mapless_world::{Brush, BrushKind, ConfigError, HeightField, SampleRect};
 use serde::Deserialize;
 use thiserror::Error;
 
@@ -104,7 +102,7 @@ impl Stroke {
     /// How many samples of a field the touches cover, each counted for every touch.
     #[must_use]
     pub fn samples(&self, field: &HeightField) -> usize {
-        let covered = self.brushes.iter().filter_map(|brush| covered(field, brush));
+        let covered = self.brushes.iter().filter_map(|brush| brush.covered(field));
         // Where an integer has 32 bits, a few hundred touches of the largest field are more than it holds.
         covered.map(SampleRect::samples).fold(0, usize::saturating_add)
     }

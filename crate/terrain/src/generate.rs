@@ -9,9 +9,9 @@
 mod landforms;
 mod writer;
 
-use crate::random::{Sequence, key};
 use glam::DVec2;
 use landforms::{LANDFORMS, Site};
+use mapless_world::random::{Sequence, key};
 use std::fmt::{self, Write as _};
 use std::str::FromStr;
 use writer::Writer;
