@@ -19,13 +19,14 @@ struct Arrow {
 
 /// Every circle in the crate with this root file, each as a text that names its files and lines.
 ///
-/// A module *uses* another when its source, outside tests, has a path to what the other defines; a path
-/// through re-exports leads to the definition, and `mod` alone is no use. A module and its submodules are one
-/// room: they may use each other. Two modules of different rooms are compared by the rooms that stand side by
-/// side in the module that holds both, and there no room may come back to itself. So with `a`, `a/x`, `a/y`
-/// and `b`, `a` and `a/x` may use each other, `a/x` and `a/y` only one the other, and nothing in `b` may use
-/// anything in `a` if anything in `a` uses anything in `b`. The crate root stands beside the modules in it,
-/// as a room of its own.
+/// A module *uses* another when its source, outside tests, has a path to something that the other defines. A
+/// path through a re-export counts as a use of the module that defines the name. `mod` alone is no use. A
+/// call of a method names no module and is not seen.
+///
+/// The rule: among the modules that stand side by side in one module, none comes back to itself by what it
+/// and the modules within it use. The crate root counts as one of the modules that it declares. So `a` and
+/// `a/x` may use each other, because `a/x` stands within `a`. `a/x` and `a/y` may not, and neither may `a`
+/// and `b`: once anything in `a` uses anything in `b`, nothing in `b` may use anything in `a`.
 pub(crate) fn circles(root: &Path) -> Vec<String> {
     let modules = read(root);
     let mut levels: BTreeMap<Option<usize>, Vec<(Arrow, [usize; 2])>> = BTreeMap::new();
