@@ -9,8 +9,7 @@ use std::cell::Cell;
 use core::time::Duration;
 
 use glam::DVec2;
-use mapless::Pose;
-use mapless::{Goal, Planner, PlannerConfig, Status};
+use mapless::{Goal, Planner, PlannerConfig, Pose, RobotModel, SensorModel, Status};
 use mapless_world::{Caster, DriveCommand, HeightField, Lidar, Robot, RobotConfig, Scan, SensorConfig};
 
 thread_local! {
@@ -60,11 +59,11 @@ fn hills() -> HeightField {
 }
 
 /// Drives for this many steps over the hills; returns the allocations of each step.
-fn drive(ticks: u64) -> Vec<usize> {
+fn drive(ticks: u64, sensor: SensorConfig, model: SensorModel) -> Vec<usize> {
     let caster = Caster::new(hills());
-    let sensor = Lidar::new(SensorConfig::default()).unwrap();
+    let sensor = Lidar::new(sensor).unwrap();
     let mut husky = Robot::new(RobotConfig::default(), caster.field(), DVec2::splat(8.0), 0.7).unwrap();
-    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    let mut planner = Planner::new(PlannerConfig::for_robot(model, RobotModel::husky())).unwrap();
     planner.set_goal(Goal::at(DVec2::splat(33.0)));
     let mut scan = Scan::default();
     let mut allocations = Vec::new();
@@ -92,10 +91,30 @@ fn drive(ticks: u64) -> Vec<usize> {
     allocations
 }
 
-#[test]
-fn a_step_allocates_nothing_after_the_first_ones() {
-    let allocations = drive(120);
+fn assert_frugal(allocations: &[usize]) {
     let (first, rest) = allocations.split_at(20);
     assert!(first[0] > 0, "the counter counts");
     assert!(rest.iter().all(|&count| count == 0), "{allocations:?}");
+}
+
+#[test]
+fn a_step_allocates_nothing_after_the_first_ones() {
+    assert_frugal(&drive(120, SensorConfig::default(), SensorModel::default()));
+}
+
+#[test]
+fn nor_does_one_with_a_tilted_sensor_of_many_rings() {
+    let (lowest_elevation_rad, highest_elevation_rad, pitch_rad) = (-0.785, 0.785, -0.26);
+    let sensor = SensorConfig {
+        rings: 64,
+        columns: 720,
+        lowest_elevation_rad,
+        highest_elevation_rad,
+        pitch_rad,
+        ..SensorConfig::default()
+    };
+    let mut model = SensorModel::default();
+    (model.rings, model.columns, model.pitch_rad) = (64, 720, pitch_rad);
+    (model.lowest_elevation_rad, model.highest_elevation_rad) = (lowest_elevation_rad, highest_elevation_rad);
+    assert_frugal(&drive(120, sensor, model));
 }

@@ -76,17 +76,17 @@ fn each_drives_to_the_goal_within_its_tilt_limits() {
             let Some((name, sensor, robot)) = variants.get(index / scenarios.len()) else { return failures };
             let (scenario, loaded) = &scenarios[index % scenarios.len()];
             let trial = drive(loaded, sensor, robot);
-            if trial.outcome() != Some(Outcome::Reached) {
-                failures.push(format!(
-                    "{name} on {scenario}: {:?} after {:.0} s",
-                    trial.outcome(),
-                    trial.time_s()
-                ));
+            let metrics = trial.metrics();
+            let within = metrics.max_abs_roll_rad < robot.roll_limit_rad
+                && metrics.max_abs_pitch_rad < robot.pitch_limit_rad;
+            if trial.outcome() != Some(Outcome::Reached) || !within {
+                failures.push(format!("{name} on {scenario}: {:?}, {metrics:?}", trial.outcome()));
             }
         }
     };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let failures: Vec<String> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..2).map(|_| scope.spawn(work)).collect();
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
         workers.into_iter().flat_map(|worker| worker.join().unwrap()).collect()
     });
     assert!(failures.is_empty(), "{failures:#?}");
