@@ -5,9 +5,10 @@ use core::{array, fmt};
 use std::str::FromStr;
 
 use glam::{DVec2, Vec3};
+use mapless::decision::PerceptionOverride;
 use mapless::skyline::profile::Column;
 use mapless::terrain::plane::Plane;
-use mapless::{ConfigError, Goal, PerceptionOverride, Planner, PlannerConfig, Pose};
+use mapless::{ConfigError, Goal, Planner, PlannerConfig, Pose};
 use mapless_trials::{Decision, Navigator};
 use mapless_world::{Caster, HeightField, SensorPose, Skyline, true_skyline};
 

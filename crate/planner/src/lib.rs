@@ -1,42 +1,104 @@
-//! Autonomous mapless navigation on uneven terrain: a planner that takes a LiDAR scan, a pose and a goal and
-//! gives a subgoal and a velocity command.
+//! Autonomous mapless navigation on uneven terrain: a planner that takes a LiDAR scan and a pose and gives a
+//! subgoal and a velocity command.
 //!
 //! It implements Jardali, Ali and Liu, "Autonomous Mapless Navigation on Uneven Terrains" (ICRA 2024), called
-//! *the paper* throughout. One [`Planner::step`] runs the whole method:
+//! *the paper* throughout. There is no global map: the planner keeps a local elevation window.
+//!
+//! # Use
+//!
+//! ```
+//! use core::time::Duration;
+//! use mapless::glam::{DQuat, DVec2, DVec3, Vec3};
+//! use mapless::{Goal, Planner, PlannerConfig, Pose, RobotModel, SensorModel, Status};
+//!
+//! // Once: what sensor, what robot, where to.
+//! let config = PlannerConfig::for_robot(SensorModel::vlp16(), RobotModel::husky());
+//! let mut planner = Planner::new(config)?;
+//! planner.set_goal(Goal::at(DVec2::new(50.0, 0.0)).within(0.5));
+//!
+//! // With each scan: here level ground as a sensor 0.8 m up sees it.
+//! let points_m: Vec<Vec3> = (0..360)
+//!     .flat_map(|degree| [3.0_f32, 3.5, 4.1, 5.0, 6.5].map(|range_m| (degree as f32, range_m)))
+//!     .map(|(degree, range_m)| {
+//!         let (sin, cos) = degree.to_radians().sin_cos();
+//!         Vec3::new(range_m * cos, range_m * sin, -0.8)
+//!     })
+//!     .collect();
+//! let pose = Pose::from_quaternion(DVec3::ZERO, DQuat::IDENTITY);
+//! let step = planner.step(&points_m, &pose, Duration::from_millis(100));
+//!
+//! match step.status {
+//!     Status::Driving | Status::Backtracking | Status::Searching => {
+//!         assert!(step.command.linear_m_s > 0.5); // send it to the robot
+//!     }
+//!     Status::Arrived => {}
+//!     Status::Stopped(reason) => panic!("{reason}"),
+//! }
+//! # Ok::<(), mapless::ConfigError>(())
+//! ```
+//!
+//! # What it takes
+//!
+//! | | type | unit and frame |
+//! |---|---|---|
+//! | scan | `&[glam::Vec3]` | metres, sensor frame; any order; points that are not finite are skipped |
+//! | pose | [`Pose`] | of the robot frame in the world frame, at the time of the scan |
+//! | time | [`Duration`](core::time::Duration) | since the step before |
+//! | goal | [`Goal`] | metres, world frame; tolerance and final heading if wanted |
+//! | sensor | [`SensorModel`] | rings, field of view, range and mount |
+//! | robot | [`RobotModel`] | dimensions and tilt limits |
+//!
+//! - **Frames.** World: x east, y north, z up. Robot: x forward, y left, z up, its origin **on the ground
+//!   midway between the wheels**, not at `base_link` ([`Pose::moved`] shifts a pose). Sensor:
+//!   [`SensorModel`].
+//! - **Pitch is nose-up positive**, unlike in ROS. [`Pose::from_quaternion`] and [`Pose::from_ros_rpy`]
+//!   convert.
+//! - **Roll and pitch must be measured.** A filter in two-dimensional mode leaves them out: take them from an
+//!   IMU.
+//! - **Which instant.** All points of a scan are placed with the one pose: the pose of the instant to which
+//!   the scan was corrected for motion or, without correction, of the middle of the sweep. Correction is
+//!   better and was not needed at 0.8 m/s. Some 0.2 s from scan to command were borne in a physics engine.
+//! - **Time** is what passed, never a count of steps: add the time of scans that were lost.
+//! - **Cropping.** Returns beyond [`Planner::sight_m`] change nothing and may be left out, as long as one
+//!   return is left: a scan without any stops the planner, because the sensor may be blind.
+//! - **A jump of the localisation** is told by [`Planner::relocalise`]; without it the remembered ground
+//!   tears.
+//! - **Returns on the robot itself** must be removed. Returns nearer than the sensor's least range are
+//!   skipped.
+//!
+//! # What it gives, and what the base must do
+//!
+//! [`Step`] holds the [`Status`], the [`Command`] (forward speed and turn rate) and everything that was seen
+//! and decided. The base must follow the commanded turn rate in closed loop (a skid-steered base turns up to
+//! half too fast or too slow on side slopes), ramp its speeds, keep traction, hold on a slope at zero
+//! command, and stop when commands cease. The planner does not end a fruitless drive by time: set a limit of
+//! your own.
+//!
+//! # How it works
 //!
 //! 1. [`skyline::occupancy`]: the returns within r_oc = 7 m become an occupancy surface over azimuth and
 //!    elevation.
 //! 2. [`skyline::perception`]: a sparse Gaussian process ([`gp::sparse`]) over it gives a mean and a variance
 //!    surface.
 //! 3. [`skyline::profile`]: the edge of the variance surface is the skyline of the terrain.
-//! 4. [`skyline::segments`]: its stretches of one elevation, each with a verdict.
-//! 5. [`decision::subgoals`]: places on the segments, in the world frame.
-//! 6. [`route::forecast`]: what the best way there, over the ground seen so far, promises.
-//! 7. [`decision::cost`]: the cheapest one is chosen.
-//! 8. [`control::controller`]: a PID drives to it.
+//! 4. [`skyline::segments`]: the level stretches of the skyline, each with a verdict.
+//! 5. [`decision::subgoals`]: subgoals on the segments, in the world frame.
+//! 6. [`route::forecast`]: the tilt to expect on the best path there, over the ground seen so far.
+//! 7. [`decision::cost`]: the cheapest subgoal is chosen.
+//! 8. [`control::controller`]: a PID controller drives to it.
 //!
-//! The crate does no input or output, reads no clock, starts no thread and draws no random number, and its
-//! results have the same bits on every target.
+//! Every parameter is in [`config`]. A step costs time O(cells + m³) in the m inducing inputs of a sector of
+//! the Gaussian process; after the first steps it allocates nothing.
 //!
-//! ```
-//! use glam::{DVec2, DVec3, Vec3};
-//! use mapless::{Planner, PlannerConfig, Status, pose::Pose};
+//! # Guarantees
 //!
-//! let mut planner = Planner::new(PlannerConfig::default())?;
-//! // Level ground as the sensor sees it, 0.8 m above.
-//! let scan: Vec<Vec3> = (0..360)
-//!     .flat_map(|degree| [3.0_f32, 3.5, 4.1, 5.0, 6.5].map(|range| (degree as f32, range)))
-//!     .map(|(degree, range)| {
-//!         let (sin, cos) = degree.to_radians().sin_cos();
-//!         Vec3::new(range * cos, range * sin, -0.8)
-//!     })
-//!     .collect();
-//! let pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
-//! let step = planner.step(&scan, &pose, DVec2::new(50.0, 0.0));
-//! assert_eq!(step.status, Status::Driving);
-//! assert!(step.command.linear_m_s > 0.5);
-//! # Ok::<(), mapless::ConfigError>(())
-//! ```
+//! The crate does no input or output, reads no clock, starts no thread and draws no random number. Results
+//! have the same bits on every target. It never panics on input: its answer to what it does not understand is
+//! [`Status::Stopped`] with a [`StopReason`].
+//!
+//! # Features
+//!
+//! - `serde`: configurations can be read and written.
 
 pub mod config;
 pub mod control;
@@ -57,11 +119,11 @@ mod testing;
 
 pub use config::PlannerConfig;
 pub use control::controller::Command;
-pub use decision::step::{PerceptionOverride, Status, Step, StopReason, TerrainOverride};
+pub use decision::step::{Status, Step, StopReason};
+pub use glam;
 pub use goal::Goal;
 pub use mapless_parameters::ConfigError;
 pub use planner::Planner;
 pub use pose::Pose;
 pub use robot_model::RobotModel;
-pub use route::state_lattice::PathPoint;
 pub use sensor_model::SensorModel;

@@ -290,7 +290,8 @@ impl Planner {
         if turn_rad.abs() <= HEADING_TOLERANCE_RAD {
             return Status::Arrived;
         }
-        if self.policy.get().safe_turn_rad(turn_rad).abs() < turn_rad.abs() {
+        let unsafe_rad = turn_rad.abs() - self.policy.get().safe_turn_rad(turn_rad).abs();
+        if unsafe_rad > HEADING_TOLERANCE_RAD {
             return Status::Stopped(StopReason::HeadingUnsafe);
         }
         self.command = Command { linear_m_s: 0.0, ..self.controller.drive(0.0, turn_rad, elapsed) };

@@ -4,9 +4,10 @@ use core::time::Duration;
 
 use glam::{DVec2, DVec3};
 use mapless::Pose;
+use mapless::decision::PerceptionOverride;
 use mapless::skyline::profile::Column;
 use mapless::terrain::plane::Plane;
-use mapless::{Goal, PerceptionOverride, Planner, PlannerConfig, Status};
+use mapless::{Goal, Planner, PlannerConfig, Status};
 
 const GOAL_M: DVec2 = DVec2::new(20.0, 0.0);
 

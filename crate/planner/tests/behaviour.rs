@@ -8,11 +8,12 @@ use core::time::Duration;
 use glam::{DVec2, DVec3, Vec3};
 use mapless::Pose;
 use mapless::config::InducingInputs;
+use mapless::decision::PerceptionOverride;
 use mapless::decision::subgoals::Subgoal;
 use mapless::skyline::profile::Column;
 use mapless::skyline::segments::Verdict;
 use mapless::terrain::plane::Plane;
-use mapless::{Command, Goal, PerceptionOverride, Planner, PlannerConfig, Status, Step, StopReason};
+use mapless::{Command, Goal, Planner, PlannerConfig, Status, Step, StopReason};
 use proptest::prelude::*;
 
 const START: Pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, 0.0, 0.0);
@@ -220,6 +221,43 @@ fn a_goal_that_moves_by_less_than_its_tolerance_forgets_nothing() {
     assert_eq!(seconds(&mut planner, 6, near), Status::Stopped(StopReason::NoSubgoal));
     let far = Goal::at(AHEAD + DVec2::new(3.0, 0.0));
     assert_eq!(seconds(&mut planner, 6, far), Status::Searching, "a new goal begins anew");
+}
+
+#[test]
+fn returns_nearer_than_the_sensor_measures_change_nothing() {
+    let decide = |points: &[Vec3]| {
+        let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+        let found = step(&mut planner, points, &START, AHEAD);
+        (found.status, found.command, found.subgoals.to_vec())
+    };
+    let clean = scan(level);
+    let mut dirty = clean.clone();
+    dirty.extend([Vec3::ZERO, Vec3::new(0.3, 0.1, -0.2), Vec3::new(0.0, -0.45, 0.0)]);
+    assert_eq!(decide(&dirty), decide(&clean));
+}
+
+#[test]
+fn at_the_goal_it_turns_to_any_final_heading_and_arrives() {
+    let points = scan(level);
+    // The part of a turn of 0.106… rad that is safe is, rounded, less than the turn.
+    for start_rad in [-2.9, -1.3, -0.3, 0.106_962_725_102_028_38, 0.7, 2.3] {
+        let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+        planner.set_goal(Goal::at(DVec2::ZERO).facing(0.0));
+        let mut yaw_rad: f64 = start_rad;
+        let mut status = Status::Driving;
+        for _ in 0..100 {
+            let pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, 0.0, yaw_rad);
+            let step = planner.step(&points, &pose, PERIOD);
+            yaw_rad += step.command.angular_rad_s * PERIOD.as_secs_f64();
+            status = step.status;
+            if status != Status::Driving {
+                break;
+            }
+            assert!(step.command.linear_m_s.abs() < 1e-12);
+        }
+        assert_eq!(status, Status::Arrived, "from {start_rad}");
+        assert!(yaw_rad.abs() <= 0.1, "{yaw_rad} from {start_rad}");
+    }
 }
 
 #[test]

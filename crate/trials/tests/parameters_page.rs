@@ -1,7 +1,7 @@
 //! docs/PARAMETERS.md says what the configurations say.
 //!
-//! After a change of a parameter, `MAPLESS_RECORD_PARAMETERS=1 cargo test -p mapless-trials --test parameters_page` writes
-//! it anew.
+//! After a change of a parameter,
+//! `MAPLESS_RECORD_PARAMETERS=1 cargo test -p mapless-trials --test parameters_page` writes it anew.
 
 use mapless::PlannerConfig;
 use mapless_parameters::{Check, Kind, Value};

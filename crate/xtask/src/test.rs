@@ -162,10 +162,10 @@ fn documentation(sh: &Shell) -> anyhow::Result<Count> {
     check(cmd!(sh, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "--deny warnings"))
 }
 
-/// Packs the crate that is published, and builds what is packed as somebody else's machine would.
+/// Packs the crates that are published, and builds what is packed as somebody else's machine would.
 fn package(sh: &Shell) -> anyhow::Result<Count> {
     // What is not committed is packed, too, and all that it needs is there: the stages before have built it.
-    check(cmd!(sh, "cargo package --package mapless --allow-dirty --offline"))
+    check(cmd!(sh, "cargo package --package mapless-parameters --package mapless --allow-dirty --offline"))
 }
 
 fn build_page(sh: &Shell) -> anyhow::Result<Count> {

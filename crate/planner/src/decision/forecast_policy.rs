@@ -314,10 +314,11 @@ impl SubgoalPolicy for ForecastPolicy {
         let world_from_sensor = mount.map_or(world_from_robot, |mount| world_from_robot * mount);
         self.window.looked_from(sensor, world_from_sensor);
         let radius_squared = config.elevation_window.radius_m * config.elevation_window.radius_m;
+        let least_squared = config.sensor.min_range_m * config.sensor.min_range_m;
         for point in points_m {
             let point = point.as_dvec3();
             // Also skips NaN.
-            if point.length_squared() <= radius_squared {
+            if (least_squared..=radius_squared).contains(&point.length_squared()) {
                 self.window.add(sensor + world_from_sensor * point);
             }
         }

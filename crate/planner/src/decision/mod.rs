@@ -10,3 +10,5 @@ pub(crate) mod paper_policy;
 pub(crate) mod policy;
 pub(crate) mod step;
 pub mod subgoals;
+
+pub use step::{PerceptionOverride, TerrainOverride};

@@ -14,6 +14,7 @@ use crate::terrain::plane::Plane;
 
 /// Why the planner stopped for good.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StopReason {
     /// The pose or the goal is not finite, or more than 1000 km from the origin.
     #[error("the pose or the goal is not finite or too far away")]
@@ -52,6 +53,7 @@ pub enum Status {
 
 /// The result of one step: perception, decision and command.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Step<'a> {
     /// The outcome.
     pub status: Status,

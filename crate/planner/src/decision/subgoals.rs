@@ -11,6 +11,7 @@ use crate::skyline::segments::{Segment, Verdict};
 
 /// The weighted terms of the cost J of one subgoal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Cost {
     /// k_dir times the direction cost.
     pub direction: f64,
@@ -42,6 +43,7 @@ pub enum Refusal {
 
 /// A place that the robot could drive to next.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Subgoal {
     /// Index of its segment; `None` for the goal itself, the committed target and frontier places.
     pub segment: Option<usize>,

@@ -2,6 +2,7 @@
 
 /// The predicted length, climb and tilt of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Forecast {
     /// Straight distance from the robot to the end of the path.
     pub reach_m: f64,

@@ -29,6 +29,8 @@ pub struct BeamGrid {
     rings: usize,
     lowest_elevation_rad: f64,
     ring_step_rad: f64,
+    /// Nearer than this nothing is measured.
+    pub(crate) min_range_m: f64,
     /// `None` if the sensor's axes are the robot's.
     robot_from_sensor: Option<DMat3>,
     /// Rows of the predicted surfaces up to the highest in view, for each column.
@@ -52,6 +54,7 @@ impl BeamGrid {
             rings: rings.min(MOST_RINGS),
             lowest_elevation_rad: lowest,
             ring_step_rad,
+            min_range_m: sensor.min_range_m,
             robot_from_sensor,
             rows_in_view: Vec::new(),
         };

@@ -80,10 +80,11 @@ impl OccupancySurface {
         self.sums_m.fill(0.0);
         self.counts.fill(0);
         let radius_squared = self.radius_m * self.radius_m;
+        let least_squared = self.grid.min_range_m * self.grid.min_range_m;
         for point in points_m {
             let point = self.grid.along_robot(point.as_dvec3());
             let range_squared = point.length_squared();
-            if !(range_squared > 0.0 && range_squared <= radius_squared) {
+            if !(range_squared > 0.0 && (least_squared..=radius_squared).contains(&range_squared)) {
                 continue;
             }
             let plan = (point.x * point.x + point.y * point.y).sqrt();

@@ -25,6 +25,7 @@ pub enum Verdict {
 
 /// A stretch of the profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Segment {
     /// Azimuth α_sb where it begins, in [-π, π), sensor frame.
     pub begin_rad: f64,

@@ -33,12 +33,13 @@ pub struct PredictedSurface {
 
 /// Diagnostics of a posterior.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct GpDiagnostics {
     /// Inducing inputs used.
     pub inducing_inputs: usize,
     /// Largest jitter any sector needed on the covariance of its inducing inputs.
     pub jitter: f64,
-    /// Hyperparameters learned from this scan or, with [`LearningMode::Once`](crate::gp::learning::LearningMode::Once), from the first one.
+    /// Hyperparameters learned from this scan or, with `LearningMode::Once`, from the first one.
     pub learned: Option<LearnedHyperparameters>,
 }
 
