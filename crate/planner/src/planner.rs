@@ -19,6 +19,7 @@ use crate::skyline::beam_grid::BeamGrid;
 use crate::skyline::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad};
 use crate::skyline::perception::Perception;
 use crate::skyline::profile::ElevationProfile;
+use crate::skyline::scan_filter::ScanFilter;
 use crate::skyline::segments::{Segment, cut_segments};
 use crate::skyline::surface::PredictedSurface;
 
@@ -36,6 +37,7 @@ const HEADING_TOLERANCE_RAD: f64 = 0.05;
 #[derive(Clone, Debug)]
 pub struct Planner {
     config: PlannerConfig,
+    filter: ScanFilter,
     observed: OccupancySurface,
     perception: Perception,
     profile: ElevationProfile,
@@ -90,7 +92,9 @@ impl Planner {
     pub fn new(config: PlannerConfig) -> Result<Self, ConfigError> {
         config.validate("planner")?;
         let grid = BeamGrid::new(&config.sensor);
+        let filter = ScanFilter::new(&config.sensor, &config.robot, sight_m(&config));
         Ok(Self {
+            filter,
             perception: Perception::new(config.perception, &grid),
             observed: OccupancySurface::new(config.perception.surface_radius_m, grid),
             profile: Vec::new(),
@@ -115,7 +119,7 @@ impl Planner {
     /// Range of the returns that the planner uses, metres: farther ones change nothing. A scan may be cropped
     /// to it to save time, as long as one return is left: a scan without any means a blind sensor.
     pub fn sight_m(&self) -> f64 {
-        self.config.perception.surface_radius_m.max(self.config.elevation_window.radius_m)
+        sight_m(&self.config)
     }
 
     /// The goal.
@@ -210,6 +214,7 @@ impl Planner {
         Step {
             status: self.status,
             command: self.command,
+            return_kinds: self.filter.kinds(),
             observed: &self.observed,
             diagnostics: self.perception.diagnostics(),
             profile: &self.profile,
@@ -241,13 +246,14 @@ impl Planner {
         if !(pose.is_finite() && near(pose.plan_m()) && goal.is_valid() && near(goal.position_m)) {
             return Status::Stopped(StopReason::InvalidInput);
         }
-        if points_m.is_empty() && overrides.profile.is_none() {
+        self.filter.sort(points_m);
+        if !self.filter.has_returns() && overrides.profile.is_none() {
             return Status::Stopped(StopReason::EmptyScan);
         }
-        if let Err(error) = self.perceive(points_m, overrides) {
+        if let Err(error) = self.perceive(overrides) {
             return Status::Stopped(StopReason::NoPerception(error));
         }
-        self.policy.get_mut().observe(&self.config, points_m, pose, elapsed);
+        self.policy.get_mut().observe(&self.config, self.filter.surface_m(), pose, elapsed);
         let goal_tolerance_m = goal.tolerance_m.unwrap_or(self.config.goal_tolerance_m);
         if (goal.position_m - pose.plan_m()).length() <= goal_tolerance_m {
             return self.arrive(&goal, pose, elapsed);
@@ -298,8 +304,8 @@ impl Planner {
         Status::Driving
     }
 
-    fn perceive(&mut self, points_m: &[Vec3], overrides: PerceptionOverride<'_>) -> Result<(), GpError> {
-        self.observed.project(points_m);
+    fn perceive(&mut self, overrides: PerceptionOverride<'_>) -> Result<(), GpError> {
+        self.observed.project(self.filter.surface_m());
         match overrides.profile {
             None => self.perception.profile(&self.observed, &mut self.profile)?,
             Some(told) => {
@@ -317,4 +323,9 @@ impl Planner {
         );
         Ok(())
     }
+}
+
+/// Range of the returns that are of use.
+fn sight_m(config: &PlannerConfig) -> f64 {
+    config.perception.surface_radius_m.max(config.elevation_window.radius_m)
 }

@@ -24,6 +24,16 @@ parameters! {
         ground_clearance_m: f64 = 0.13, unit "m", range [0.02, 0.5], check Positive;
         /// Highest vertical step that the wheels climb.
         max_step_m: f64 = 0.165, unit "m", range [0.0, 0.5], check NotNegative;
+        /// Overall height with mast and sensor: the robot passes below what is higher.
+        height_m: f64 = 0.9, unit "m", range [0.2, 3.0], check Positive;
+        /// Returns this near to the body's outline are the robot's own.
+        body_margin_m: f64 = 0.1, unit "m", range [0.0, 0.5], check NotNegative;
+        /// How far a load sticks out ahead of the body.
+        load_front_m: f64 = 0.0, unit "m", range [0.0, 2.0], check NotNegative;
+        /// How far a load sticks out behind the body.
+        load_rear_m: f64 = 0.0, unit "m", range [0.0, 2.0], check NotNegative;
+        /// How far a load sticks out on each side.
+        load_side_m: f64 = 0.0, unit "m", range [0.0, 1.0], check NotNegative;
         /// Largest safe |roll|.
         roll_limit_rad: f64 = 0.524, paper 0.524, unit "rad", range [0.1, 1.2], check Angle;
         /// Largest safe |pitch|.

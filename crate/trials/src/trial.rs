@@ -223,6 +223,9 @@ impl<N: Navigator> Trial<N> {
         let state = self.husky.state();
         let sensor_pose = self.sensor.config().pose_on(state.position, state.yaw_rad, &state.attitude);
         self.sensor.scan_within(sight_m, &self.caster, &sensor_pose, self.seed, self.tick, &mut self.scan);
+        let RobotConfig { length_m, width_m, .. } = *self.husky.config();
+        let outline_m = DVec2::new(length_m, width_m);
+        self.sensor.add_self_returns(outline_m, self.seed, self.tick, &mut self.scan.points);
     }
 
     /// Lets the navigator decide on the last scan.

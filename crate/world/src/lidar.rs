@@ -28,6 +28,11 @@ parameters! {
         range_noise_m: f64 = 0.02, unit "m", range [0.0, 0.5], check Within(0.0, 1.0);
         /// Share of returns that are lost at random.
         dropout_probability: f64 = 0.0, range [0.0, 1.0], check Within(0.0, 1.0);
+        /// Share of beams that end early, on rain, dust or insects: anywhere before what they would hit, and
+        /// within 7 m.
+        stray_probability: f64 = 0.0, range [0.0, 0.1], check Within(0.0, 1.0);
+        /// Returns on the robot itself in each scan: anywhere above its outline, up to the sensor's height.
+        self_returns: usize = 0, range [0, 100], check Within(0.0, 10_000.0);
         /// Nothing nearer is reported.
         min_range_m: f64 = 0.5, unit "m", range [0.0, 4.9], check NotNegative;
         /// Nothing farther is reported.
@@ -106,6 +111,8 @@ pub struct Lidar {
     elevations: Vec<(f64, f64)>,
 }
 
+/// Stray returns are nearer than this.
+const STRAY_RANGE_M: f64 = 7.0;
 /// No noise in a lifetime is this many standard deviations.
 const NOISE_DEVIATIONS: f64 = 12.0;
 
@@ -151,8 +158,11 @@ impl Lidar {
         tick: u64,
         scan: &mut Scan,
     ) {
+        let config = &self.config;
         // Noise may bring a return nearer.
-        let reach_m = self.config.max_range_m.min(sight_m + NOISE_DEVIATIONS * self.config.range_noise_m);
+        let sight_m = sight_m + NOISE_DEVIATIONS * config.range_noise_m;
+        let sight_m = if config.stray_probability > 0.0 { sight_m.max(STRAY_RANGE_M) } else { sight_m };
+        let reach_m = config.max_range_m.min(sight_m);
         let beams = self.azimuths.len() * self.elevations.len();
         scan.ranges_m.clear();
         scan.points.clear();
@@ -164,6 +174,7 @@ impl Lidar {
             for &(sin_elevation, cos_elevation) in &self.elevations {
                 let true_range_m = fan.cast(sin_elevation, cos_elevation, reach_m);
                 let beam_key = random::key(scan_key, scan.ranges_m.len() as u64);
+                let true_range_m = self.stray(true_range_m, beam_key).or(true_range_m);
                 match true_range_m.and_then(|range_m| self.measure(range_m, beam_key)) {
                     Some(range_m) => {
                         let beam = DVec3::new(
@@ -177,6 +188,35 @@ impl Lidar {
                     None => scan.ranges_m.push(f32::NAN),
                 }
             }
+        }
+    }
+
+    /// Range of a stray return, if the beam has one.
+    fn stray(&self, true_range_m: Option<f64>, beam_key: u64) -> Option<f64> {
+        let config = &self.config;
+        let is_stray = config.stray_probability > 0.0
+            && random::uniform(random::key(beam_key, 2)) <= config.stray_probability;
+        is_stray.then(|| {
+            let end_m = true_range_m.unwrap_or(STRAY_RANGE_M).min(STRAY_RANGE_M);
+            let share = random::uniform(random::key(beam_key, 3));
+            config.min_range_m + share * (end_m - config.min_range_m).max(0.0)
+        })
+    }
+
+    /// Adds the returns on the robot itself, whose outline is so long and wide.
+    pub fn add_self_returns(&self, outline_m: DVec2, seed: u64, tick: u64, points_m: &mut Vec<Vec3>) {
+        let config = &self.config;
+        let scan_key = random::key(seed, tick);
+        let mount = Attitude { height_m: 0.0, roll_rad: config.roll_rad, pitch_rad: config.pitch_rad };
+        let sensor_from_robot = world_from_body(config.yaw_rad, &mount).transpose();
+        let mount_m = DVec3::new(config.forward_m, config.left_m, config.height_m);
+        for index in 0..config.self_returns {
+            // Beams have the keys from 0.
+            let mut places = random::Sequence::new(random::key(scan_key, u64::MAX - index as u64));
+            let mut between = |half_m: f64| places.between([-half_m, half_m]);
+            let (x, y) = (between(0.5 * outline_m.x), between(0.5 * outline_m.y));
+            let place_m = DVec3::new(x, y, places.share() * config.height_m);
+            points_m.push((sensor_from_robot * (place_m - mount_m)).as_vec3());
         }
     }
 

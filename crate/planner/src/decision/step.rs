@@ -8,6 +8,7 @@ use crate::gp::jitter::GpError;
 use crate::route::state_lattice::PathPoint;
 use crate::skyline::occupancy::OccupancySurface;
 use crate::skyline::profile::Column;
+use crate::skyline::scan_filter::ReturnKind;
 use crate::skyline::segments::Segment;
 use crate::skyline::surface::GpDiagnostics;
 use crate::terrain::plane::Plane;
@@ -59,6 +60,8 @@ pub struct Step<'a> {
     pub status: Status,
     /// The velocity command.
     pub command: Command,
+    /// The kind of each point of the scan, in its order.
+    pub return_kinds: &'a [ReturnKind],
     /// The observed occupancy surface.
     pub observed: &'a OccupancySurface,
     /// Diagnostics of the Gaussian process's prediction of the profile.

@@ -93,6 +93,12 @@ impl BeamGrid {
         (0..self.rings as i32).contains(&ring).then_some(ring as usize)
     }
 
+    /// The row nearest to an elevation.
+    pub(crate) fn nearest_ring(&self, elevation_rad: f64) -> usize {
+        let ring = floor((elevation_rad - self.lowest_elevation_rad) / self.ring_step_rad + 0.5);
+        ring.clamp(0, self.rings as i32 - 1) as usize
+    }
+
     /// A point of a scan, with the robot's axes.
     pub(crate) fn along_robot(&self, point_m: DVec3) -> DVec3 {
         self.robot_from_sensor.map_or(point_m, |rotation| rotation * point_m)

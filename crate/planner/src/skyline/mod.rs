@@ -8,6 +8,7 @@ pub(crate) mod inducing;
 pub mod occupancy;
 pub mod perception;
 pub mod profile;
+pub mod scan_filter;
 pub mod segments;
 pub mod surface;
 pub(crate) mod window_gp;

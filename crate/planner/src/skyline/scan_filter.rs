@@ -1,0 +1,320 @@
+//! The kind of each return of a scan: a surface, the robot itself, a stray return or something overhead.
+//!
+//! Every kind is judged within the one scan, on the grid of directions of the occupancy surface.
+//!
+//! - A return on a surface has neighbours on it. One in rain, dust or on an insect, or by multipath, stands
+//!   alone in front of what its neighbours hit: it has no *support*. This is the idea of the dynamic radius
+//!   outlier removal of Charron, Phillips and Waslander, "De-noising of lidar point clouds corrupted by
+//!   snowfall" (CRV 2018), with directions of beams in place of a radius.
+//! - A return is overhead if a beam passed below it, with room for the robot between.
+
+use core::ops::Range;
+
+use glam::{DVec3, Vec3};
+
+use crate::robot_model::RobotModel;
+use crate::sensor_model::SensorModel;
+use crate::skyline::beam_grid::BeamGrid;
+use crate::skyline::occupancy::{COLUMNS, column_of};
+
+/// Two returns of neighbouring directions lie on one surface if their ranges differ by no more than this part
+/// of the range and this length,
+const SAME_RANGE_SHARE: f64 = 0.03;
+const SAME_RANGE_M: f64 = 0.1;
+/// or, on ground met at a small angle, by no more than this part of the range, at heights that differ by no
+/// more than this.
+const SAME_GROUND_SHARE: f64 = 0.2;
+const SAME_HEIGHT_M: f64 = 0.08;
+/// A return on a surface has this share of the returns around it on the same surface, and no fewer than this.
+const SUPPORT_SHARE: f64 = 0.08;
+const LEAST_SUPPORT: usize = 2;
+/// Cells in and beside that of a return, and the most returns of a cell that are told apart.
+const CELLS_AROUND: f64 = 9.0;
+const MOST_RETURNS: usize = 64;
+/// A return is seen through from below if no more than this share of the beams below it ends before or at it.
+const BLOCKED_SHARE: f64 = 0.2;
+/// A beam passes a place if it goes on for this far behind it.
+const PASSING_M: f64 = 0.3;
+/// The robot passes below what leaves it this much room above its height.
+const HEADROOM_M: f64 = 0.1;
+
+/// What a return of a scan is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReturnKind {
+    /// Ground or an object.
+    Surface,
+    /// No return: not finite, or nearer or farther than the sensor measures.
+    Invalid,
+    /// Beyond the planner's sight.
+    Far,
+    /// The robot itself or its load.
+    Body,
+    /// A stray return: rain, dust, an insect, multipath.
+    Stray,
+    /// Part of something that the robot can pass below.
+    Overhead,
+}
+
+/// A return within sight, from the sensor along the robot's axes.
+#[derive(Clone, Copy, Debug)]
+struct Echo {
+    /// Its index in the scan.
+    index: u32,
+    cell: u32,
+    range_m: f64,
+    /// Distance seen from above.
+    plan_m: f64,
+    height_m: f64,
+}
+
+/// Sorts the returns of a scan by kind.
+#[derive(Clone, Debug)]
+pub(crate) struct ScanFilter {
+    grid: BeamGrid,
+    body: Body,
+    sight_m: f64,
+    max_range_m: f64,
+    kinds: Vec<ReturnKind>,
+    surface_m: Vec<Vec3>,
+    echoes: Vec<Echo>,
+    /// The echoes by cell, and the first one of each cell.
+    by_cell: Vec<Echo>,
+    starts: Vec<u32>,
+    /// Returns of a cell, and other returns on its surface that a return needs.
+    density: usize,
+    needed: usize,
+}
+
+impl ScanFilter {
+    /// A filter for a sensor on a robot; returns beyond `sight_m` are of no use.
+    pub(crate) fn new(sensor: &SensorModel, robot: &RobotModel, sight_m: f64) -> Self {
+        let grid = BeamGrid::new(sensor);
+        let cells = COLUMNS * grid.rings();
+        Self {
+            grid,
+            body: Body::new(sensor, robot),
+            sight_m,
+            max_range_m: sensor.max_range_m,
+            kinds: Vec::new(),
+            surface_m: Vec::new(),
+            echoes: Vec::new(),
+            by_cell: Vec::new(),
+            starts: vec![0; cells + 1],
+            density: 1,
+            needed: LEAST_SUPPORT,
+        }
+    }
+
+    /// Sorts a scan: points in the sensor frame, metres, in any order.
+    pub(crate) fn sort(&mut self, points_m: &[Vec3]) {
+        self.kinds.clear();
+        self.echoes.clear();
+        for point_m in points_m {
+            let kind = self.sort_alone(*point_m);
+            self.kinds.push(kind);
+        }
+        self.arrange();
+        self.density = self.median_density();
+        let around = CELLS_AROUND * self.density as f64;
+        self.needed = ((SUPPORT_SHARE * around).ceil() as usize).max(LEAST_SUPPORT);
+        for index in 0..self.by_cell.len() {
+            let echo = self.by_cell[index];
+            if !self.is_supported(&echo) && self.is_seen_through(&echo) {
+                self.kinds[echo.index as usize] = ReturnKind::Stray;
+            }
+        }
+        // Rain below a roof does not close the way.
+        let kinds = &self.kinds;
+        self.echoes.retain(|echo| kinds[echo.index as usize] == ReturnKind::Surface);
+        self.arrange();
+        for index in 0..self.echoes.len() {
+            let echo = self.echoes[index];
+            if self.is_overhead(&echo) {
+                self.kinds[echo.index as usize] = ReturnKind::Overhead;
+            }
+        }
+        self.surface_m.clear();
+        let kinds = self.kinds.iter().zip(points_m);
+        self.surface_m.extend(
+            kinds.filter(|(kind, _)| **kind == ReturnKind::Surface).map(|(_, point_m)| *point_m),
+        );
+    }
+
+    /// The kind of each point of the last scan, in its order.
+    pub(crate) fn kinds(&self) -> &[ReturnKind] {
+        &self.kinds
+    }
+
+    /// The returns on surfaces within sight, in the order of the scan, in the sensor frame.
+    pub(crate) fn surface_m(&self) -> &[Vec3] {
+        &self.surface_m
+    }
+
+    /// Whether any beam came back from outside the robot.
+    pub(crate) fn has_returns(&self) -> bool {
+        self.kinds.iter().any(|kind| !matches!(kind, ReturnKind::Invalid | ReturnKind::Body))
+    }
+
+    /// The kind of a return by its place alone; keeps it if it is of use.
+    fn sort_alone(&mut self, point_m: Vec3) -> ReturnKind {
+        let point_m = self.grid.along_robot(point_m.as_dvec3());
+        let range_m = point_m.length();
+        // Also true for NaN.
+        if !(range_m > 0.0 && (self.grid.min_range_m..=self.max_range_m).contains(&range_m)) {
+            return ReturnKind::Invalid;
+        }
+        if range_m > self.sight_m {
+            return ReturnKind::Far;
+        }
+        if self.body.holds(point_m) {
+            return ReturnKind::Body;
+        }
+        let plan_m = (point_m.x * point_m.x + point_m.y * point_m.y).sqrt();
+        let ring = self.grid.nearest_ring(libm::atan2(point_m.z, plan_m));
+        let column = column_of(libm::atan2(point_m.y, point_m.x));
+        self.echoes.push(Echo {
+            index: self.kinds.len() as u32,
+            cell: (column * self.grid.rings() + ring) as u32,
+            range_m,
+            plan_m,
+            height_m: point_m.z,
+        });
+        ReturnKind::Surface
+    }
+
+    /// Arranges the echoes by cell.
+    fn arrange(&mut self) {
+        self.starts.fill(0);
+        for echo in &self.echoes {
+            self.starts[echo.cell as usize + 1] += 1;
+        }
+        for cell in 1..self.starts.len() {
+            self.starts[cell] += self.starts[cell - 1];
+        }
+        self.by_cell.clear();
+        self.by_cell.resize(self.echoes.len(), Echo::NONE);
+        for echo in &self.echoes {
+            let slot = &mut self.starts[echo.cell as usize];
+            self.by_cell[*slot as usize] = *echo;
+            *slot += 1;
+        }
+        // Each start has moved to the next one's place.
+        self.starts.rotate_right(1);
+        self.starts[0] = 0;
+    }
+
+    /// The median number of returns in the occupied cells, which tells how dense this scan is.
+    fn median_density(&self) -> usize {
+        let mut cells_with = [0_usize; MOST_RETURNS + 1];
+        for cell in self.starts.windows(2) {
+            cells_with[((cell[1] - cell[0]) as usize).min(MOST_RETURNS)] += 1;
+        }
+        let occupied: usize = cells_with[1..].iter().sum();
+        let mut seen = 0;
+        let median = (1..MOST_RETURNS).find(|&returns| {
+            seen += cells_with[returns];
+            2 * seen >= occupied
+        });
+        median.unwrap_or(MOST_RETURNS)
+    }
+
+    /// The echoes of the cells from `rings` in a column.
+    fn column_part(&self, column: usize, rings: &Range<usize>) -> &[Echo] {
+        let first = column * self.grid.rings();
+        let (begin, end) = (self.starts[first + rings.start], self.starts[first + rings.end]);
+        &self.by_cell[begin as usize..end as usize]
+    }
+
+    /// Whether enough of the returns in and beside the cell of an echo lie on one surface with it.
+    fn is_supported(&self, echo: &Echo) -> bool {
+        let (column, ring) = self.place_of(echo);
+        let rings = ring.saturating_sub(1)..(ring + 2).min(self.grid.rings());
+        let columns = [column, (column + 1) % COLUMNS, (column + COLUMNS - 1) % COLUMNS];
+        let parts = columns.map(|column| self.column_part(column, &rings));
+        // The echo itself is among them.
+        let support = parts.into_iter().flatten().filter(|other| echo.is_on_surface_of(other));
+        support.take(self.needed + 1).count() > self.needed
+    }
+
+    /// Whether the beams below an echo pass behind it, or go on without a return: it stands on nothing.
+    fn is_seen_through(&self, echo: &Echo) -> bool {
+        let (column, ring) = self.place_of(echo);
+        let below = ring.saturating_sub(1);
+        let rings = below..below + 1;
+        let (mut blocked, mut count) = (0, 0);
+        for column in [column, (column + 1) % COLUMNS, (column + COLUMNS - 1) % COLUMNS] {
+            for other in self.column_part(column, &rings).iter().filter(|other| other.index != echo.index) {
+                count += 1;
+                blocked += usize::from(other.range_m <= echo.range_m + PASSING_M);
+            }
+        }
+        blocked as f64 <= BLOCKED_SHARE * count.max(3 * self.density) as f64
+    }
+
+    /// Whether a beam of its column passed below an echo and nothing in the room that the robot needs above
+    /// that beam stands in the way.
+    fn is_overhead(&self, echo: &Echo) -> bool {
+        let (column, ring) = self.place_of(echo);
+        let clearance_m = self.body.height_m + HEADROOM_M;
+        let mut floor_m = None;
+        for below in 0..ring {
+            let cell = self.column_part(column, &(below..below + 1));
+            let Some(nearest) = cell.iter().min_by(|a, b| a.plan_m.total_cmp(&b.plan_m)) else { continue };
+            if floor_m.is_none() && nearest.plan_m > echo.plan_m + PASSING_M {
+                floor_m = Some(nearest.height_m * (echo.plan_m / nearest.plan_m));
+            }
+            let is_in_the_way = (nearest.plan_m - echo.plan_m).abs() <= PASSING_M;
+            if floor_m.is_some_and(|floor_m| is_in_the_way && nearest.height_m - floor_m < clearance_m) {
+                return false;
+            }
+        }
+        floor_m.is_some_and(|floor_m| echo.height_m - floor_m >= clearance_m)
+    }
+
+    /// Column and ring of an echo.
+    fn place_of(&self, echo: &Echo) -> (usize, usize) {
+        let cell = echo.cell as usize;
+        (cell / self.grid.rings(), cell % self.grid.rings())
+    }
+}
+
+impl Echo {
+    const NONE: Self = Self { index: 0, cell: 0, range_m: 0.0, plan_m: 0.0, height_m: 0.0 };
+
+    /// Whether two echoes of neighbouring directions lie on one surface.
+    fn is_on_surface_of(&self, other: &Self) -> bool {
+        let apart_m = (self.range_m - other.range_m).abs();
+        apart_m <= SAME_RANGE_M + SAME_RANGE_SHARE * self.range_m
+            || apart_m <= SAME_GROUND_SHARE * self.range_m
+                && (self.height_m - other.height_m).abs() <= SAME_HEIGHT_M
+    }
+}
+
+/// The outline of the robot and its load, from the sensor along the robot's axes.
+#[derive(Clone, Copy, Debug)]
+struct Body {
+    /// Rear and right, front and left.
+    low_m: [f64; 2],
+    high_m: [f64; 2],
+    /// Overall height.
+    height_m: f64,
+}
+
+impl Body {
+    fn new(sensor: &SensorModel, robot: &RobotModel) -> Self {
+        let margin_m = robot.body_margin_m;
+        let side_m = 0.5 * robot.width_m + robot.load_side_m + margin_m;
+        let front_m = 0.5 * robot.length_m + robot.load_front_m + margin_m;
+        let rear_m = 0.5 * robot.length_m + robot.load_rear_m + margin_m;
+        Self {
+            low_m: [-rear_m - sensor.forward_m, -side_m - sensor.left_m],
+            high_m: [front_m - sensor.forward_m, side_m - sensor.left_m],
+            height_m: robot.height_m.max(sensor.height_m),
+        }
+    }
+
+    fn holds(&self, point_m: DVec3) -> bool {
+        (self.low_m[0]..=self.high_m[0]).contains(&point_m.x)
+            && (self.low_m[1]..=self.high_m[1]).contains(&point_m.y)
+    }
+}
