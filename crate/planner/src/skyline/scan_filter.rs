@@ -15,7 +15,7 @@ use glam::{DVec3, Vec3};
 use crate::robot_model::RobotModel;
 use crate::sensor_model::SensorModel;
 use crate::skyline::beam_grid::BeamGrid;
-use crate::skyline::occupancy::{COLUMNS, column_of};
+use crate::skyline::columns::{COLUMNS, column_of};
 
 /// Two returns of neighbouring directions lie on one surface if their ranges differ by no more than this part
 /// of the range and this length,
@@ -135,9 +135,8 @@ impl ScanFilter {
         }
         self.surface_m.clear();
         let kinds = self.kinds.iter().zip(points_m);
-        self.surface_m.extend(
-            kinds.filter(|(kind, _)| **kind == ReturnKind::Surface).map(|(_, point_m)| *point_m),
-        );
+        self.surface_m
+            .extend(kinds.filter(|(kind, _)| **kind == ReturnKind::Surface).map(|(_, point_m)| *point_m));
     }
 
     /// The kind of each point of the last scan, in its order.
@@ -316,5 +315,166 @@ impl Body {
     fn holds(&self, point_m: DVec3) -> bool {
         (self.low_m[0]..=self.high_m[0]).contains(&point_m.x)
             && (self.low_m[1]..=self.high_m[1]).contains(&point_m.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::PI;
+    use glam::DVec2;
+
+    /// Height of the sensor.
+    const UP_M: f64 = 0.8;
+
+    /// An object: the range at which a beam with this unit direction meets it.
+    type Object = Box<dyn Fn(DVec3) -> Option<f64>>;
+
+    fn ground() -> Object {
+        Box::new(|beam| (beam.z < -0.01).then(|| UP_M / -beam.z))
+    }
+
+    /// An upright cylinder on the ground.
+    fn cylinder(place_m: DVec2, radius_m: f64, height_m: f64) -> Object {
+        Box::new(move |beam| {
+            let along = beam.truncate();
+            let half = along.dot(place_m) / along.length_squared();
+            let apart =
+                half * half - (place_m.length_squared() - radius_m * radius_m) / along.length_squared();
+            let range_m = half - (apart >= 0.0).then(|| apart.sqrt())?;
+            (range_m > 0.0 && (-UP_M..=height_m - UP_M).contains(&(range_m * beam.z))).then_some(range_m)
+        })
+    }
+
+    fn sphere(centre_m: DVec3, radius_m: f64) -> Object {
+        Box::new(move |beam| {
+            let half = beam.dot(centre_m);
+            let apart = half * half - centre_m.length_squared() + radius_m * radius_m;
+            (apart >= 0.0).then(|| half - apart.sqrt()).filter(|range_m| *range_m > 0.0)
+        })
+    }
+
+    /// A level ceiling over a square around a place, so high above the ground.
+    fn ceiling(place_m: DVec2, half_side_m: f64, height_m: f64) -> Object {
+        Box::new(move |beam| {
+            let range_m = (height_m - UP_M) / beam.z;
+            let from_place_m = beam.truncate() * range_m - place_m;
+            (range_m > 0.0 && from_place_m.abs().max_element() < half_side_m).then_some(range_m)
+        })
+    }
+
+    /// The scan of a VLP-16, and which object each return is on.
+    fn scan(objects: &[Object]) -> (Vec<Vec3>, Vec<usize>) {
+        let (mut points_m, mut hit) = (Vec::new(), Vec::new());
+        for column in 0..1800 {
+            let (sin_a, cos_a) = libm::sincos(f64::from(column) * PI / 900.0);
+            for ring in 0..16 {
+                let (sin_e, cos_e) = libm::sincos((f64::from(ring) * 2.0 - 15.0).to_radians());
+                let beam = DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e);
+                let ranges_m =
+                    objects.iter().enumerate().filter_map(|(index, object)| Some((object(beam)?, index)));
+                let Some((range_m, index)) = ranges_m.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+                // Noise of some 2 cm.
+                let noise_m = 0.02 * libm::sin(f64::from(977 * column + 131 * ring));
+                points_m.push((beam * (range_m + noise_m)).as_vec3());
+                hit.push(index);
+            }
+        }
+        (points_m, hit)
+    }
+
+    fn sort(points_m: &[Vec3]) -> Vec<ReturnKind> {
+        let mut filter = ScanFilter::new(&SensorModel::vlp16(), &RobotModel::husky(), 9.0);
+        filter.sort(points_m);
+        let surfaces = filter.kinds().iter().filter(|kind| **kind == ReturnKind::Surface).count();
+        assert_eq!(filter.surface_m().len(), surfaces);
+        filter.kinds().to_vec()
+    }
+
+    /// The kinds of the returns on the object with an index.
+    fn kinds_on(objects: &[Object], index: usize) -> Vec<ReturnKind> {
+        let (points_m, hit) = scan(objects);
+        let kinds = sort(&points_m);
+        kinds.into_iter().zip(hit).filter(|(_, on)| *on == index).map(|(kind, _)| kind).collect()
+    }
+
+    #[test]
+    fn ground_posts_people_and_stones_are_surfaces() {
+        let places_m = [1.5, 3.0, 5.0, 6.8].map(|far_m| DVec2::from_angle(far_m) * far_m);
+        let mut objects = vec![ground()];
+        for place_m in places_m {
+            let aside = |by: f64| DVec2::from_angle(by).rotate(place_m);
+            objects.push(cylinder(place_m, 0.03, 1.2));
+            objects.push(cylinder(aside(1.0), 0.2, 1.7));
+            objects.push(sphere(aside(2.0).extend(0.15 - UP_M), 0.15));
+        }
+        for index in 0..objects.len() {
+            let kinds = kinds_on(&objects, index);
+            let wrong =
+                kinds.iter().filter(|kind| !matches!(kind, ReturnKind::Surface | ReturnKind::Far)).count();
+            assert_eq!(wrong, 0, "object {index}: {wrong} of {}", kinds.len());
+        }
+    }
+
+    #[test]
+    fn a_lone_return_in_the_air_is_stray() {
+        let (clean_m, _) = scan(&[ground()]);
+        for far_m in [1.0, 2.0, 3.5, 6.0] {
+            for elevation_deg in [-13.0_f64, -9.0, -5.0, 1.0, 11.0] {
+                let height_m = far_m * elevation_deg.to_radians().tan();
+                let above_m = height_m + UP_M;
+                let place_m = DVec2::from_angle(2.0 * far_m) * far_m;
+                let mut points_m = clean_m.clone();
+                points_m.push(place_m.extend(height_m).as_vec3());
+                let kinds = sort(&points_m);
+                if above_m > 0.3 {
+                    assert_eq!(kinds.last(), Some(&ReturnKind::Stray), "{far_m} m, {elevation_deg}°");
+                }
+                let others = &kinds[..clean_m.len()];
+                assert!(others.iter().all(|kind| matches!(kind, ReturnKind::Surface | ReturnKind::Far)));
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_on_the_robot_is_its_body_and_what_stands_beside_it_is_not() {
+        let (mut points_m, _) = scan(&[ground()]);
+        let count = points_m.len();
+        points_m.extend([Vec3::new(0.4, 0.4, -0.2), Vec3::new(-0.5, -0.3, -0.6), Vec3::ZERO, Vec3::NAN]);
+        let kinds = sort(&points_m);
+        let (body, none) = (ReturnKind::Body, ReturnKind::Invalid);
+        assert_eq!(kinds[count..], [body, body, none, none]);
+        let beside = kinds_on(&[ground(), cylinder(DVec2::new(0.0, 0.9), 0.2, 1.5)], 1);
+        assert!(!beside.is_empty() && beside.iter().all(|kind| *kind == ReturnKind::Surface));
+    }
+
+    #[test]
+    fn a_load_belongs_to_the_body() {
+        let robot = RobotModel { load_rear_m: 0.6, ..RobotModel::husky() };
+        let mut filter = ScanFilter::new(&SensorModel::vlp16(), &robot, 9.0);
+        filter.sort(&[Vec3::new(-1.1, 0.2, -0.3)]);
+        assert_eq!(filter.kinds(), [ReturnKind::Body]);
+        assert!(!filter.has_returns());
+        assert_eq!(sort(&[Vec3::new(-1.1, 0.2, -0.3)]), [ReturnKind::Stray]);
+    }
+
+    #[test]
+    fn below_a_high_roof_the_way_is_free_and_below_a_low_one_it_is_not() {
+        let roof = |height_m: f64| kinds_on(&[ground(), ceiling(DVec2::new(4.0, 0.0), 2.5, height_m)], 1);
+        let high = roof(2.0);
+        assert!(!high.is_empty() && high.iter().all(|kind| *kind == ReturnKind::Overhead), "{high:?}");
+        let low = roof(0.9);
+        assert!(!low.is_empty() && low.iter().all(|kind| *kind == ReturnKind::Surface), "{low:?}");
+        let wall = kinds_on(&[ground(), cylinder(DVec2::new(5.0, 0.0), 1.0, 3.0)], 1);
+        assert!(wall.iter().all(|kind| *kind == ReturnKind::Surface));
+    }
+
+    #[test]
+    fn a_scan_of_nothing_has_no_returns() {
+        let mut filter = ScanFilter::new(&SensorModel::vlp16(), &RobotModel::husky(), 9.0);
+        filter.sort(&[Vec3::ZERO; 2000]);
+        assert!(!filter.has_returns());
+        filter.sort(&[Vec3::new(20.0, 0.0, 1.0)]);
+        assert!(filter.has_returns() && filter.surface_m().is_empty());
     }
 }
