@@ -254,7 +254,7 @@ impl Planner {
         if let Err(error) = self.perceive(overrides) {
             return Status::Stopped(StopReason::NoPerception(error));
         }
-        self.policy.get_mut().observe(&self.config, self.filter.surface_m(), pose, elapsed);
+        self.policy.get_mut().observe(&self.config, &self.filter, pose, elapsed);
         let goal_tolerance_m = goal.tolerance_m.unwrap_or(self.config.goal_tolerance_m);
         if (goal.position_m - pose.plan_m()).length() <= goal_tolerance_m {
             return self.arrive(&goal, pose, elapsed);

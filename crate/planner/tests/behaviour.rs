@@ -260,6 +260,88 @@ fn at_the_goal_it_turns_to_any_final_heading_and_arrives() {
     }
 }
 
+/// An upright cylinder at a place ahead, as tall as a person.
+fn person(ahead_m: f64) -> impl Fn(DVec3) -> Option<f64> {
+    move |direction| {
+        let plan = direction.truncate();
+        let half = plan.x * ahead_m / plan.length_squared();
+        let apart = half * half - (ahead_m * ahead_m - 0.2 * 0.2) / plan.length_squared();
+        let range_m = (apart >= 0.0 && half > 0.0).then(|| half - apart.sqrt())?;
+        (-0.8..0.9).contains(&(range_m * direction.z)).then_some(range_m)
+    }
+}
+
+#[test]
+fn a_person_who_walked_away_is_forgotten() {
+    let with_person = scan(|direction| person(3.0)(direction).or_else(|| level(direction)));
+    let clean = scan(level);
+    let paths_m = |scans: &[&Vec<Vec3>]| {
+        let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+        for points in scans {
+            step(&mut planner, points, &START, AHEAD);
+        }
+        let ahead = planner.last_step().subgoals.iter().filter(|subgoal| subgoal.bearing_rad.abs() < 0.5);
+        ahead.filter_map(|subgoal| subgoal.forecast).map(|forecast| forecast.path_m).collect::<Vec<_>>()
+    };
+    let free_m = paths_m(&[&clean; 8]);
+    assert!(paths_m(&[&with_person; 4]).len() < free_m.len());
+    assert_eq!(paths_m(&[&[&with_person; 4][..], &[&clean; 4]].concat()), free_m);
+}
+
+/// A scan in which a share of the beams ends early, at random.
+fn rainy(seed: u64, share: f64) -> Vec<Vec3> {
+    let mut state = seed;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut points = scan(level);
+    for point in &mut points {
+        if random() < share {
+            *point *= (0.1 + 0.9 * random()) as f32;
+        }
+    }
+    points
+}
+
+#[test]
+fn rain_neither_stops_nor_slows_it() {
+    let mut speeds_m_s = Vec::new();
+    for seed in 0..6 {
+        let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+        for tick in 0..5 {
+            let found = step(&mut planner, &rainy(100 * seed + tick, 0.02), &START, AHEAD);
+            assert_eq!(found.status, Status::Driving);
+            speeds_m_s.push(found.command.linear_m_s);
+        }
+    }
+    let mean_m_s = speeds_m_s.iter().sum::<f64>() / speeds_m_s.len() as f64;
+    assert!(mean_m_s > 0.95 * 0.8, "{speeds_m_s:?}");
+}
+
+#[test]
+fn returns_on_its_own_body_change_nothing() {
+    let clean = scan(level);
+    let mut own = clean.clone();
+    // Four posts of a roll bar.
+    for (x, y) in [(0.25, 0.2), (0.25, -0.2), (-0.25, 0.2), (-0.25, -0.2)] {
+        own.extend((0..60).map(|index| Vec3::new(x, y, -0.6 + 0.01 * index as f32)));
+    }
+    let decide = |points: &[Vec3]| {
+        let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+        let found = step(&mut planner, points, &START, AHEAD);
+        (found.status, found.command, found.subgoals.to_vec())
+    };
+    assert_eq!(decide(&own), decide(&clean));
+}
+
+#[test]
+fn a_scan_with_returns_at_the_origin_alone_is_empty() {
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    let found = step(&mut planner, &[Vec3::ZERO; 2000], &START, AHEAD);
+    assert_eq!(found.status, Status::Stopped(StopReason::EmptyScan));
+}
+
 #[test]
 fn without_a_goal_it_stands_and_says_so() {
     let mut planner = Planner::new(PlannerConfig::default()).unwrap();

@@ -8,7 +8,7 @@
 use core::f64::consts::PI;
 use core::time::Duration;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 
 use crate::config::{DecisionConfig, PlannerConfig, StateLatticeConfig};
 use crate::control::backtrack::{Backtrack, BacktrackCommand};
@@ -23,6 +23,7 @@ use crate::math::angle::{difference_rad, wrap_rad};
 use crate::pose::{FrameChange, Pose};
 use crate::route::heuristic_table::HeuristicTable;
 use crate::route::state_lattice::{PathPoint, ReachedState, StateLattice, length_m};
+use crate::skyline::scan_filter::ScanFilter;
 use crate::terrain::elevation_window::ElevationWindow;
 
 /// The cost-to-go is learned again after this distance.
@@ -305,20 +306,25 @@ impl SubgoalPolicy for ForecastPolicy {
         self.backtrack.clear();
     }
 
-    /// Adds the near part of the scan, and the ground under the wheels, to the elevation window.
-    fn observe(&mut self, config: &PlannerConfig, points_m: &[Vec3], pose: &Pose, elapsed: Duration) {
+    /// Forgets remembered ground that the scan sees through, and adds the near part of the scan and the ground
+    /// under the wheels to the elevation window.
+    fn observe(&mut self, config: &PlannerConfig, scan: &ScanFilter, pose: &Pose, elapsed: Duration) {
         self.window.advance(elapsed);
         let world_from_robot = pose.world_from_robot();
         let sensor = pose.position_m + world_from_robot * config.sensor.offset_m();
         let mount = config.sensor.robot_from_sensor();
         let world_from_sensor = mount.map_or(world_from_robot, |mount| world_from_robot * mount);
         self.window.looked_from(sensor, world_from_sensor);
+        let robot_from_world = world_from_robot.transpose();
+        let reach_m = self.window.reach_m();
+        let is_refuted = |place_m: DVec3| scan.refutes(robot_from_world * (place_m - sensor));
+        for &place_m in self.window.forget_where(is_refuted) {
+            self.lattice.forget_near(place_m, reach_m);
+        }
         let radius_squared = config.elevation_window.radius_m * config.elevation_window.radius_m;
-        let least_squared = config.sensor.min_range_m * config.sensor.min_range_m;
-        for point in points_m {
+        for point in scan.surface_m() {
             let point = point.as_dvec3();
-            // Also skips NaN.
-            if (least_squared..=radius_squared).contains(&point.length_squared()) {
+            if point.length_squared() <= radius_squared {
                 self.window.add(sensor + world_from_sensor * point);
             }
         }

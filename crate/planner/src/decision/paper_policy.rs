@@ -3,8 +3,6 @@
 
 use core::time::Duration;
 
-use glam::Vec3;
-
 use crate::config::PlannerConfig;
 use crate::control::controller::Controller;
 use crate::decision::cost::{choose_cheapest, steepness_cost};
@@ -13,6 +11,7 @@ use crate::decision::subgoals::{Cost, Subgoal, bearing_rad, on_segments};
 use crate::pose::Pose;
 use crate::skyline::columns::column_of;
 use crate::skyline::profile::Column;
+use crate::skyline::scan_filter::ScanFilter;
 
 /// The policy has no memory.
 #[derive(Clone, Debug)]
@@ -23,7 +22,7 @@ impl SubgoalPolicy for PaperPolicy {
 
     fn forget_terrain(&mut self) {}
 
-    fn observe(&mut self, _: &PlannerConfig, _: &[Vec3], _: &Pose, _: Duration) {}
+    fn observe(&mut self, _: &PlannerConfig, _: &ScanFilter, _: &Pose, _: Duration) {}
 
     fn decide(&mut self, situation: &Situation<'_>, controller: &mut Controller, plan: &mut Plan) -> Motion {
         let Situation { config, pose, .. } = *situation;

@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 
-use glam::{DVec2, Vec3};
+use glam::DVec2;
 
 use crate::config::PlannerConfig;
 use crate::control::controller::{Command, Controller};
@@ -11,6 +11,7 @@ use crate::decision::subgoals::Subgoal;
 use crate::pose::Pose;
 use crate::route::state_lattice::PathPoint;
 use crate::skyline::profile::Column;
+use crate::skyline::scan_filter::ScanFilter;
 use crate::skyline::segments::Segment;
 
 /// The input of a policy.
@@ -62,8 +63,8 @@ pub(crate) trait SubgoalPolicy {
     /// Forgets the terrain.
     fn forget_terrain(&mut self);
 
-    /// Adds a scan, in the sensor frame, taken at `pose`.
-    fn observe(&mut self, config: &PlannerConfig, points_m: &[Vec3], pose: &Pose, elapsed: Duration);
+    /// Adds a scan taken at `pose`.
+    fn observe(&mut self, config: &PlannerConfig, scan: &ScanFilter, pose: &Pose, elapsed: Duration);
 
     /// Fills the plan, which is empty, and decides on a motion.
     fn decide(&mut self, situation: &Situation<'_>, controller: &mut Controller, plan: &mut Plan) -> Motion;

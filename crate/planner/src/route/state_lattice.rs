@@ -352,6 +352,11 @@ impl StateLattice {
         self.attitude.safe_turn_rad(turn_rad, self.traversability.most())
     }
 
+    /// Forgets the ground within `radius_m` of a place; it is queried again.
+    pub(crate) fn forget_near(&mut self, place_m: DVec2, radius_m: f64) {
+        self.traversability.forget_near(place_m, radius_m);
+    }
+
     /// Moves the remembered state from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         self.here_m = change.place_m(self.here_m);

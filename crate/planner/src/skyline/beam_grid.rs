@@ -92,6 +92,12 @@ impl BeamGrid {
         (0..self.rings as i32).contains(&ring).then_some(ring as usize)
     }
 
+    /// The highest row whose beams are all below an elevation; `None` if there is none.
+    pub(crate) fn ring_below(&self, elevation_rad: f64) -> Option<usize> {
+        let ring = floor((elevation_rad - self.lowest_elevation_rad) / self.ring_step_rad - 0.5);
+        (ring >= 0).then(|| (ring as usize).min(self.rings - 1))
+    }
+
     /// The row nearest to an elevation.
     pub(crate) fn nearest_ring(&self, elevation_rad: f64) -> usize {
         let ring = floor((elevation_rad - self.lowest_elevation_rad) / self.ring_step_rad + 0.5);

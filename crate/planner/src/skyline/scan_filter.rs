@@ -35,6 +35,8 @@ const MOST_RETURNS: usize = 64;
 const BLOCKED_SHARE: f64 = 0.2;
 /// A beam passes a place if it goes on for this far behind it.
 const PASSING_M: f64 = 0.3;
+/// A place is refuted by beams that pass this far below it.
+const REFUTED_BELOW_M: f64 = 0.2;
 /// The robot passes below what leaves it this much room above its height.
 const HEADROOM_M: f64 = 0.1;
 
@@ -152,6 +154,20 @@ impl ScanFilter {
     /// Whether any beam came back from outside the robot.
     pub(crate) fn has_returns(&self) -> bool {
         self.kinds.iter().any(|kind| !matches!(kind, ReturnKind::Invalid | ReturnKind::Body))
+    }
+
+    /// Whether beams passed well below a place, in its direction, and met surfaces only behind it: nothing
+    /// stands there. The place is given from the sensor along the robot's axes.
+    pub(crate) fn refutes(&self, place_m: DVec3) -> bool {
+        let plan_m = (place_m.x * place_m.x + place_m.y * place_m.y).sqrt();
+        let below_rad = libm::atan2(place_m.z - REFUTED_BELOW_M, plan_m);
+        let Some(highest) = self.grid.ring_below(below_rad) else { return false };
+        let column = column_of(libm::atan2(place_m.y, place_m.x));
+        // Beams that go out of sight say nothing; the next lower ones may.
+        let rows = (0..=highest).rev().map(|ring| self.column_part(column, &(ring..ring + 1)));
+        rows.into_iter()
+            .find(|beams| 2 * beams.len() >= self.density.max(2))
+            .is_some_and(|beams| beams.iter().all(|beam| beam.plan_m > plan_m + PASSING_M))
     }
 
     /// The kind of a return by its place alone; keeps it if it is of use.

@@ -19,7 +19,7 @@ use crate::sensor_model::SensorModel;
 use crate::terrain::plane::{Moments, Plane};
 use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
-use cliffs::{MOST_VIEWS, View};
+use cliffs::{DROP_RADIUS_M, MOST_VIEWS, View};
 
 /// Weight of the past in a cell's average, in returns.
 const MOST_RETURNS: f64 = 30.0;
@@ -78,6 +78,8 @@ pub(crate) struct ElevationWindow {
     now: Duration,
     memory: Duration,
     cells: RollingGrid<ElevationCell>,
+    /// Where the last scan refuted cells.
+    refuted_m: Vec<DVec2>,
     /// Sensor poses of the last scans, the newest last.
     views: VecDeque<View>,
 }
@@ -95,6 +97,7 @@ impl ElevationWindow {
             now: Duration::ZERO,
             memory: elevation_window.memory(),
             cells: RollingGrid::new(elevation_window.cells_per_side()),
+            refuted_m: Vec::new(),
             views: VecDeque::with_capacity(MOST_VIEWS),
         }
     }
@@ -121,6 +124,20 @@ impl ElevationWindow {
             }
             _ => self.cells.set(index, ElevationCell { seen: now, returns: 1.0, mean_m: point_m }),
         }
+    }
+
+    /// Forgets the cells whose ground a scan refutes, and returns where they were.
+    pub(crate) fn forget_where(&mut self, is_refuted: impl Fn(DVec3) -> bool) -> &[DVec2] {
+        let (cells, refuted_m) = (&mut self.cells, &mut self.refuted_m);
+        refuted_m.clear();
+        cells.retain(|cell| {
+            let forgets = is_refuted(cell.mean_m);
+            if forgets {
+                refuted_m.push(cell.mean_m.truncate());
+            }
+            !forgets
+        });
+        refuted_m
     }
 
     /// Moves the window from one world frame to another.
@@ -176,6 +193,11 @@ impl ElevationWindow {
 }
 
 impl ElevationWindow {
+    /// The ground within this distance of a place decides what the window says of it.
+    pub(crate) fn reach_m(&self) -> f64 {
+        self.footprint_radii_m().into_iter().fold(DROP_RADIUS_M, f64::max)
+    }
+
     /// The radii of the ground around a place, the narrowest first.
     fn footprint_radii_m(&self) -> [f64; 3] {
         FOOTPRINT_RADII.map(|times| times * self.footprint_m)

@@ -39,6 +39,14 @@ impl<T: Copy> RollingGrid<T> {
         self.slots[slot] = Some((index, cell));
     }
 
+    /// Forgets the cell with an index.
+    pub(crate) fn remove(&mut self, index: IVec2) {
+        let slot = self.slot_of(index);
+        if self.slots[slot].as_ref().is_some_and(|(held, _)| *held == index) {
+            self.slots[slot] = None;
+        }
+    }
+
     /// The cells from `low` to `high`, both included, row by row.
     pub(crate) fn between(&self, low: IVec2, high: IVec2) -> impl Iterator<Item = &T> {
         let first = low.x.rem_euclid(self.side);
@@ -57,6 +65,15 @@ impl<T: Copy> RollingGrid<T> {
     /// Every cell.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (IVec2, &T)> {
         self.slots.iter().flatten().map(|(index, cell)| (*index, cell))
+    }
+
+    /// Forgets the cells that do not hold.
+    pub(crate) fn retain(&mut self, mut holds: impl FnMut(&T) -> bool) {
+        for slot in &mut self.slots {
+            if slot.as_ref().is_some_and(|(_, cell)| !holds(cell)) {
+                *slot = None;
+            }
+        }
     }
 
     /// Every cell, to change.

@@ -130,6 +130,20 @@ impl TraversabilityMap {
         }
     }
 
+    /// Forgets the ground within `radius_m` of a place; it is queried again.
+    pub(crate) fn forget_near(&mut self, place_m: DVec2, radius_m: f64) {
+        let index = |place_m: DVec2| {
+            let cells = place_m / self.config.step_m;
+            IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5))
+        };
+        let (low, high) = (index(place_m - radius_m), index(place_m + radius_m));
+        for y in low.y..=high.y {
+            for x in low.x..=high.x {
+                self.planes.remove(IVec2::new(x, y));
+            }
+        }
+    }
+
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
         self.planes.clear();

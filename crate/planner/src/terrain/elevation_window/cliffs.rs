@@ -40,7 +40,7 @@ const HOLE_SHARE: f64 = 0.5;
 /// Returns within this distance of a place show a drop if one lies this much lower than another and the line
 /// through both has this slope. At 1.15 a robot exceeds a limit with every heading: its square is tan² 45° +
 /// tan² 30°.
-const DROP_RADIUS_M: f64 = 0.7;
+pub(super) const DROP_RADIUS_M: f64 = 0.7;
 const LEAST_DROP_M: f64 = 0.3;
 const DROP_SLOPE: f64 = 1.2;
 
