@@ -283,9 +283,12 @@ fn a_person_who_walked_away_is_forgotten() {
         let ahead = planner.last_step().subgoals.iter().filter(|subgoal| subgoal.bearing_rad.abs() < 0.5);
         ahead.filter_map(|subgoal| subgoal.forecast).map(|forecast| forecast.path_m).collect::<Vec<_>>()
     };
-    let free_m = paths_m(&[&clean; 8]);
-    assert!(paths_m(&[&with_person; 4]).len() < free_m.len());
-    assert_eq!(paths_m(&[&[&with_person; 4][..], &[&clean; 4]].concat()), free_m);
+    let sum_m = |paths_m: &[f64]| paths_m.iter().sum::<f64>();
+    let (free_m, blocked_m) = (paths_m(&[&clean; 8]), paths_m(&[&with_person; 4]));
+    let again_m = paths_m(&[&[&with_person; 4][..], &[&clean; 4]].concat());
+    assert!(blocked_m.len() < free_m.len());
+    assert_eq!(again_m.len(), free_m.len());
+    assert!((sum_m(&again_m) / sum_m(&free_m) - 1.0).abs() < 0.03, "{again_m:?} {free_m:?}");
 }
 
 /// A scan in which a share of the beams ends early, at random.

@@ -328,6 +328,9 @@ impl SubgoalPolicy for ForecastPolicy {
                 self.window.add(sensor + world_from_sensor * point);
             }
         }
+        for &face_m in scan.faces_m() {
+            self.window.add_face((sensor + world_from_robot * face_m).truncate());
+        }
         let half_width = 0.5 * config.robot.width_m;
         let parts = (half_width / WHEEL_GROUND_M).ceil() as i32;
         let place = |part: i32| half_width * (f64::from(part) / f64::from(parts));

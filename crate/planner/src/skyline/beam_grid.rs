@@ -14,7 +14,7 @@ pub(crate) const RING_STEP_RAD: f64 = PI / 90.0;
 /// Rows of the predicted surfaces for each row of the grid.
 pub(crate) const ROWS_PER_RING: usize = 2;
 /// Rows are marked in a mask of 64 bits.
-const MOST_RINGS: usize = 64;
+pub(crate) const MOST_RINGS: usize = 64;
 /// The VLP-16 has its rings 2° apart but for rounding.
 const TOLERANCE: f64 = 1e-9;
 /// Ground that rises out of view is a wall from this elevation on. Below it, the hidden skyline may still be

@@ -7,15 +7,18 @@
 //!   outlier removal of Charron, Phillips and Waslander, "De-noising of lidar point clouds corrupted by
 //!   snowfall" (CRV 2018), with directions of beams in place of a radius.
 //! - A return is overhead if a beam passed below it, with room for the robot between.
+//!
+//! Upright faces higher than the wheels climb are found here as well: walls, posts, people, steps. They are
+//! no ground.
 
 use core::ops::Range;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use crate::robot_model::RobotModel;
 use crate::sensor_model::SensorModel;
-use crate::skyline::beam_grid::BeamGrid;
-use crate::skyline::columns::{COLUMNS, column_of};
+use crate::skyline::beam_grid::{BeamGrid, MOST_RINGS};
+use crate::skyline::columns::{COLUMNS, column_azimuth_rad, column_of};
 
 /// Two returns of neighbouring directions lie on one surface if their ranges differ by no more than this part
 /// of the range and this length,
@@ -37,6 +40,12 @@ const BLOCKED_SHARE: f64 = 0.2;
 const PASSING_M: f64 = 0.3;
 /// A place is refuted by beams that pass this far below it.
 const REFUTED_BELOW_M: f64 = 0.2;
+/// Rows stand above one another if their distances differ by no more than this part of the rise between them,
+/// as on a face of 70°, and this length.
+const FACE_SLANT: f64 = 0.36;
+const FACE_NOISE_M: f64 = 0.03;
+/// The echoes of a cell are of one place if none is farther than this from their mean.
+const ONE_PLACE_M: f64 = 0.15;
 /// The robot passes below what leaves it this much room above its height.
 const HEADROOM_M: f64 = 0.1;
 
@@ -82,6 +91,9 @@ pub(crate) struct ScanFilter {
     /// The echoes by cell, and the first one of each cell.
     by_cell: Vec<Echo>,
     starts: Vec<u32>,
+    /// Highest step that the wheels climb.
+    max_step_m: f64,
+    faces_m: Vec<DVec3>,
     /// Returns of a cell, and other returns on its surface that a return needs.
     density: usize,
     needed: usize,
@@ -97,6 +109,8 @@ impl ScanFilter {
             body: Body::new(sensor, robot),
             sight_m,
             max_range_m: sensor.max_range_m,
+            max_step_m: robot.max_step_m,
+            faces_m: Vec::new(),
             kinds: Vec::new(),
             surface_m: Vec::new(),
             echoes: Vec::new(),
@@ -135,6 +149,10 @@ impl ScanFilter {
                 self.kinds[echo.index as usize] = ReturnKind::Overhead;
             }
         }
+        let kinds = &self.kinds;
+        self.echoes.retain(|echo| kinds[echo.index as usize] == ReturnKind::Surface);
+        self.arrange();
+        self.find_faces();
         self.surface_m.clear();
         let kinds = self.kinds.iter().zip(points_m);
         self.surface_m
@@ -168,6 +186,46 @@ impl ScanFilter {
         rows.into_iter()
             .find(|beams| 2 * beams.len() >= self.density.max(2))
             .is_some_and(|beams| beams.iter().all(|beam| beam.plan_m > plan_m + PASSING_M))
+    }
+
+    /// Places on upright faces higher than the wheels climb, from the sensor along the robot's axes: one for
+    /// each cell of directions.
+    pub(crate) fn faces_m(&self) -> &[DVec3] {
+        &self.faces_m
+    }
+
+    /// Finds the upright faces: in each column, runs of rows whose returns stand above one another, higher than
+    /// the wheels climb.
+    fn find_faces(&mut self) {
+        self.faces_m.clear();
+        let rings = self.grid.rings();
+        let mut rows: [Option<DVec2>; MOST_RINGS] = [None; MOST_RINGS];
+        for column in 0..COLUMNS {
+            for (ring, row) in rows.iter_mut().enumerate().take(rings) {
+                *row = self.mean(column, ring);
+            }
+            let direction = DVec2::from_angle(column_azimuth_rad(column));
+            let mut rest = &rows[..rings];
+            while !rest.is_empty() {
+                let (run, others) = rest.split_at(upright_run(rest));
+                if let (Some(Some(low)), Some(Some(high))) = (run.first(), run.last())
+                    && high.y - low.y > self.max_step_m
+                {
+                    let places_m = run.iter().flatten().map(|row| (direction * row.x).extend(row.y));
+                    self.faces_m.extend(places_m);
+                }
+                rest = others;
+            }
+        }
+    }
+
+    /// Mean distance seen from above and mean height of the echoes of a cell; `None` if they are not of one
+    /// place.
+    fn mean(&self, column: usize, ring: usize) -> Option<DVec2> {
+        let echoes = self.column_part(column, &(ring..ring + 1));
+        let sum: DVec2 = echoes.iter().map(|echo| DVec2::new(echo.plan_m, echo.height_m)).sum();
+        let mean = (!echoes.is_empty()).then(|| sum / echoes.len() as f64)?;
+        echoes.iter().all(|echo| (echo.plan_m - mean.x).abs() <= ONE_PLACE_M).then_some(mean)
     }
 
     /// The kind of a return by its place alone; keeps it if it is of use.
@@ -305,6 +363,15 @@ impl Echo {
     }
 }
 
+/// The number of rows at the beginning of `rows`, at least one, that stand above one another.
+fn upright_run(rows: &[Option<DVec2>]) -> usize {
+    let Some(&Some(low)) = rows.first() else { return 1 };
+    let stands = |row: &&Option<DVec2>| {
+        row.is_some_and(|row| (row.x - low.x).abs() <= FACE_SLANT * (row.y - low.y) + FACE_NOISE_M)
+    };
+    1 + rows[1..].iter().take_while(stands).count()
+}
+
 /// The outline of the robot and its load, from the sensor along the robot's axes.
 #[derive(Clone, Copy, Debug)]
 struct Body {
@@ -338,7 +405,6 @@ impl Body {
 mod tests {
     use super::*;
     use core::f64::consts::PI;
-    use glam::DVec2;
 
     /// Height of the sensor.
     const UP_M: f64 = 0.8;
@@ -437,7 +503,7 @@ mod tests {
         let (clean_m, _) = scan(&[ground()]);
         for far_m in [1.0, 2.0, 3.5, 6.0] {
             for elevation_deg in [-13.0_f64, -9.0, -5.0, 1.0, 11.0] {
-                let height_m = far_m * elevation_deg.to_radians().tan();
+                let height_m = far_m * libm::tan(elevation_deg.to_radians());
                 let above_m = height_m + UP_M;
                 let place_m = DVec2::from_angle(2.0 * far_m) * far_m;
                 let mut points_m = clean_m.clone();

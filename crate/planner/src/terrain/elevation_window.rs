@@ -23,6 +23,10 @@ use cliffs::{DROP_RADIUS_M, MOST_VIEWS, View};
 
 /// Weight of the past in a cell's average, in returns.
 const MOST_RETURNS: f64 = 30.0;
+/// A cell is upright once so many rows of beams met a face in it.
+const FEWEST_FACES: u32 = 3;
+/// The body keeps this far from what is upright.
+const UPRIGHT_MARGIN_M: f64 = 0.1;
 /// Radii of the ground around a place that carries the robot, as multiples of the footprint's radius. A wider
 /// plane replaces a narrower one if the rings of a scan lie farther apart.
 const FOOTPRINT_RADII: [f64; 3] = [1.0, 1.6, 2.4];
@@ -39,6 +43,9 @@ pub(crate) trait TerrainQuery {
     /// Whether a place is a negative obstacle: no ground under a wheel that would have been seen from the
     /// side of `here_m`, or a drop. It stays one, `was_negative_obstacle`, while no returns come from it.
     fn is_negative_obstacle(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool;
+
+    /// Whether the body at a place would touch something upright: a wall, a post, a step.
+    fn touches_upright(&self, place_m: DVec2) -> bool;
 }
 
 /// Terrain given by its planes alone.
@@ -54,6 +61,10 @@ impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
     fn is_negative_obstacle(&self, _: DVec2, _: DVec2, _: bool) -> bool {
         false
     }
+
+    fn touches_upright(&self, _: DVec2) -> bool {
+        false
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -62,6 +73,15 @@ struct ElevationCell {
     seen: Duration,
     returns: f64,
     mean_m: DVec3,
+    /// Rows of beams that met an upright face here.
+    faces: u32,
+}
+
+impl ElevationCell {
+    /// Whether something upright stands here: no ground.
+    fn is_upright(&self) -> bool {
+        self.faces >= FEWEST_FACES
+    }
 }
 
 /// The moving window.
@@ -71,6 +91,7 @@ pub(crate) struct ElevationWindow {
     wheelbase_m: f64,
     track_m: f64,
     footprint_m: f64,
+    half_width_m: f64,
     /// Spacing of the places of the state lattice.
     step_m: f64,
     sensor: SensorModel,
@@ -92,6 +113,7 @@ impl ElevationWindow {
             wheelbase_m: robot.wheelbase_m,
             track_m: robot.track_m,
             footprint_m: robot.footprint_radius_m(),
+            half_width_m: 0.5 * robot.width_m,
             step_m: config.state_lattice.step_m,
             sensor,
             now: Duration::ZERO,
@@ -122,7 +144,7 @@ impl ElevationWindow {
                 cell.mean_m += (point_m - cell.mean_m) * (1.0 / cell.returns);
                 cell.seen = now;
             }
-            _ => self.cells.set(index, ElevationCell { seen: now, returns: 1.0, mean_m: point_m }),
+            _ => self.cells.set(index, ElevationCell { seen: now, returns: 1.0, mean_m: point_m, faces: 0 }),
         }
     }
 
@@ -138,6 +160,14 @@ impl ElevationWindow {
             !forgets
         });
         refuted_m
+    }
+
+    /// Notes that a scan shows an upright face at a place where it has returns.
+    pub(crate) fn add_face(&mut self, place_m: DVec2) {
+        let index = self.index_of(place_m);
+        if let Some(cell) = self.cells.get_mut(index) {
+            cell.faces = cell.faces.saturating_add(1);
+        }
     }
 
     /// Moves the window from one world frame to another.
@@ -173,8 +203,13 @@ impl ElevationWindow {
         moments
     }
 
-    /// The fresh cells whose mean is within `radius_m` of a place.
+    /// The fresh cells of ground whose mean is within `radius_m` of a place.
     fn cells_near(&self, place_m: DVec2, radius_m: f64) -> impl Iterator<Item = &ElevationCell> {
+        self.fresh_cells_near(place_m, radius_m).filter(|cell| !cell.is_upright())
+    }
+
+    /// The fresh cells whose mean is within `radius_m` of a place.
+    fn fresh_cells_near(&self, place_m: DVec2, radius_m: f64) -> impl Iterator<Item = &ElevationCell> {
         let reach = DVec2::splat(radius_m);
         let (low, high) = (self.index_of(place_m - reach), self.index_of(place_m + reach));
         self.cells.between(low, high).filter(move |cell| {
@@ -215,6 +250,11 @@ impl TerrainQuery for ElevationWindow {
 
     fn is_negative_obstacle(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool {
         self.is_cliff(place_m, here_m, was_negative_obstacle)
+    }
+
+    fn touches_upright(&self, place_m: DVec2) -> bool {
+        let radius_m = self.half_width_m + UPRIGHT_MARGIN_M;
+        self.fresh_cells_near(place_m, radius_m).any(ElevationCell::is_upright)
     }
 }
 

@@ -91,6 +91,8 @@ struct Known {
     footprint_slopes: [Option<Slopes>; HEADINGS / 2],
     /// Whether the place is a negative obstacle.
     is_negative_obstacle: bool,
+    /// Whether the body would touch something upright.
+    touches_upright: bool,
 }
 
 /// A place is queried again after this many scans: the ground is static, and the robot drives about a step
@@ -219,7 +221,9 @@ impl TraversabilityMap {
                     let is_negative_obstacle = self.config.avoids_negative_obstacles
                         && footprint_slopes.iter().any(Option::is_none)
                         && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
-                    self.planes.set(world, Known { plane, footprint_slopes, is_negative_obstacle });
+                    let touches_upright = ground.touches_upright(place_m);
+                    self.planes
+                        .set(world, Known { plane, footprint_slopes, is_negative_obstacle, touches_upright });
                 }
             }
         }
@@ -243,8 +247,9 @@ impl TraversabilityMap {
                     };
                     let deviations = self.deviations_at(place_m);
                     let risk = self.risk_of(&plane, &footprint_slopes, caution, away_m, deviations);
-                    let falls = if is_at_cliff { f32::INFINITY } else { 0.0 };
-                    Place { plane: Some(plane), risk: risk.map(|risk| risk + penalty + falls), is_at_cliff }
+                    let is_blocked = is_at_cliff || known.is_some_and(|known| known.touches_upright);
+                    let blocked = if is_blocked { f32::INFINITY } else { 0.0 };
+                    Place { plane: Some(plane), risk: risk.map(|risk| risk + penalty + blocked), is_at_cliff }
                 }
                 _ => Place { is_at_cliff, ..UNKNOWN },
             };

@@ -50,7 +50,10 @@ impl ElevationWindow {
         let (mut sum, mut weights, mut nearest_squared) = (0.0, 0.0, f64::INFINITY);
         for step in [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE] {
             let index = low + step;
-            let Some(cell) = self.cells.get(index).filter(|cell| self.is_fresh(cell)) else { continue };
+            let Some(cell) = self.cells.get(index).filter(|cell| self.is_fresh(cell) && !cell.is_upright())
+            else {
+                continue;
+            };
             let away = point_m - cell.mean_m.truncate();
             let squared = away.length_squared();
             let weight = 1.0 / (BLUR_M * BLUR_M + squared);
