@@ -41,6 +41,18 @@ export interface Place {
 }
 
 /**
+ * A place to end at, and which way to face there, if it matters.
+ */
+export interface Goal {
+    x: number;
+    y: number;
+    /**
+     * Counter-clockwise from east.
+     */
+    heading_rad?: number;
+}
+
+/**
  * A place where the robot could go next: on the skyline, where it already heads, at the frontier of what was
  * seen, or the goal itself once it is in sight.
  */
@@ -393,7 +405,7 @@ export interface ScenarioRead {
     terrain: string;
     start: Heading;
     waypoints: Place[];
-    goal: Place;
+    goal: Goal;
     seed: number;
     /**
      * Its tables `planner`, `sensor` and `robot` as written, where they are there.
@@ -419,7 +431,7 @@ export interface Scene {
      * Driven to one after the other, before the goal.
      */
     waypoints: Place[];
-    goal: Place;
+    goal: Goal;
     /**
      * Time between two ticks.
      */
@@ -581,7 +593,7 @@ export interface SensorPose {
  */
 export interface Route {
     waypoints: readonly Place[];
-    goal: Place;
+    goal: Goal;
 }
 
 /**
