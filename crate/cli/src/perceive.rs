@@ -13,10 +13,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use glam::{DVec2, DVec3};
-use mapless::Pose;
 use mapless::skyline::surface::PredictedSurface;
+use mapless::terrain::mount_misfit::MountMisfit;
 use mapless::{Goal, Planner, Step};
+use mapless::{PlannerConfig, Pose};
 use mapless_scans::read_scan;
+use mapless_trials::planner_config_for;
 
 use crate::picture::{OccupancyPicture, VarianceImage};
 use crate::setup::PlannerChoice;
@@ -35,6 +37,9 @@ pub(crate) struct Args {
     revolution: usize,
     #[command(flatten)]
     planner: PlannerChoice,
+    /// Parameters (TOML): the sections [sensor] with its mount, [robot] and [planner] of a scenario.
+    #[arg(long, value_name = "FILE")]
+    parameters: Option<PathBuf>,
     /// Write variance_image.svg and occupancy_surface.svg to this folder, which is made when missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -46,18 +51,31 @@ pub(crate) struct Args {
 /// Perceives the scan and shows what was seen and decided.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let points_m = read_scan(&args.file, args.revolution)?;
-    let config = args.planner.apply(args.planner.planner.planner_config());
+    let config = args.planner.apply(config(args)?);
+    let misfit = MountMisfit::of(&points_m, &config.sensor);
     let mut planner = Planner::new(config)?;
     let variance_threshold = planner.config().perception.variance_threshold;
     planner.set_goal(Goal::at(GOAL_M));
     let step = planner.step(&points_m, &POSE, Duration::ZERO);
-    let report = PerceptionReport::new(subject(args), points_m.len(), &step);
+    let warnings: Vec<String> = misfit.iter().map(ToString::to_string).collect();
+    for warning in &warnings {
+        eprintln!("warning: {}: {warning}", args.file.display());
+    }
+    let report = PerceptionReport::new(subject(args), points_m.len(), warnings, &step);
     if let Some(folder) = &args.out {
         let predicted = planner.predicted_surface()?.clone();
         draw(folder, &report, &planner.last_step(), &predicted, variance_threshold)?;
     }
     let text = if args.json { serde_json::to_string(&report)? } else { report.tables() };
     writeln!(std::io::stdout(), "{text}").context("standard output")
+}
+
+/// The preset with the parameters of the file, if one is given.
+fn config(args: &Args) -> anyhow::Result<PlannerConfig> {
+    let preset = args.planner.planner;
+    let Some(path) = &args.parameters else { return Ok(preset.planner_config()) };
+    let sections = fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    Ok(planner_config_for(&path.display().to_string(), &sections, preset)?)
 }
 
 /// File, revolution and planner; the title of the tables and pictures.

@@ -8,6 +8,7 @@ use mapless_parameters::ConfigError;
 use crate::config::{CostModel, PlannerConfig};
 use crate::control::controller::{Command, Controller};
 use crate::decision::forecast_policy::ForecastPolicy;
+use crate::decision::goal_progress::GoalProgress;
 use crate::decision::paper_policy::PaperPolicy;
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::step::{PerceptionOverride, Status, Step, StopReason};
@@ -49,6 +50,7 @@ pub struct Planner {
     goal: Option<Goal>,
     /// The goal for which the present corrections were learned.
     goal_anchor_m: DVec2,
+    progress: GoalProgress,
     /// Time without a candidate.
     searched: Duration,
     status: Status,
@@ -105,6 +107,7 @@ impl Planner {
             plan: Plan { path: Vec::with_capacity(MAX_PATH_POINTS), ..Plan::default() },
             goal: None,
             goal_anchor_m: DVec2::ZERO,
+            progress: GoalProgress::NONE,
             searched: Duration::ZERO,
             status: Status::Stopped(StopReason::NoGoal),
             command: Command::STOP,
@@ -139,6 +142,7 @@ impl Planner {
         self.goal = Some(goal);
         if !is_near {
             self.goal_anchor_m = goal.position_m;
+            self.progress = GoalProgress::NONE;
             self.policy.get_mut().start();
             self.searched = Duration::ZERO;
             self.controller.reset();
@@ -164,6 +168,7 @@ impl Planner {
     /// Without this a jump of the pose tears the window apart. Only the turn about z and the shift between
     /// both poses count.
     pub fn relocalise(&mut self, before: &Pose, after: &Pose) {
+        self.progress.relocalise();
         // The paper's choice remembers nothing.
         if let Policy::Forecast(forecast) = &mut self.policy
             && before.is_finite()
@@ -258,6 +263,10 @@ impl Planner {
         let goal_tolerance_m = goal.tolerance_m.unwrap_or(self.config.goal_tolerance_m);
         if (goal.position_m - pose.plan_m()).length() <= goal_tolerance_m {
             return self.arrive(&goal, pose, elapsed);
+        }
+        let sight_m = self.config.perception.surface_radius_m;
+        if self.progress.is_out_of_reach(pose.plan_m(), goal.position_m, sight_m) {
+            return Status::Stopped(StopReason::GoalUnreachable);
         }
         let situation = Situation {
             config: &self.config,

@@ -26,5 +26,5 @@ pub use progress_checker::{BASE_TIME_LIMIT_S, MOST_STRAIGHT_TIMES};
 #[cfg(not(target_arch = "wasm32"))]
 pub use scenario::LoadedScenario;
 pub use scenario::renamed_keys::{current_path, current_value};
-pub use scenario::{Preset, Scenario, ScenarioError, ScenarioFault};
+pub use scenario::{Preset, Scenario, ScenarioError, ScenarioFault, planner_config_for};
 pub use trial::{Trial, TrialError};

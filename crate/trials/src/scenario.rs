@@ -190,16 +190,10 @@ impl Scenario {
     /// [`ScenarioError`] names the place, the value and what was expected.
     pub fn with_parameters(&self, file: &str, sections: &str) -> Result<Self, ScenarioError> {
         let fail = |fault| ScenarioError { file: file.to_owned(), fault };
-        let syntax = |error: mapless_toml::Error| ScenarioFault::Syntax(error.to_string());
-        let sections: Sections =
-            mapless_toml::from_str_renamed(sections, RENAMED_KEYS).map_err(|error| fail(syntax(error)))?;
+        let sections = Sections::parse(sections).map_err(fail)?;
         let mut scenario = self.clone();
         merge(&mut scenario.planner, &sections.planner);
-        scenario.sensor = overridden(&self.sensor, &sections.sensor, "sensor").map_err(fail)?;
-        scenario.robot = overridden(&self.robot, &sections.robot, "robot").map_err(fail)?;
-        let value = |reason: String| fail(ScenarioFault::Value(reason));
-        scenario.sensor.validate("sensor").map_err(|e| value(e.to_string()))?;
-        scenario.robot.validate("robot").map_err(|e| value(e.to_string()))?;
+        (scenario.sensor, scenario.robot) = sections.applied_to(&self.sensor, &self.robot).map_err(fail)?;
         Ok(scenario)
     }
 
@@ -209,11 +203,57 @@ impl Scenario {
     /// # Errors
     /// The value that does not fit the preset.
     pub fn planner_config(&self, preset: Preset) -> Result<PlannerConfig, ScenarioFault> {
-        let config = preset.planner_config().fitted_to(sensor_model(&self.sensor), robot_model(&self.robot));
-        let config: PlannerConfig = overridden(&config, &self.planner, "planner")?;
-        config.validate("planner").map_err(|e| ScenarioFault::Value(e.to_string()))?;
-        Ok(config)
+        planner_config(preset, &self.sensor, &self.robot, &self.planner)
     }
+}
+
+impl Sections {
+    fn parse(text: &str) -> Result<Self, ScenarioFault> {
+        mapless_toml::from_str_renamed(text, RENAMED_KEYS)
+            .map_err(|error| ScenarioFault::Syntax(error.to_string()))
+    }
+
+    /// Sensor and robot with what these sections set.
+    fn applied_to(
+        &self,
+        sensor: &SensorConfig,
+        robot: &RobotConfig,
+    ) -> Result<(SensorConfig, RobotConfig), ScenarioFault> {
+        let sensor: SensorConfig = overridden(sensor, &self.sensor, "sensor")?;
+        let robot: RobotConfig = overridden(robot, &self.robot, "robot")?;
+        sensor.validate("sensor").map_err(|e| ScenarioFault::Value(e.to_string()))?;
+        robot.validate("robot").map_err(|e| ScenarioFault::Value(e.to_string()))?;
+        Ok((sensor, robot))
+    }
+}
+
+/// The planner's configuration without a scenario: the preset for the sensor and the robot that `sections`
+/// sets, TOML with nothing but `[planner]`, `[sensor]` and `[robot]`, named `file` in errors.
+///
+/// # Errors
+/// [`ScenarioError`] names the place, the value and what was expected.
+pub fn planner_config_for(
+    file: &str,
+    sections: &str,
+    preset: Preset,
+) -> Result<PlannerConfig, ScenarioError> {
+    let fail = |fault| ScenarioError { file: file.to_owned(), fault };
+    let sections = Sections::parse(sections).map_err(fail)?;
+    let (sensor, robot) =
+        sections.applied_to(&SensorConfig::default(), &RobotConfig::default()).map_err(fail)?;
+    planner_config(preset, &sensor, &robot, &sections.planner).map_err(fail)
+}
+
+fn planner_config(
+    preset: Preset,
+    sensor: &SensorConfig,
+    robot: &RobotConfig,
+    planner: &toml::Table,
+) -> Result<PlannerConfig, ScenarioFault> {
+    let config = preset.planner_config().fitted_to(sensor_model(sensor), robot_model(robot));
+    let config: PlannerConfig = overridden(&config, planner, "planner")?;
+    config.validate("planner").map_err(|e| ScenarioFault::Value(e.to_string()))?;
+    Ok(config)
 }
 
 /// The planner's model of a sensor.

@@ -8,7 +8,7 @@ use mapless::skyline::columns::COLUMNS;
 use mapless::skyline::profile::Column;
 use mapless_trials::Activity;
 
-use super::rows::{ColumnRow, CommandRow, CostRow, SegmentRow, SubgoalRow};
+use super::rows::{ColumnRow, CommandRow, CostRow, ReturnKindsRow, SegmentRow, SubgoalRow};
 
 /// The result of one step, as `--json` prints it. Azimuths and elevations are the sensor's; positions are the
 /// world's, whose origin is the ground under the robot and whose x is its heading.
@@ -16,8 +16,11 @@ use super::rows::{ColumnRow, CommandRow, CostRow, SegmentRow, SubgoalRow};
 pub(crate) struct PerceptionReport {
     #[serde(skip)]
     subject: String,
-    /// Returns in the scan.
+    /// What is doubtful about the scan.
+    warnings: Vec<String>,
+    /// Returns in the scan, and what they are.
     returns: usize,
+    return_kinds: ReturnKindsRow,
     /// `driving`, `arrived`, `backtracking`, `searching` or `stopped`.
     status: &'static str,
     /// Why the planner stopped, if it did.
@@ -38,7 +41,7 @@ pub(crate) struct PerceptionReport {
 }
 
 impl PerceptionReport {
-    pub(crate) fn new(subject: String, returns: usize, step: &Step<'_>) -> Self {
+    pub(crate) fn new(subject: String, returns: usize, warnings: Vec<String>, step: &Step<'_>) -> Self {
         let activity = Activity::from(step.status);
         let reason = match activity {
             Activity::Stopped(reason) => Some(reason.to_string()),
@@ -47,7 +50,9 @@ impl PerceptionReport {
         let column = |index: usize| step.profile.get(index).copied().unwrap_or(Column::Unknown);
         Self {
             subject,
+            warnings,
             returns,
+            return_kinds: ReturnKindsRow::of(step.return_kinds),
             status: activity.name(),
             reason,
             command: CommandRow::of(step.command),
@@ -105,6 +110,17 @@ impl PerceptionReport {
             table.add_row([name, &value, unit]);
         };
         row("returns", self.returns.to_string(), "");
+        let kinds = self.return_kinds;
+        for (name, count, meaning) in [
+            ("no returns", kinds.invalid, "nearer or farther than the sensor measures"),
+            ("own body", kinds.body, "within the robot's outline"),
+            ("stray", kinds.stray, "rain, dust, insects, multipath"),
+            ("overhead", kinds.overhead, "higher than the robot"),
+        ] {
+            if count > 0 {
+                row(name, count.to_string(), meaning);
+            }
+        }
         row(
             "occupied cells",
             self.occupied_cells.to_string(),

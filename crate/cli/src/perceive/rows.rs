@@ -4,12 +4,41 @@ use mapless::Command;
 use mapless::decision::subgoals::{Cost, Refusal, Subgoal};
 use mapless::skyline::columns::column_azimuth_rad;
 use mapless::skyline::profile::Column;
+use mapless::skyline::scan_filter::ReturnKind;
 use mapless::skyline::segments::{Segment, Verdict};
 
 #[derive(serde::Serialize)]
 pub(crate) struct CommandRow {
     pub(crate) linear_m_s: f64,
     pub(crate) angular_rad_s: f64,
+}
+
+/// How many points of a scan are of each kind.
+#[derive(Clone, Copy, Default, serde::Serialize)]
+pub(crate) struct ReturnKindsRow {
+    pub(crate) surface: usize,
+    pub(crate) invalid: usize,
+    pub(crate) far: usize,
+    pub(crate) body: usize,
+    pub(crate) stray: usize,
+    pub(crate) overhead: usize,
+}
+
+impl ReturnKindsRow {
+    pub(crate) fn of(kinds: &[ReturnKind]) -> Self {
+        let mut counts = Self::default();
+        for kind in kinds {
+            *match kind {
+                ReturnKind::Surface => &mut counts.surface,
+                ReturnKind::Invalid => &mut counts.invalid,
+                ReturnKind::Far => &mut counts.far,
+                ReturnKind::Body => &mut counts.body,
+                ReturnKind::Stray => &mut counts.stray,
+                ReturnKind::Overhead => &mut counts.overhead,
+            } += 1;
+        }
+        counts
+    }
 }
 
 #[derive(serde::Serialize)]

@@ -6,6 +6,7 @@ mod committed_target;
 pub mod cost;
 mod detour_budget;
 pub(crate) mod forecast_policy;
+pub(crate) mod goal_progress;
 pub(crate) mod paper_policy;
 pub(crate) mod policy;
 pub(crate) mod step;

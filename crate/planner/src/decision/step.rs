@@ -32,6 +32,9 @@ pub enum StopReason {
     /// The spin recovery found no candidate either.
     #[error("no subgoal found by the spin recovery")]
     NoSubgoal,
+    /// The goal is in sight, and much driving about it brought the robot no nearer.
+    #[error("the goal cannot be reached: driving about it brings the robot no nearer")]
+    GoalUnreachable,
     /// The requested final heading cannot be turned to at the goal without exceeding a tilt limit.
     #[error("turning to the goal's heading would exceed a tilt limit")]
     HeadingUnsafe,
