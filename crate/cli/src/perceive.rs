@@ -16,7 +16,7 @@ use glam::{DVec2, DVec3};
 use mapless::Pose;
 use mapless::skyline::surface::PredictedSurface;
 use mapless::{Goal, Planner, Step};
-use mapless_scans::read_scan;
+use mapless_scans::{ScanChoice, read_scan};
 
 use crate::picture::{OccupancyPicture, VarianceImage};
 use crate::setup::PlannerChoice;
@@ -45,13 +45,16 @@ pub(crate) struct Args {
 
 /// Perceives the scan and shows what was seen and decided.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let points_m = read_scan(&args.file, args.revolution)?;
+    let scan = read_scan(&args.file, ScanChoice { revolution: args.revolution })?;
+    for warning in &scan.warnings {
+        writeln!(std::io::stderr(), "warning: {}: {warning}", args.file.display())?;
+    }
     let config = args.planner.apply(args.planner.planner.planner_config());
     let mut planner = Planner::new(config)?;
     let variance_threshold = planner.config().perception.variance_threshold;
     planner.set_goal(Goal::at(GOAL_M));
-    let step = planner.step(&points_m, &POSE, Duration::ZERO);
-    let report = PerceptionReport::new(subject(args), points_m.len(), &step);
+    let step = planner.step(&scan.points_m, &POSE, Duration::ZERO);
+    let report = PerceptionReport::new(subject(args), &scan, &step);
     if let Some(folder) = &args.out {
         let predicted = planner.predicted_surface()?.clone();
         draw(folder, &report, &planner.last_step(), &predicted, variance_threshold)?;
