@@ -17,7 +17,7 @@ use mapless::skyline::surface::PredictedSurface;
 use mapless::terrain::mount_misfit::MountMisfit;
 use mapless::{Goal, Planner, Step};
 use mapless::{PlannerConfig, Pose};
-use mapless_scans::read_scan;
+use mapless_scans::{ScanChoice, read_scan};
 use mapless_trials::planner_config_for;
 
 use crate::picture::{OccupancyPicture, VarianceImage};
@@ -50,18 +50,19 @@ pub(crate) struct Args {
 
 /// Perceives the scan and shows what was seen and decided.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let points_m = read_scan(&args.file, args.revolution)?;
+    let scan = read_scan(&args.file, ScanChoice { revolution: args.revolution })?;
     let config = args.planner.apply(config(args)?);
-    let misfit = MountMisfit::of(&points_m, &config.sensor);
+    let misfit = MountMisfit::of(&scan.points_m, &config.sensor);
+    let warnings: Vec<String> =
+        scan.warnings.iter().map(ToString::to_string).chain(misfit.iter().map(ToString::to_string)).collect();
+    for warning in &warnings {
+        writeln!(std::io::stderr(), "warning: {}: {warning}", args.file.display())?;
+    }
     let mut planner = Planner::new(config)?;
     let variance_threshold = planner.config().perception.variance_threshold;
     planner.set_goal(Goal::at(GOAL_M));
-    let step = planner.step(&points_m, &POSE, Duration::ZERO);
-    let warnings: Vec<String> = misfit.iter().map(ToString::to_string).collect();
-    for warning in &warnings {
-        eprintln!("warning: {}: {warning}", args.file.display());
-    }
-    let report = PerceptionReport::new(subject(args), points_m.len(), warnings, &step);
+    let step = planner.step(&scan.points_m, &POSE, Duration::ZERO);
+    let report = PerceptionReport::new(subject(args), scan.points_m.len(), warnings, &step);
     if let Some(folder) = &args.out {
         let predicted = planner.predicted_surface()?.clone();
         draw(folder, &report, &planner.last_step(), &predicted, variance_threshold)?;

@@ -1,6 +1,6 @@
 //! Reading recorded LiDAR scans.
 //!
-//! [`read_scan`] gives the returns of one scan in the project's sensor frame: x forward, y left, z up,
+//! [`read_scan`] gives the returns of one scan, and what the reader left out, in the project's sensor frame: x forward, y left, z up,
 //! metres. The extension of the file says its format:
 //!
 //! - `.pcd`: a point cloud of the Point Cloud Library, version 0.5 to 0.7, `ascii`, `binary` or
@@ -18,61 +18,56 @@ mod capture;
 mod csv;
 mod error;
 mod pcd;
+mod scan;
 mod vlp16;
 
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use glam::Vec3;
-
 pub use error::{ScanError, ScanFault};
+pub use scan::{Scan, ScanChoice, ScanWarning};
 
 /// Largest file read, in bytes: a quarter of an hour of a VLP-16.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// Reads one scan from the bytes of a file: its returns in the sensor frame, metres, in the order of the
-/// file. A scan without a return is no error. The extension of `file` decides the format: `.pcd`, `.csv`,
-/// `.txt` and `.xyz` hold a scan, `.pcap` a capture.
-///
-/// `revolution` counts the whole revolutions of a capture from 0; a file of another format holds revolution 0
-/// alone.
+/// Reads one scan from the bytes of a file. A scan without a return is no error. The extension of `file`
+/// decides the format: `.pcd`, `.csv`, `.txt` and `.xyz` hold a scan, `.pcap` a capture.
 ///
 /// # Errors
 /// [`ScanError`] names the file, the place in it, the value and what was expected.
-pub fn read_scan_bytes(file: &str, bytes: &[u8], revolution: usize) -> Result<Vec<Vec3>, ScanError> {
-    read_as(file, revolution, || Ok(bytes))
+pub fn read_scan_bytes(file: &str, bytes: &[u8], choice: ScanChoice) -> Result<Scan, ScanError> {
+    read_as(file, choice, || Ok(bytes))
 }
 
 /// Reads one scan from disk; see [`read_scan_bytes`].
 ///
 /// # Errors
 /// [`ScanError`] names the file, the place in it, the value and what was expected.
-pub fn read_scan(path: &Path, revolution: usize) -> Result<Vec<Vec3>, ScanError> {
-    read_as(&path.display().to_string(), revolution, || read_file(path))
+pub fn read_scan(path: &Path, choice: ScanChoice) -> Result<Scan, ScanError> {
+    read_as(&path.display().to_string(), choice, || read_file(path))
 }
 
 fn read_as<Bytes: AsRef<[u8]>>(
     file: &str,
-    revolution: usize,
+    choice: ScanChoice,
     bytes: impl FnOnce() -> Result<Bytes, ScanFault>,
-) -> Result<Vec<Vec3>, ScanError> {
+) -> Result<Scan, ScanError> {
     let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let points = match extension.as_str() {
-        "pcap" => bytes().and_then(|bytes| capture::read(bytes.as_ref(), revolution)),
-        "pcd" => bytes().and_then(|bytes| pcd::read(bytes.as_ref())).and_then(only(revolution)),
-        "csv" | "txt" | "xyz" => {
-            bytes().and_then(|bytes| csv::read(bytes.as_ref())).and_then(only(revolution))
-        }
+    let scan = match extension.as_str() {
+        "pcap" => bytes().and_then(|bytes| capture::read(bytes.as_ref(), choice.revolution)),
+        "pcd" => bytes().and_then(|bytes| pcd::read(bytes.as_ref())).and_then(only(choice)),
+        "csv" | "txt" | "xyz" => bytes().and_then(|bytes| csv::read(bytes.as_ref())).and_then(only(choice)),
         _ => Err(ScanFault::Extension { extension }),
     };
-    points.map_err(|fault| ScanError { file: file.to_owned(), fault })
+    scan.map_err(|fault| ScanError { file: file.to_owned(), fault })
 }
 
 /// Lets a file that holds one scan answer for revolution 0 alone.
-fn only(revolution: usize) -> impl FnOnce(Vec<Vec3>) -> Result<Vec<Vec3>, ScanFault> {
-    move |points| {
-        if revolution == 0 { Ok(points) } else { Err(ScanFault::Revolution { revolution, whole: 1 }) }
+fn only<S: Into<Scan>>(choice: ScanChoice) -> impl FnOnce(S) -> Result<Scan, ScanFault> {
+    let revolution = choice.revolution;
+    move |scan| {
+        if revolution == 0 { Ok(scan.into()) } else { Err(ScanFault::Revolution { revolution, whole: 1 }) }
     }
 }
 
@@ -92,19 +87,21 @@ fn read_file(path: &Path) -> Result<Vec<u8>, ScanFault> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
 
-    fn read(name: &str, bytes: &[u8], revolution: usize) -> Result<Vec<Vec3>, String> {
+    fn read(name: &str, bytes: &[u8], revolution: usize) -> Result<Scan, String> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).unwrap();
-        read_scan(&path, revolution)
+        read_scan(&path, ScanChoice::of_revolution(revolution))
             .map_err(|error| error.to_string().replace(&format!("{}/", folder.path().display()), ""))
     }
 
     #[test]
     fn the_extension_says_the_format() {
-        assert_eq!(read("a.XYZ", b"1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)]));
+        assert_eq!(read("a.XYZ", b"1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)].into()));
         assert_eq!(
             read("a.las", b"1 2 3", 0).unwrap_err(),
             "a.las: extension \"las\": expected .pcd, .csv, .txt, .xyz or .pcap"
@@ -119,7 +116,7 @@ mod tests {
         for name in ["a.csv", "a.pcd", "a.pcap"] {
             assert_eq!(read(name, b"", 0).unwrap_err(), format!("{name}: cannot be read: the file is empty"));
         }
-        let missing = read_scan(Path::new("no/such.pcd"), 0).unwrap_err().to_string();
+        let missing = read_scan(Path::new("no/such.pcd"), ScanChoice::default()).unwrap_err().to_string();
         assert!(missing.starts_with("no/such.pcd: cannot be read: "), "{missing}");
     }
 

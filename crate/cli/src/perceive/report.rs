@@ -16,7 +16,7 @@ use super::rows::{ColumnRow, CommandRow, CostRow, ReturnKindsRow, SegmentRow, Su
 pub(crate) struct PerceptionReport {
     #[serde(skip)]
     subject: String,
-    /// What is doubtful about the scan.
+    /// What the reader of the file left out, and what is doubtful about the scan.
     warnings: Vec<String>,
     /// Returns in the scan, and what they are.
     returns: usize,
