@@ -63,8 +63,8 @@
 //!   return is left: a scan without any stops the planner, because the sensor may be blind.
 //! - **A jump of the localisation** is told by [`Planner::relocalise`]; without it the remembered ground
 //!   tears.
-//! - **Returns on the robot itself** must be removed. Returns nearer than the sensor's least range are
-//!   skipped.
+//! - **Returns on the robot itself** are told by its outline ([`RobotModel`]), and stray returns of rain and
+//!   dust by what stands around them; [`Step::return_kinds`] says what each point was taken for.
 //!
 //! # What it gives, and what the base must do
 //!
@@ -76,16 +76,17 @@
 //!
 //! # How it works
 //!
-//! 1. [`skyline::occupancy`]: the returns within r_oc = 7 m become an occupancy surface over azimuth and
+//! 1. [`skyline::scan_filter`]: the robot's own body, stray returns and things overhead are sorted out.
+//! 2. [`skyline::occupancy`]: the returns within r_oc = 7 m become an occupancy surface over azimuth and
 //!    elevation.
-//! 2. [`skyline::perception`]: a sparse Gaussian process ([`gp::sparse`]) over it gives a mean and a variance
+//! 3. [`skyline::perception`]: a sparse Gaussian process ([`gp::sparse`]) over it gives a mean and a variance
 //!    surface.
-//! 3. [`skyline::profile`]: the edge of the variance surface is the skyline of the terrain.
-//! 4. [`skyline::segments`]: the level stretches of the skyline, each with a verdict.
-//! 5. [`decision::subgoals`]: subgoals on the segments, in the world frame.
-//! 6. [`route::forecast`]: the tilt to expect on the best path there, over the ground seen so far.
-//! 7. [`decision::cost`]: the cheapest subgoal is chosen.
-//! 8. [`control::controller`]: a PID controller drives to it.
+//! 4. [`skyline::profile`]: the edge of the variance surface is the skyline of the terrain.
+//! 5. [`skyline::segments`]: the level stretches of the skyline, each with a verdict.
+//! 6. [`decision::subgoals`]: subgoals on the segments, in the world frame.
+//! 7. [`route::forecast`]: the tilt to expect on the best path there, over the ground seen so far.
+//! 8. [`decision::cost`]: the cheapest subgoal is chosen.
+//! 9. [`control::controller`]: a PID controller drives to it.
 //!
 //! Every parameter is in [`config`]. A step costs time O(cells + m³) in the m inducing inputs of a sector of
 //! the Gaussian process; after the first steps it allocates nothing.
