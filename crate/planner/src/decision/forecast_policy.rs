@@ -306,8 +306,8 @@ impl SubgoalPolicy for ForecastPolicy {
         self.backtrack.clear();
     }
 
-    /// Forgets remembered ground that the scan sees through, and adds the near part of the scan and the ground
-    /// under the wheels to the elevation window.
+    /// Forgets remembered ground that the scan sees through, and adds the near part of the scan and the
+    /// ground under the wheels to the elevation window.
     fn observe(&mut self, config: &PlannerConfig, scan: &ScanFilter, pose: &Pose, elapsed: Duration) {
         self.window.advance(elapsed);
         let world_from_robot = pose.world_from_robot();

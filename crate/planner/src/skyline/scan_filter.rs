@@ -194,8 +194,8 @@ impl ScanFilter {
         &self.faces_m
     }
 
-    /// Finds the upright faces: in each column, runs of rows whose returns stand above one another, higher than
-    /// the wheels climb.
+    /// Finds the upright faces: in each column, runs of rows whose returns stand above one another, higher
+    /// than the wheels climb.
     fn find_faces(&mut self) {
         self.faces_m.clear();
         let rings = self.grid.rings();

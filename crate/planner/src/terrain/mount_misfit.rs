@@ -32,8 +32,8 @@ pub struct MountMisfit {
 }
 
 impl MountMisfit {
-    /// The misfit of a scan in the sensor frame, metres, of a robot on level ground; `None` if the mount fits,
-    /// or if no plane holds most of the scan.
+    /// The misfit of a scan in the sensor frame, metres, of a robot on level ground; `None` if the mount
+    /// fits, or if no plane holds most of the scan.
     pub fn of(points_m: &[Vec3], sensor: &SensorModel) -> Option<Self> {
         let rotation = sensor.robot_from_sensor();
         let reach_m = (NEAR_HEIGHTS * sensor.height_m).max(NEAR_M);
