@@ -1,6 +1,6 @@
 import type { Page } from '@playwright/test';
 import { BRUSHES } from '../../web/src/ground/brushes.ts';
-import { expect, state, still, test, until, within } from './page.ts';
+import { drag, expect, loaded, moved, shortCourse, state, still, test, until, within } from './page.ts';
 
 /** Every fourth sample of the ground, row by row. */
 function ground(page: Page): Promise<number[]> {
@@ -69,6 +69,29 @@ test('goal, start and settings are undone with the buttons', async ({ mapless: p
   await until(page, (now) => now.goal.x === old.goal.x);
   await page.locator('#redo').click();
   await until(page, (now) => now.goal.x === at.x);
+});
+
+test('a goal has the heading that is dragged out from it, is driven to with it, and keeps it in a link', async ({
+  mapless: page,
+}) => {
+  await shortCourse(page, 2);
+  await still(page);
+  const { goal: old } = await state(page);
+  await page.locator('.tool', { hasText: 'Goal' }).click();
+  const view = page.locator('#view');
+  await drag(page, [await within(view, 0.5, 0.45), await within(view, 0.62, 0.45)]);
+  await until(page, (now) => moved(now.goal, old) && now.goal.heading_rad !== undefined);
+  const { goal } = await state(page);
+  const link = await page.evaluate(() => window.mapless?.link());
+  await page.getByRole('button', { name: 'Play' }).click();
+  await expect(page.locator('#result-words')).toHaveText('Goal reached');
+  const { pose } = await state(page);
+  const turn_rad = pose.yaw - (goal.heading_rad ?? Number.NaN);
+  expect(Math.abs(Math.atan2(Math.sin(turn_rad), Math.cos(turn_rad)))).toBeLessThan(0.06);
+  await page.goto('about:blank');
+  await page.goto(link ?? '');
+  await loaded(page);
+  expect((await state(page)).goal).toEqual(goal);
 });
 
 test('other settings keep the ground, the start and the goal', async ({ mapless: page }) => {

@@ -25,6 +25,7 @@ const FAULTS: readonly (readonly [path: readonly (string | number)[], value: unk
   [['version'], 2, 'version = 2: expected 1: this page reads no other version of experiments'],
   [['colour'], 1, 'experiment.colour = 1: expected one of the keys version, name'],
   [['goal'], undefined, 'experiment.goal = absent: expected a value'],
+  [['goal', 'heading_rad'], 'east', 'goal.heading_rad = "east": expected a number from -1000 to 1000'],
   [['goal', 'x'], Number.NaN, 'goal.x = NaN: expected a number from -1000000 to 1000000'],
   [['start', 'heading_rad'], '1', 'start.heading_rad = "1": expected a number'],
   [['seed'], 1.5, 'seed = 1.5: expected a whole number'],
@@ -75,7 +76,11 @@ test('strokes and scenarios are written as the command line reads them', () => {
   assert.ok(recipe.startsWith('name = "a"\n'));
   const scenario = scenarioFile(EXPERIMENT, 'terrain.toml');
   assert.ok(scenario.includes('--planner default --learning fixed'));
+  assert.ok(scenario.includes('\ngoal = [14, 57]\n'));
   assert.ok(scenario.includes('\nwaypoints = [[20, 31.5]]\n'));
+  const facing = { ...EXPERIMENT, goal: { ...EXPERIMENT.goal, heading_rad: -1.5 } };
+  assert.deepEqual(readExperiment(JSON.parse(JSON.stringify(facing))), facing);
+  assert.ok(scenarioFile(facing, 'terrain.toml').includes('\ngoal = [14, 57, -1.5]\n'));
   const tables = '\n[planner]\ngoal_tolerance_m = 0.5\n\n[planner.decision]\nsteepness_weight = 0.8\n';
   assert.ok(scenario.includes(tables), scenario);
   assert.ok(scenario.endsWith('\n[sensor]\nrange_noise_m = 0.02\n'));
