@@ -315,7 +315,7 @@ impl Planner {
     }
 
     fn perceive(&mut self, overrides: PerceptionOverride<'_>) -> Result<(), GpError> {
-        self.observed.project(self.filter.surface_m());
+        self.observed.project_cells(self.filter.cells());
         match overrides.profile {
             None => self.perception.profile(&self.observed, &mut self.profile)?,
             Some(told) => {

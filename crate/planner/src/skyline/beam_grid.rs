@@ -88,8 +88,8 @@ impl BeamGrid {
 
     /// The row of an elevation; `None` outside the sensor's view.
     pub(crate) fn ring_of(&self, elevation_rad: f64) -> Option<usize> {
-        let ring = floor((elevation_rad - self.lowest_elevation_rad) / self.ring_step_rad + 0.5);
-        (0..self.rings as i32).contains(&ring).then_some(ring as usize)
+        let (ring, is_in_view) = self.nearest_ring(elevation_rad);
+        is_in_view.then_some(ring)
     }
 
     /// The highest row whose beams are all below an elevation; `None` if there is none.
@@ -98,10 +98,11 @@ impl BeamGrid {
         (ring >= 0).then(|| (ring as usize).min(self.rings - 1))
     }
 
-    /// The row nearest to an elevation.
-    pub(crate) fn nearest_ring(&self, elevation_rad: f64) -> usize {
+    /// The row nearest to an elevation, and whether it is within the sensor's view.
+    pub(crate) fn nearest_ring(&self, elevation_rad: f64) -> (usize, bool) {
         let ring = floor((elevation_rad - self.lowest_elevation_rad) / self.ring_step_rad + 0.5);
-        ring.clamp(0, self.rings as i32 - 1) as usize
+        let nearest = ring.clamp(0, self.rings as i32 - 1);
+        (nearest as usize, nearest == ring)
     }
 
     /// A point of a scan, with the robot's axes.

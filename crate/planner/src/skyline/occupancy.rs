@@ -63,24 +63,34 @@ impl OccupancySurface {
     /// Projects a scan: points in the sensor frame, metres, in any order. Points beyond r_oc, at the origin,
     /// outside the grid's elevations or not finite are skipped.
     pub fn project(&mut self, points_m: &[Vec3]) {
-        self.sums_m.fill(0.0);
-        self.counts.fill(0);
-        let radius_squared = self.radius_m * self.radius_m;
-        let least_squared = self.grid.min_range_m * self.grid.min_range_m;
-        for point in points_m {
-            let point = self.grid.along_robot(point.as_dvec3());
-            let range_squared = point.length_squared();
-            if !(range_squared > 0.0 && (least_squared..=radius_squared).contains(&range_squared)) {
-                continue;
+        self.clear();
+        for point_m in points_m {
+            if let Some((cell, range_m)) = cell_of(&self.grid, *point_m) {
+                self.add(cell, range_m);
             }
-            let plan = (point.x * point.x + point.y * point.y).sqrt();
-            let elevation = libm::atan2(point.z, plan);
-            let Some(ring) = self.grid.ring_of(elevation) else { continue };
-            let index = column_of(libm::atan2(point.y, point.x)) * self.grid.rings() + ring;
-            self.sums_m[index] += self.radius_m - range_squared.sqrt();
-            self.counts[index] += 1;
         }
         self.collect();
+    }
+
+    /// Projects returns whose cell, column × rings + ring, and range are known. Those beyond r_oc are skipped.
+    pub(crate) fn project_cells(&mut self, returns: impl Iterator<Item = (usize, f64)>) {
+        self.clear();
+        for (cell, range_m) in returns {
+            self.add(cell, range_m);
+        }
+        self.collect();
+    }
+
+    fn clear(&mut self) {
+        self.sums_m.fill(0.0);
+        self.counts.fill(0);
+    }
+
+    fn add(&mut self, cell: usize, range_m: f64) {
+        if range_m <= self.radius_m {
+            self.sums_m[cell] += self.radius_m - range_m;
+            self.counts[cell] += 1;
+        }
     }
 
     fn collect(&mut self) {
@@ -127,6 +137,19 @@ impl OccupancySurface {
     pub(crate) fn column_span(&self, column: usize) -> Range<usize> {
         self.column_starts[column]..self.column_starts[column + 1]
     }
+}
+
+/// The cell and the range of a return in the sensor frame; `None` for what is no return or out of view.
+fn cell_of(grid: &BeamGrid, point_m: Vec3) -> Option<(usize, f64)> {
+    let point_m = grid.along_robot(point_m.as_dvec3());
+    let range_m = point_m.length();
+    // Also false for NaN.
+    if !(range_m > 0.0 && range_m >= grid.min_range_m) {
+        return None;
+    }
+    let plan_m = (point_m.x * point_m.x + point_m.y * point_m.y).sqrt();
+    let ring = grid.ring_of(libm::atan2(point_m.z, plan_m))?;
+    Some((column_of(libm::atan2(point_m.y, point_m.x)) * grid.rings() + ring, range_m))
 }
 
 #[cfg(test)]

@@ -72,6 +72,8 @@ struct Echo {
     /// Its index in the scan.
     index: u32,
     cell: u32,
+    /// Whether it is within the grid's elevations.
+    is_in_view: bool,
     range_m: f64,
     /// Distance seen from above.
     plan_m: f64,
@@ -133,25 +135,11 @@ impl ScanFilter {
         self.density = self.median_density();
         let around = CELLS_AROUND * self.density as f64;
         self.needed = ((SUPPORT_SHARE * around).ceil() as usize).max(LEAST_SUPPORT);
-        for index in 0..self.by_cell.len() {
-            let echo = self.by_cell[index];
-            if !self.is_supported(&echo) && self.is_seen_through(&echo) {
-                self.kinds[echo.index as usize] = ReturnKind::Stray;
-            }
-        }
+        self.find_stray();
         // Rain below a roof does not close the way.
-        let kinds = &self.kinds;
-        self.echoes.retain(|echo| kinds[echo.index as usize] == ReturnKind::Surface);
-        self.arrange();
-        for index in 0..self.echoes.len() {
-            let echo = self.echoes[index];
-            if self.is_overhead(&echo) {
-                self.kinds[echo.index as usize] = ReturnKind::Overhead;
-            }
-        }
-        let kinds = &self.kinds;
-        self.echoes.retain(|echo| kinds[echo.index as usize] == ReturnKind::Surface);
-        self.arrange();
+        self.keep_surfaces();
+        self.find_overhead();
+        self.keep_surfaces();
         self.find_faces();
         self.surface_m.clear();
         let kinds = self.kinds.iter().zip(points_m);
@@ -186,6 +174,13 @@ impl ScanFilter {
         rows.into_iter()
             .find(|beams| 2 * beams.len() >= self.density.max(2))
             .is_some_and(|beams| beams.iter().all(|beam| beam.plan_m > plan_m + PASSING_M))
+    }
+
+    /// The returns on surfaces within sight and the grid's elevations, in the order of the scan: the cell, as
+    /// column × rings + ring, and the range.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = (usize, f64)> {
+        let in_view = self.echoes.iter().filter(|echo| echo.is_in_view);
+        in_view.map(|echo| (echo.cell as usize, echo.range_m))
     }
 
     /// Places on upright faces higher than the wheels climb, from the sensor along the robot's axes: one for
@@ -243,16 +238,66 @@ impl ScanFilter {
             return ReturnKind::Body;
         }
         let plan_m = (point_m.x * point_m.x + point_m.y * point_m.y).sqrt();
-        let ring = self.grid.nearest_ring(libm::atan2(point_m.z, plan_m));
+        let (ring, is_in_view) = self.grid.nearest_ring(libm::atan2(point_m.z, plan_m));
         let column = column_of(libm::atan2(point_m.y, point_m.x));
         self.echoes.push(Echo {
             index: self.kinds.len() as u32,
             cell: (column * self.grid.rings() + ring) as u32,
+            is_in_view,
             range_m,
             plan_m,
             height_m: point_m.z,
         });
         ReturnKind::Surface
+    }
+
+    /// Marks the stray returns.
+    fn find_stray(&mut self) {
+        for cell in 0..COLUMNS * self.grid.rings() {
+            let echoes = self.cell(cell);
+            // Nearly every cell is full of returns on one surface.
+            if echoes.len() > self.needed && spread_m(echoes) <= SAME_RANGE_M {
+                continue;
+            }
+            let span = self.starts[cell] as usize..self.starts[cell + 1] as usize;
+            for index in span {
+                let echo = self.by_cell[index];
+                if !self.is_supported(&echo) && self.is_seen_through(&echo) {
+                    self.kinds[echo.index as usize] = ReturnKind::Stray;
+                }
+            }
+        }
+    }
+
+    /// Marks what is overhead.
+    fn find_overhead(&mut self) {
+        let rings = self.grid.rings();
+        for column in 0..COLUMNS {
+            let mut farthest_below_m = 0.0_f64;
+            for ring in 0..rings {
+                let cell = column * rings + ring;
+                let Some(nearest_m) = nearest(self.cell(cell)).map(|echo| echo.plan_m) else { continue };
+                // On ground, what is higher in view is farther away.
+                if farthest_below_m > nearest_m + PASSING_M {
+                    for index in self.starts[cell] as usize..self.starts[cell + 1] as usize {
+                        let echo = self.by_cell[index];
+                        if self.is_overhead(&echo) {
+                            self.kinds[echo.index as usize] = ReturnKind::Overhead;
+                        }
+                    }
+                }
+                farthest_below_m = farthest_below_m.max(nearest_m);
+            }
+        }
+    }
+
+    /// Drops the echoes that were found to be of another kind.
+    fn keep_surfaces(&mut self) {
+        let (kinds, count) = (&self.kinds, self.echoes.len());
+        self.echoes.retain(|echo| kinds[echo.index as usize] == ReturnKind::Surface);
+        if self.echoes.len() < count {
+            self.arrange();
+        }
     }
 
     /// Arranges the echoes by cell.
@@ -289,6 +334,11 @@ impl ScanFilter {
             2 * seen >= occupied
         });
         median.unwrap_or(MOST_RETURNS)
+    }
+
+    /// The echoes of a cell.
+    fn cell(&self, cell: usize) -> &[Echo] {
+        &self.by_cell[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 
     /// The echoes of the cells from `rings` in a column.
@@ -332,7 +382,7 @@ impl ScanFilter {
         let mut floor_m = None;
         for below in 0..ring {
             let cell = self.column_part(column, &(below..below + 1));
-            let Some(nearest) = cell.iter().min_by(|a, b| a.plan_m.total_cmp(&b.plan_m)) else { continue };
+            let Some(nearest) = nearest(cell) else { continue };
             if floor_m.is_none() && nearest.plan_m > echo.plan_m + PASSING_M {
                 floor_m = Some(nearest.height_m * (echo.plan_m / nearest.plan_m));
             }
@@ -352,7 +402,8 @@ impl ScanFilter {
 }
 
 impl Echo {
-    const NONE: Self = Self { index: 0, cell: 0, range_m: 0.0, plan_m: 0.0, height_m: 0.0 };
+    const NONE: Self =
+        Self { index: 0, cell: 0, is_in_view: false, range_m: 0.0, plan_m: 0.0, height_m: 0.0 };
 
     /// Whether two echoes of neighbouring directions lie on one surface.
     fn is_on_surface_of(&self, other: &Self) -> bool {
@@ -361,6 +412,17 @@ impl Echo {
             || apart_m <= SAME_GROUND_SHARE * self.range_m
                 && (self.height_m - other.height_m).abs() <= SAME_HEIGHT_M
     }
+}
+
+/// The echo that is nearest, seen from above.
+fn nearest(echoes: &[Echo]) -> Option<&Echo> {
+    echoes.iter().min_by(|a, b| a.plan_m.total_cmp(&b.plan_m))
+}
+
+/// How much the ranges of echoes differ.
+fn spread_m(echoes: &[Echo]) -> f64 {
+    let ranges_m = || echoes.iter().map(|echo| echo.range_m);
+    ranges_m().fold(f64::NEG_INFINITY, f64::max) - ranges_m().fold(f64::INFINITY, f64::min)
 }
 
 /// The number of rows at the beginning of `rows`, at least one, that stand above one another.

@@ -23,6 +23,8 @@ use cliffs::{DROP_RADIUS_M, MOST_VIEWS, View};
 
 /// Weight of the past in a cell's average, in returns.
 const MOST_RETURNS: f64 = 30.0;
+/// A scan looks for ground that it refutes in one of so many parts of the window.
+const PARTS: usize = 4;
 /// A cell is upright once so many rows of beams met a face in it.
 const FEWEST_FACES: u32 = 3;
 /// The body keeps this far from what is upright.
@@ -99,6 +101,8 @@ pub(crate) struct ElevationWindow {
     now: Duration,
     memory: Duration,
     cells: RollingGrid<ElevationCell>,
+    /// The part of the cells that the last scan looked at.
+    part: usize,
     /// Where the last scan refuted cells.
     refuted_m: Vec<DVec2>,
     /// Sensor poses of the last scans, the newest last.
@@ -119,6 +123,7 @@ impl ElevationWindow {
             now: Duration::ZERO,
             memory: elevation_window.memory(),
             cells: RollingGrid::new(elevation_window.cells_per_side()),
+            part: 0,
             refuted_m: Vec::new(),
             views: VecDeque::with_capacity(MOST_VIEWS),
         }
@@ -148,11 +153,13 @@ impl ElevationWindow {
         }
     }
 
-    /// Forgets the cells whose ground a scan refutes, and returns where they were.
+    /// Forgets the cells whose ground a scan refutes, and returns where they were. Each scan looks at a part of
+    /// the cells, in turn.
     pub(crate) fn forget_where(&mut self, is_refuted: impl Fn(DVec3) -> bool) -> &[DVec2] {
         let (cells, refuted_m) = (&mut self.cells, &mut self.refuted_m);
         refuted_m.clear();
-        cells.retain(|cell| {
+        self.part = (self.part + 1) % PARTS;
+        cells.retain(self.part, PARTS, |cell| {
             let forgets = is_refuted(cell.mean_m);
             if forgets {
                 refuted_m.push(cell.mean_m.truncate());

@@ -67,11 +67,13 @@ impl<T: Copy> RollingGrid<T> {
         self.slots.iter().flatten().map(|(index, cell)| (*index, cell))
     }
 
-    /// Forgets the cells that do not hold.
-    pub(crate) fn retain(&mut self, mut holds: impl FnMut(&T) -> bool) {
-        for slot in &mut self.slots {
-            if slot.as_ref().is_some_and(|(_, cell)| !holds(cell)) {
-                *slot = None;
+    /// Forgets the cells that do not hold, in every `parts`th row of slots from `part` on.
+    pub(crate) fn retain(&mut self, part: usize, parts: usize, mut holds: impl FnMut(&T) -> bool) {
+        for row in self.slots.chunks_mut(self.side as usize).skip(part).step_by(parts) {
+            for slot in row {
+                if slot.as_ref().is_some_and(|(_, cell)| !holds(cell)) {
+                    *slot = None;
+                }
             }
         }
     }
