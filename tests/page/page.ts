@@ -185,7 +185,7 @@ export function trapAfterStart(page: Page): Promise<() => number> {
   return changeFirstCore(page, (script) => {
     const broken = script
       .replace(/\bset_start\(([\w$,\s]+)\)\s*\{/, 'set_start($1){globalThis.armed=true;')
-      .replace(/\bplan\(\)\s*\{/, 'plan(){if(globalThis.armed)throw new WebAssembly.RuntimeError("unreachable");');
+      .replace(/\btick\(\)\s*\{/, 'tick(){if(globalThis.armed)throw new WebAssembly.RuntimeError("unreachable");');
     expect(broken.length).toBeGreaterThan(script.length + 90);
     return broken;
   });

@@ -186,8 +186,8 @@ plain('a damaged wasm file is explained', async ({ page }) => {
 plain('after a panic in the core the simulation starts anew, and says why', async ({ page }) => {
   // The first worker gets a core whose fifth decision traps.
   const trap =
-    'if((globalThis.ticks=(globalThis.ticks??0)+1)===5){globalThis.maplessPanic="panicked at the fifth tick";throw new WebAssembly.RuntimeError("unreachable")}';
-  await changeFirstCore(page, (script) => script.replace(/\bplan\(\)\s*\{/, `plan(){${trap}`));
+    'if((globalThis.ticks=(globalThis.ticks??0)+1)===5){throw new WebAssembly.RuntimeError("panicked at the fifth tick")}';
+  await changeFirstCore(page, (script) => script.replace(/\btick\(\)\s*\{/, `tick(){${trap}`));
   await page.goto('/');
   await loaded(page);
   await expect(page.locator('#notice-text')).toContainText('panicked at the fifth tick');

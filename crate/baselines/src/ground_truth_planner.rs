@@ -160,7 +160,7 @@ mod tests {
     use crate::testing::{field, undulating};
     use core::f64::consts::PI;
     use glam::DVec3;
-    use mapless::skyline::occupancy::column_azimuth_rad;
+    use mapless::skyline::columns::column_azimuth_rad;
     use mapless_world::{SensorConfig, attitude_on};
 
     const PERIOD: Duration = Duration::from_millis(100);

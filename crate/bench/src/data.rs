@@ -6,7 +6,8 @@ use glam::{DMat3, DVec2, DVec3, Vec3};
 use mapless::PlannerConfig;
 use mapless::gp::hyperparameters::Hyperparameters;
 use mapless::skyline::beam_grid::BeamGrid;
-use mapless::skyline::occupancy::{COLUMNS, OccupancySurface, column_azimuth_rad, column_of};
+use mapless::skyline::columns::{COLUMNS, column_azimuth_rad, column_of};
+use mapless::skyline::occupancy::OccupancySurface;
 use mapless_world::{Caster, HeightField, SensorConfig, SensorPose, random};
 
 use crate::BenchError;

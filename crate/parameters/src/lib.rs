@@ -57,10 +57,12 @@ mod check;
 mod error;
 mod macros;
 mod parameter;
+mod value;
 
 pub use check::Check;
 pub use error::ConfigError;
-pub use parameter::{Kind, Parameter, Value};
+pub use parameter::{Kind, Parameter};
+pub use value::Value;
 
 /// Checks the `values` of a struct's `parameters`; `place` is its table.
 ///

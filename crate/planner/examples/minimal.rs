@@ -45,7 +45,8 @@ fn scan(sensor: &SensorModel) -> Vec<Vec3> {
         for ring in 0..sensor.rings {
             let downward_rad = -(sensor.lowest_elevation_rad + step_rad * ring as f64);
             if downward_rad > 0.01 {
-                let far_m = sensor.height_m / downward_rad.tan();
+                let beam = DVec2::from_angle(downward_rad);
+                let far_m = sensor.height_m * beam.x / beam.y;
                 points_m.push((azimuth * far_m).extend(-sensor.height_m).as_vec3());
             }
         }

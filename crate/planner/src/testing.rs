@@ -37,7 +37,7 @@ pub(crate) fn vlp16_surface() -> OccupancySurface {
 pub(crate) fn undulating_scan(from: usize, to: usize) -> Vec<Vec3> {
     (from..to)
         .flat_map(|column| {
-            let azimuth = crate::skyline::occupancy::column_azimuth_rad(column);
+            let azimuth = crate::skyline::columns::column_azimuth_rad(column);
             let top = 5 + (3.0 * libm::sin(3.0 * azimuth)).round() as i32;
             (0..top).map(move |ring| {
                 let elevation = (-15.0 + 2.0 * f64::from(ring)).to_radians();

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 use core::time::Duration;
 
 use glam::DVec2;
-use mapless::skyline::occupancy::{COLUMNS, column_azimuth_rad};
+use mapless::skyline::columns::{COLUMNS, column_azimuth_rad};
 use mapless::skyline::profile::Column;
 use mapless::{Goal, Planner, PlannerConfig, Pose, StopReason};
 use mapless_world::random::{key, uniform};

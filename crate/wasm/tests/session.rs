@@ -187,8 +187,9 @@ fn overrides_from_the_beginning_and_set_later_drive_the_same_way() {
     let groups: Vec<JsValue> =
         begun.parameters().unwrap_or_default().into_iter().map(JsValue::from).collect();
     let sensor = groups.iter().find(|group| text(group, "table") == "sensor").unwrap();
-    let noise = &items(sensor, "parameters")[0];
-    assert_eq!((text(noise, "name"), text(noise, "kind")), ("range_noise_m".into(), "number".into()));
+    let parameters = items(sensor, "parameters");
+    let noise = parameters.iter().find(|parameter| text(parameter, "name") == "range_noise_m").unwrap();
+    assert_eq!(text(noise, "kind"), "number");
     assert_eq!((number(noise, "range.1"), number(noise, "value")), (0.5, 0.02));
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use comfy_table::{CellAlignment, Table, presets};
 use mapless::Step;
-use mapless::skyline::occupancy::COLUMNS;
+use mapless::skyline::columns::COLUMNS;
 use mapless::skyline::profile::Column;
 use mapless_trials::Activity;
 

@@ -2,7 +2,7 @@
 
 use mapless::Command;
 use mapless::decision::subgoals::{Cost, Refusal, Subgoal};
-use mapless::skyline::occupancy::column_azimuth_rad;
+use mapless::skyline::columns::column_azimuth_rad;
 use mapless::skyline::profile::Column;
 use mapless::skyline::segments::{Segment, Verdict};
 

@@ -4,7 +4,7 @@
 use std::fmt::{self, Write as _};
 
 use glam::DVec2;
-use mapless::skyline::occupancy::COLUMNS;
+use mapless::skyline::columns::COLUMNS;
 
 use mapless_figures::page::{self, INK, embed};
 

@@ -6,7 +6,7 @@ use std::fmt::{self, Write as _};
 use glam::DVec2;
 use mapless::Step;
 use mapless::decision::subgoals::Subgoal;
-use mapless::skyline::occupancy::{COLUMNS, column_azimuth_rad};
+use mapless::skyline::columns::{COLUMNS, column_azimuth_rad};
 use mapless::skyline::profile::Column;
 use mapless::skyline::segments::{Segment, Verdict};
 use mapless::skyline::surface::PredictedSurface;

@@ -7,7 +7,7 @@ use crate::decision::subgoals::{Refusal, Subgoal, bearing_rad};
 use crate::pose::Pose;
 use crate::route::forecast::{Forecast, ReachEnd};
 use crate::route::state_lattice::{PathPoint, ReachedState, StateLattice};
-use crate::skyline::occupancy::column_of;
+use crate::skyline::columns::column_of;
 use crate::skyline::profile::Column;
 
 /// Finds candidates from the robot's pose.

@@ -11,7 +11,7 @@ use crate::decision::cost::{choose_cheapest, steepness_cost};
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::subgoals::{Cost, Subgoal, bearing_rad, on_segments};
 use crate::pose::Pose;
-use crate::skyline::occupancy::column_of;
+use crate::skyline::columns::column_of;
 use crate::skyline::profile::Column;
 
 /// The policy has no memory.

@@ -21,7 +21,8 @@ use crate::math::cholesky::{NotPositiveDefinite, cholesky};
 use crate::math::linalg;
 use crate::math::panels::{self, Row, WIDTH};
 use crate::skyline::beam_grid::{BeamGrid, RING_STEP_RAD, ROWS_PER_RING};
-use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface};
+use crate::skyline::columns::{COLUMN_STEP_RAD, COLUMNS};
+use crate::skyline::occupancy::OccupancySurface;
 use crate::skyline::surface::{REACH_LENGTH_SCALES, ROW_STEP_RAD, SECTOR_COLUMNS, SECTORS};
 
 /// The cells of one column that the process is to be fitted to, one bit for each ring.
@@ -385,8 +386,8 @@ mod tests {
     use super::*;
     use crate::config::PlannerConfig;
     use crate::gp::sparse::SparseGp;
+    use crate::skyline::columns::column_azimuth_rad;
     use crate::skyline::edge_tracer::all_cells;
-    use crate::skyline::occupancy::column_azimuth_rad;
     use crate::skyline::surface::row_rad;
     use crate::testing::{undulating_scan, vlp16_surface};
     use glam::DVec2;

@@ -6,8 +6,7 @@ use glam::{DMat3, DVec3};
 
 use crate::math::elementary::floor;
 use crate::sensor_model::SensorModel;
-use crate::skyline::occupancy::{COLUMNS, column_azimuth_rad};
-use crate::skyline::profile::Column;
+use crate::skyline::columns::{COLUMNS, column_azimuth_rad};
 
 /// Rings nearer to each other than this share a row. The Gaussian process works on rows as if all were this
 /// far apart, so its hyperparameters, which hold for this spacing, serve every sensor.
@@ -104,10 +103,9 @@ impl BeamGrid {
         self.rows_in_view[column].max(ROWS_PER_RING * highest_ring + 1)
     }
 
-    /// The content of a column that is occupied in all of its `rows` in view.
-    pub(crate) fn out_of_view(&self, rows: usize) -> Column {
-        let is_wall = self.row_elevation_rad(rows - 1) >= LEAST_WALL_RAD;
-        if is_wall { Column::Wall } else { Column::Unknown }
+    /// Whether ground that is in view up to the highest of `rows` is a wall.
+    pub(crate) fn is_wall(&self, rows: usize) -> bool {
+        self.row_elevation_rad(rows - 1) >= LEAST_WALL_RAD
     }
 
     fn count_rows_in_view(&self, sensor: &SensorModel, column: usize) -> usize {
@@ -160,7 +158,7 @@ mod tests {
         assert_eq!(grid.row_step_rad().to_bits(), (PI / 180.0).to_bits());
         assert_eq!(grid.coarseness().to_bits(), 1.0_f64.to_bits());
         assert!((0..COLUMNS).all(|column| grid.rows_in_view(column, 0) == 31));
-        assert_eq!(grid.out_of_view(31), Column::Wall);
+        assert!(grid.is_wall(31));
     }
 
     #[test]
@@ -190,7 +188,7 @@ mod tests {
     #[test]
     fn what_a_low_view_ends_in_is_no_wall() {
         let grid = BeamGrid::new(&sensor(64, -24.9, 2.0));
-        assert_eq!(grid.out_of_view(grid.rows()), Column::Unknown);
+        assert!(!grid.is_wall(grid.rows()));
     }
 
     #[test]
@@ -204,8 +202,8 @@ mod tests {
         let (ahead, left, behind) = (COLUMNS / 2, 3 * COLUMNS / 4, 0);
         assert!(highest_deg(ahead).abs() < 1.1 && (highest_deg(behind) - 30.0).abs() < 1.1);
         assert!((highest_deg(left) - 15.0).abs() < 2.1, "{}", highest_deg(left));
-        assert_eq!(grid.out_of_view(grid.rows_in_view(ahead, 0)), Column::Unknown);
-        assert_eq!(grid.out_of_view(grid.rows_in_view(behind, 0)), Column::Wall);
+        assert!(!grid.is_wall(grid.rows_in_view(ahead, 0)));
+        assert!(grid.is_wall(grid.rows_in_view(behind, 0)));
     }
 
     #[test]

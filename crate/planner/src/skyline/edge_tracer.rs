@@ -8,7 +8,8 @@ use crate::config::PerceptionConfig;
 use crate::gp::jitter::GpError;
 use crate::skyline::beam_gp::{BeamGp, Query, RingMask};
 use crate::skyline::beam_grid::{BeamGrid, RING_STEP_RAD, ROWS_PER_RING};
-use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface};
+use crate::skyline::columns::{COLUMN_STEP_RAD, COLUMNS};
+use crate::skyline::occupancy::OccupancySurface;
 use crate::skyline::profile::{Column, ElevationProfile};
 use crate::skyline::surface::{GpDiagnostics, REACH_LENGTH_SCALES, SECTOR_COLUMNS, SECTORS};
 
@@ -188,7 +189,7 @@ impl Search {
                 return Some(edge(free - 1));
             }
             if self.end == self.rows {
-                return Some(grid.out_of_view(self.rows));
+                return Some(Column::occupied_throughout(grid, self.rows));
             }
             self.next = (self.end, (self.end + ROWS_AT_ONCE).min(self.rows));
         } else {

@@ -3,6 +3,7 @@
 
 pub(crate) mod beam_gp;
 pub mod beam_grid;
+pub mod columns;
 pub(crate) mod edge_tracer;
 pub(crate) mod inducing;
 pub mod occupancy;

@@ -4,31 +4,17 @@
 //! The surface has one cell for each degree of azimuth and each row of the sensor's [`BeamGrid`]; a cell's
 //! occupancy is the mean over its returns, so that every return of a scan counts, in any order.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 use core::ops::Range;
 
 use glam::{DVec2, Vec3};
 
-use crate::math::elementary::floor;
 use crate::skyline::beam_grid::{BeamGrid, RING_STEP_RAD};
+use crate::skyline::columns::{COLUMNS, column_azimuth_rad, column_of};
 
-/// Columns of the surfaces, one degree each; column `c` is centred on azimuth -π + c · 1°.
-pub const COLUMNS: usize = 360;
-
-pub(crate) const COLUMN_STEP_RAD: f64 = TAU / COLUMNS as f64;
 /// Elevation of the lowest row in the Gaussian process, whatever its true elevation: the process depends on
 /// differences only.
 pub(crate) const LOWEST_ROW_RAD: f64 = -PI / 12.0;
-
-/// Azimuth of the centre of a column, around the sensor's origin from the robot's x axis, in [-π, π).
-pub fn column_azimuth_rad(column: usize) -> f64 {
-    -PI + COLUMN_STEP_RAD * column as f64
-}
-
-/// The column an azimuth falls into.
-pub fn column_of(azimuth_rad: f64) -> usize {
-    floor((azimuth_rad + PI) / COLUMN_STEP_RAD + 0.5).rem_euclid(COLUMNS as i32) as usize
-}
 
 /// One occupied cell.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,8 @@
 //! column of azimuth at a time (paper, section V-B).
 
 use crate::skyline::beam_grid::BeamGrid;
-use crate::skyline::occupancy::{COLUMNS, OccupancySurface};
+use crate::skyline::columns::COLUMNS;
+use crate::skyline::occupancy::OccupancySurface;
 use crate::skyline::surface::PredictedSurface;
 
 /// The content of one column of the variance surface.
@@ -18,6 +19,13 @@ pub enum Column {
     Unknown,
     /// Occupied up to the highest elevation in view.
     Wall,
+}
+
+impl Column {
+    /// The content of a column that is occupied in all of its `rows` in view.
+    pub(crate) fn occupied_throughout(grid: &BeamGrid, rows: usize) -> Self {
+        if grid.is_wall(rows) { Self::Wall } else { Self::Unknown }
+    }
 }
 
 /// The profile of one scan, [`COLUMNS`] columns.
@@ -46,7 +54,7 @@ fn read_column(variance: &[f64], threshold: f64, grid: &BeamGrid) -> Column {
         return Column::Unknown;
     };
     if row + 1 == variance.len() {
-        return grid.out_of_view(variance.len());
+        return Column::occupied_throughout(grid, variance.len());
     }
     let share = (threshold - variance[row]) / (variance[row + 1] - variance[row]);
     Column::Ground { elevation_rad: grid.row_elevation_rad(row) + share * grid.row_step_rad() }

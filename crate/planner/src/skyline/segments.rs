@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use crate::config::SegmentConfig;
 use crate::math::angle::wrap_rad;
 use crate::sensor_model::SensorModel;
-use crate::skyline::occupancy::{COLUMNS, column_azimuth_rad};
+use crate::skyline::columns::{COLUMNS, column_azimuth_rad};
 use crate::skyline::profile::Column;
 
 /// Whether a segment can carry a subgoal, and if not, why.

@@ -3,7 +3,8 @@
 use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::learning::Stop;
 use crate::skyline::beam_grid::{RING_STEP_RAD, ROWS_PER_RING};
-use crate::skyline::occupancy::{COLUMNS, LOWEST_ROW_RAD};
+use crate::skyline::columns::COLUMNS;
+use crate::skyline::occupancy::LOWEST_ROW_RAD;
 
 /// Spacing of the predicted rows in the Gaussian process.
 pub(crate) const ROW_STEP_RAD: f64 = RING_STEP_RAD / ROWS_PER_RING as f64;

@@ -11,8 +11,9 @@ use glam::DVec2;
 use crate::config::PerceptionConfig;
 use crate::gp::{jitter::GpError, sparse::SparseGp};
 use crate::math::angle::difference_rad;
+use crate::skyline::columns::{COLUMN_STEP_RAD, COLUMNS, column_azimuth_rad};
 use crate::skyline::inducing::FarthestPoints;
-use crate::skyline::occupancy::{COLUMN_STEP_RAD, COLUMNS, OccupancySurface, column_azimuth_rad};
+use crate::skyline::occupancy::OccupancySurface;
 use crate::skyline::surface::{PredictedSurface, REACH_LENGTH_SCALES, SECTOR_COLUMNS, SECTORS, row_rad};
 
 /// The process with its workspace.
@@ -201,7 +202,7 @@ mod tests {
         let inducing: Vec<DVec2> = windows.chosen.iter().map(|&index| inputs[index]).collect();
         let queries: Vec<DVec2> = (0..COLUMNS)
             .flat_map(|column| (0..ROWS).map(move |row| (column, row)))
-            .map(|(c, row)| DVec2::new(crate::skyline::occupancy::column_azimuth_rad(c), row_rad(row)))
+            .map(|(c, row)| DVec2::new(crate::skyline::columns::column_azimuth_rad(c), row_rad(row)))
             .collect();
         let mut whole = PredictedSurface::new(ROWS);
         let mut gp = SparseGp::new(config.kernel, config.noise_variance_m2);

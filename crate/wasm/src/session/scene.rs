@@ -1,6 +1,6 @@
 //! What changes only between trials and with the route.
 
-use mapless::skyline::occupancy::COLUMNS;
+use mapless::skyline::columns::COLUMNS;
 use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
