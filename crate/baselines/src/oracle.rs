@@ -2,7 +2,7 @@
 //!
 //! It is A* on a lattice of positions and headings: places of a square grid with sixteen headings each. A
 //! motion goes straight along a heading, bends into one of the next two to either side, or turns on the spot
-//! to the next. Along every motion the Husky's attitude on the true ground is checked every 0.125 m and 0.1
+//! to the next. Along every motion the robot's attitude on the true ground is checked every 0.125 m and 0.1
 //! rad: roll and pitch must stay a margin inside the limits. The grid's first axis runs from start to goal,
 //! so that both are places of it and the straight line is one of its paths.
 //!

@@ -1,4 +1,4 @@
-//! The closed loop: a planner drives a Husky over a terrain, rated by the paper's metrics.
+//! The closed loop: a planner drives a robot over a terrain, rated by the paper's metrics.
 //!
 //! [`Scenario`] reads the files under `terrains/scenarios/`, [`Trial`] runs one, [`Metrics`] are the six of
 //! the paper, and a digest over the whole trajectory shows that two runs had the same bits.

@@ -1,4 +1,4 @@
-//! Safe poses of a Husky on known ground.
+//! Safe poses of a robot on known ground.
 
 use super::{OracleConfig, OracleError, PlanPose};
 use glam::DVec2;

@@ -13,7 +13,7 @@ use crate::skyline::segments::Segment;
 use crate::skyline::surface::GpDiagnostics;
 use crate::terrain::plane::Plane;
 
-/// Why the planner stopped for good.
+/// Why the planner stopped. A stop does not latch: a later step may go on.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StopReason {
@@ -29,7 +29,7 @@ pub enum StopReason {
     /// The Gaussian process has no posterior.
     #[error("no perception: {0}")]
     NoPerception(GpError),
-    /// The spin recovery found no candidate either.
+    /// The spin recovery found no candidate either. A later scan may show one.
     #[error("no subgoal found by the spin recovery")]
     NoSubgoal,
     /// The goal is in sight, and much driving about it brought the robot no nearer.
