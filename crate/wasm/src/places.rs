@@ -45,31 +45,10 @@ impl From<Heading> for StartPose {
     }
 }
 
-/// A place to end at, and which way to face there, if it matters.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, Tsify)]
-pub struct Goal {
-    x: f64,
-    y: f64,
-    /// Counter-clockwise from east.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[tsify(optional)]
-    pub(crate) heading_rad: Option<f64>,
-}
-
-impl Goal {
-    pub(crate) fn new(place_m: DVec2, heading_rad: Option<f64>) -> Self {
-        Self { x: place_m.x, y: place_m.y, heading_rad }
-    }
-
-    pub(crate) fn place_m(&self) -> DVec2 {
-        DVec2::new(self.x, self.y)
-    }
-}
-
 /// Where to drive: to each waypoint in turn, then to the goal.
 #[derive(Clone, Debug, Deserialize, Tsify)]
 pub struct Route {
     #[tsify(type = "readonly Place[]")]
     pub(crate) waypoints: Vec<Place>,
-    pub(crate) goal: Goal,
+    pub(crate) goal: Place,
 }

@@ -156,8 +156,7 @@ impl Session {
     /// A place off the terrain; nothing then changes.
     pub fn set_route(&mut self, route: Ts<Route>) -> Result<(), JsError> {
         let Route { waypoints, goal } = read(route)?;
-        let waypoints_m = waypoints.into_iter().map(DVec2::from).collect();
-        self.now.trial.set_route(waypoints_m, goal.place_m(), goal.heading_rad)?;
+        self.now.trial.set_route(waypoints.into_iter().map(DVec2::from).collect(), goal.into(), None)?;
         if let Some(history) = &mut self.history {
             history.changed(self.now.trial.ticks(), &self.now);
         }

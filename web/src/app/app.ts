@@ -4,7 +4,7 @@ import { Editor } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { type Experiment, FIRST_SETUP, type Stroke } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
-import type { Goal, Heading, Place } from '../experiment/place.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import type { Setup } from '../experiment/setting.ts';
 import { HeightField } from '../ground/heightField.ts';
 import type {
@@ -297,23 +297,9 @@ export class App {
   }
 
   /** The goal, with waypoints to drive to before it. */
-  async setGoal(goal: Goal, waypoints: readonly Place[] = []): Promise<void> {
+  async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
     this.#autoAdvance.stop();
     await this.editor.setRoute(() => ({ waypoints, goal }));
-  }
-
-  /** Lets the robot face a place at its goal; the goal itself lets it face anywhere. */
-  async faceAtGoal(place: Place): Promise<void> {
-    this.#autoAdvance.stop();
-    await this.editor.setRoute(() => {
-      const { waypoints = [], goal = place } = this.#info ?? {};
-      const [east, north] = [place.x - goal.x, place.y - goal.y];
-      const { x, y } = goal;
-      return {
-        waypoints,
-        goal: Math.hypot(east, north) > 0.5 ? { x, y, heading_rad: Math.atan2(north, east) } : { x, y },
-      };
-    });
   }
 
   /** A waypoint before the goal, after those there are; a robot at its goal goes on to it. */

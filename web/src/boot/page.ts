@@ -171,7 +171,6 @@ const inspector = new Inspector(app, stage, view);
 const tools = stage
   ? new GroundTools(view, stage, {
       setGoal: (goal) => app.attempt(app.setGoal(goal)),
-      faceAtGoal: (place) => app.attempt(app.faceAtGoal(place)),
       addWaypoint: (place) => app.attempt(app.addWaypoint(place)),
       setStart: (start) => app.attempt(app.setStart(start)),
       pressed: (onGround) => controls.showHint(onGround),

@@ -34,7 +34,7 @@ export function scenarioFile(scenario: Scenario, terrain: string): string {
     `#   mapless run scenario.toml --planner ${preset} --learning ${learning}`,
     `terrain = ${JSON.stringify(terrain)}`,
     `start = [${start.x}, ${start.y}, ${start.heading_rad}]`,
-    `goal = [${[goal.x, goal.y, ...(goal.heading_rad === undefined ? [] : [goal.heading_rad])].join(', ')}]`,
+    `goal = [${goal.x}, ${goal.y}]`,
     `seed = ${seed}`,
   ];
   if (waypoints.length > 0) lines.push(`waypoints = [${waypoints.map(({ x, y }) => `[${x}, ${y}]`).join(', ')}]`);

@@ -1,4 +1,4 @@
-/** The goal's flag, the heading to end with, and the start's mark. */
+/** The goal's flag and the start's mark. */
 
 import {
   BufferGeometry,
@@ -11,7 +11,7 @@ import {
   RingGeometry,
 } from 'three';
 import type { Theme } from '../colours/theme.ts';
-import type { Goal, Heading } from '../experiment/place.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import type { Vector } from '../ground/heightField.ts';
 import { colour } from './relief.ts';
 
@@ -31,9 +31,7 @@ export class Places {
   readonly #startLook = new MeshBasicMaterial({ side: DoubleSide });
   readonly #goal = new Group();
   readonly #start = new Group();
-  /** At the goal, where there is a heading to end with. */
-  readonly #end = new Group();
-  #at: { goal: Goal; start: Heading } | undefined;
+  #at: { goal: Place; start: Heading } | undefined;
 
   constructor() {
     const pole = new Mesh(
@@ -55,11 +53,7 @@ export class Places {
       ),
     );
     this.#start.add(new Mesh(arrow, this.#startLook));
-    const end = new Mesh(arrow, this.#goalLook);
-    end.scale.setScalar(1.6);
-    end.position.x = 1.4;
-    this.#end.add(end);
-    this.group.add(this.#goal, this.#end, this.#start);
+    this.group.add(this.#goal, this.#start);
   }
 
   theme(theme: Theme): void {
@@ -69,7 +63,7 @@ export class Places {
     this.#startLook.color.copy(colour(theme.ink));
   }
 
-  show(goal: Goal, start: Heading, height: Height): void {
+  show(goal: Place, start: Heading, height: Height): void {
     this.#at = { goal, start };
     this.settle(height);
   }
@@ -79,9 +73,6 @@ export class Places {
     if (!this.#at) return;
     const { goal, start } = this.#at;
     this.#goal.position.set(goal.x, goal.y, height(goal.x, goal.y));
-    this.#end.position.copy(this.#goal.position);
-    this.#end.visible = goal.heading_rad !== undefined;
-    this.#end.rotation.z = goal.heading_rad ?? 0;
     this.#start.position.set(start.x, start.y, height(start.x, start.y));
     this.#start.rotation.z = start.heading_rad;
   }

@@ -1,7 +1,7 @@
 /** What pointer and keyboard do to the ground: drop a goal, drop a start, sculpt. */
 
 import type { Brush } from '../editor/strokeInHand.ts';
-import type { Goal, Heading, Place } from '../experiment/place.ts';
+import type { Heading, Place } from '../experiment/place.ts';
 import { BRUSHES, type BrushName, strength_m } from '../ground/brushes.ts';
 import type { Stage } from './stage.ts';
 
@@ -32,9 +32,7 @@ export interface BrushSetting {
 }
 
 export interface ToolActions {
-  setGoal(goal: Goal): void;
-  /** Lets the robot face a place at its goal. */
-  faceAtGoal(place: Place): void;
+  setGoal(goal: Place): void;
   /** A waypoint before the goal, after the others. */
   addWaypoint(place: Place): void;
   setStart(start: Heading): void;
@@ -50,7 +48,7 @@ const DAB_INTERVAL_MS = 40;
 const CURSOR_STEP_M = 0.5;
 /** A ramp or ditch dragged less than this was a slip. */
 const SHORTEST_LINE_M = 0.3;
-/** A start dragged less than this keeps the direction of view as its heading, and a goal has none. */
+/** A start dragged less than this keeps the direction of view as its heading. */
 const HEADING_DRAG_M = 0.6;
 const LOOK_STEP_RAD = 0.12;
 /** In shares of the distance to what is looked at. */
@@ -154,19 +152,19 @@ export class GroundTools {
     this.#stop();
     if (!done || !pressed || !cursor) return;
     if (isBrush(this.#tool)) this.#line(this.#tool, pressed, cursor);
-    const [east, north] = [cursor.x - pressed.x, cursor.y - pressed.y];
-    const dragged_rad = Math.hypot(east, north) > HEADING_DRAG_M ? Math.atan2(north, east) : undefined;
-    const { x, y } = pressed;
-    if (this.#tool === 'goal') this.#drivesTo(pressed, event.shiftKey, dragged_rad);
+    if (this.#tool === 'goal') this.#drivesTo(cursor, event.shiftKey);
     if (this.#tool === 'start') {
-      this.#actions.setStart({ x, y, heading_rad: dragged_rad ?? this.#stage.viewHeading_rad });
+      const [east, north] = [cursor.x - pressed.x, cursor.y - pressed.y];
+      const dragged = Math.hypot(east, north) > HEADING_DRAG_M;
+      const heading_rad = dragged ? Math.atan2(north, east) : this.#stage.viewHeading_rad;
+      this.#actions.setStart({ x: pressed.x, y: pressed.y, heading_rad });
     }
     if (event.pointerType === 'touch') this.#hideCursor();
   }
 
-  #drivesTo({ x, y }: Place, shifted: boolean, heading_rad?: number): void {
+  #drivesTo({ x, y }: Place, shifted: boolean): void {
     if (this.#adding || shifted) this.#actions.addWaypoint({ x, y });
-    else this.#actions.setGoal(heading_rad === undefined ? { x, y } : { x, y, heading_rad });
+    else this.#actions.setGoal({ x, y });
   }
 
   #key(event: KeyboardEvent): void {
@@ -183,7 +181,6 @@ export class GroundTools {
     }
     if (step) this.#moveCursor(step[0] ?? 0, step[1] ?? 0, event.shiftKey ? 5 : 1);
     else if (event.key === 'Enter') this.#apply(event.shiftKey);
-    else if (event.key === 'a' && this.#tool === 'goal' && this.#cursor) this.#actions.faceAtGoal(this.#cursor);
     else return;
     event.preventDefault();
   }
@@ -275,8 +272,7 @@ export class GroundTools {
   #ring(): void {
     const at = this.#cursor;
     const brush = isBrush(this.#tool) ? BRUSHES[this.#tool] : undefined;
-    const drawsLine = brush ? brush.gesture === 'line' : this.#tool !== 'look';
-    const from = this.#anchor ?? (drawsLine ? this.#pressed : undefined);
+    const from = this.#anchor ?? (brush?.gesture === 'line' ? this.#pressed : undefined);
     const radius_m = this.#tool === 'look' || !at ? 0 : brush ? this.#brush.radius_m : 0.5;
     this.#stage.brush(at ?? { x: 0, y: 0 }, from ?? at ?? { x: 0, y: 0 }, radius_m);
   }

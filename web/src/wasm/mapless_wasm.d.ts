@@ -41,18 +41,6 @@ export interface Place {
 }
 
 /**
- * A place to end at, and which way to face there, if it matters.
- */
-export interface Goal {
-    x: number;
-    y: number;
-    /**
-     * Counter-clockwise from east.
-     */
-    heading_rad?: number;
-}
-
-/**
  * A place where the robot could go next: on the skyline, where it already heads, at the frontier of what was
  * seen, or the goal itself once it is in sight.
  */
@@ -405,7 +393,7 @@ export interface ScenarioRead {
     terrain: string;
     start: Heading;
     waypoints: Place[];
-    goal: Goal;
+    goal: Place;
     seed: number;
     /**
      * Its tables `planner`, `sensor` and `robot` as written, where they are there.
@@ -431,7 +419,7 @@ export interface Scene {
      * Driven to one after the other, before the goal.
      */
     waypoints: Place[];
-    goal: Goal;
+    goal: Place;
     /**
      * Time between two ticks.
      */
@@ -593,7 +581,7 @@ export interface SensorPose {
  */
 export interface Route {
     waypoints: readonly Place[];
-    goal: Goal;
+    goal: Place;
 }
 
 /**
