@@ -15,7 +15,7 @@ mod terrain;
 pub use decision::{Cost, Forecast, PathPoint, ReachEnd, Refusal, Segment, Subgoal, Verdict};
 pub use opening::{Learning, Preset, ScenarioRead, SessionOptions, TextFile, read_scenario};
 pub use parameters::{Parameter, ParameterGroup, ParameterKind};
-pub use places::{Heading, Place, Route};
+pub use places::{Goal, Heading, Place, Route};
 pub use session::{
     Activity, Frame, FrameBuffers, ImageSize, Point, Scene, SegmentDemands, SensorPose, Session, Standing,
     Tick, TiltLimits, Timeline, Velocity,

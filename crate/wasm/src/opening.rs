@@ -7,7 +7,7 @@ use toml::Table;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-use crate::places::{Heading, Place};
+use crate::places::{Goal, Heading, Place};
 use crate::shared::{Overrides, give};
 use crate::terrain::TerrainFiles;
 
@@ -83,7 +83,7 @@ pub struct ScenarioRead {
     terrain: String,
     start: Heading,
     waypoints: Vec<Place>,
-    goal: Place,
+    goal: Goal,
     seed: f64,
     /// Its tables `planner`, `sensor` and `robot` as written, where they are there.
     overrides: Overrides,
@@ -102,7 +102,7 @@ pub fn read_scenario(file: &str, text: &str) -> Result<Ts<ScenarioRead>, JsError
         terrain: scenario.terrain,
         start: scenario.start.into(),
         waypoints: scenario.waypoints_m.into_iter().map(Place::from).collect(),
-        goal: scenario.goal_m.into(),
+        goal: Goal::new(scenario.goal_m, scenario.goal_heading_rad),
         seed: scenario.seed as f64,
         overrides: Overrides(written),
     })

@@ -45,10 +45,27 @@ impl From<Heading> for StartPose {
     }
 }
 
+/// Where to drive at last.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, Tsify)]
+pub struct Goal {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    /// The heading to end with, counter-clockwise from east; any heading without it.
+    #[tsify(optional)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) heading_rad: Option<f64>,
+}
+
+impl Goal {
+    pub(crate) fn new(place_m: DVec2, heading_rad: Option<f64>) -> Self {
+        Self { x: place_m.x, y: place_m.y, heading_rad }
+    }
+}
+
 /// Where to drive: to each waypoint in turn, then to the goal.
 #[derive(Clone, Debug, Deserialize, Tsify)]
 pub struct Route {
     #[tsify(type = "readonly Place[]")]
     pub(crate) waypoints: Vec<Place>,
-    pub(crate) goal: Place,
+    pub(crate) goal: Goal,
 }

@@ -156,7 +156,8 @@ impl Session {
     /// A place off the terrain; nothing then changes.
     pub fn set_route(&mut self, route: Ts<Route>) -> Result<(), JsError> {
         let Route { waypoints, goal } = read(route)?;
-        self.now.trial.set_route(waypoints.into_iter().map(DVec2::from).collect(), goal.into(), None)?;
+        let waypoints_m = waypoints.into_iter().map(DVec2::from).collect();
+        self.now.trial.set_route(waypoints_m, DVec2::new(goal.x, goal.y), goal.heading_rad)?;
         if let Some(history) = &mut self.history {
             history.changed(self.now.trial.ticks(), &self.now);
         }

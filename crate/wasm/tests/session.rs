@@ -139,6 +139,21 @@ fn a_scenario_is_read_as_plain_data() {
 }
 
 #[wasm_bindgen_test]
+fn a_goals_heading_crosses_from_the_file_and_back() {
+    let with_heading = SCENARIO.replace("[34.0, 8.0]", "[34.0, 8.0, 1.5]");
+    let expected = r#"{"x":34,"y":8,"heading_rad":1.5}"#;
+    let read = got(read_scenario("scenario.toml", &with_heading));
+    assert_eq!(json(at(&read, "goal")), expected);
+    let mut session = open(&with_heading, RECIPE, DEFAULT).unwrap();
+    assert_eq!(json(at(&got(session.scene()), "goal")), expected);
+    // It stays when the trial begins anew with other parameters, and goes with a route that has none.
+    assert!(session.set_parameters(given("{}"), Some(3)).is_ok());
+    assert_eq!(json(at(&got(session.scene()), "goal")), expected);
+    assert!(session.set_route(given(r#"{ "waypoints": [], "goal": { "x": 30, "y": 8 } }"#)).is_ok());
+    assert_eq!(json(at(&got(session.scene()), "goal")), r#"{"x":30,"y":8}"#);
+}
+
+#[wasm_bindgen_test]
 fn the_seed_is_the_scenarios_unless_given() {
     assert_eq!(number(&got(session().scene()), "seed"), 7.0);
     let other = open(SCENARIO, RECIPE, r#"{ "preset": "default", "seed": 4294967295 }"#);
@@ -456,11 +471,32 @@ fn a_place_off_the_terrain_changes_nothing() {
     assert_eq!((json(got(session.scene())), session.digest()), before);
 }
 
+/// Drives until the trial ends; gives the last tick.
+fn ended(session: &mut Session) -> JsValue {
+    let ticks = (0..200).map(|_| got(session.tick()));
+    ticks.into_iter().find(|tick| text(tick, "after.outcome") != "running").unwrap()
+}
+
 #[wasm_bindgen_test]
 fn reaches_a_goal_nearby() {
     let mut session = session();
     assert!(session.set_route(given(r#"{ "waypoints": [], "goal": { "x": 9, "y": 8 } }"#)).is_ok());
-    let ticks = (0..120).map(|_| got(session.tick()));
-    let last = ticks.into_iter().find(|tick| text(tick, "after.outcome") != "running").unwrap();
+    let last = ended(&mut session);
     assert_eq!((text(&last, "after.outcome"), text(&last, "activity")), ("reached".into(), "arrived".into()));
+    assert!(number(&last, "pose.yaw").abs() < 0.5, "it came from the west");
+}
+
+#[wasm_bindgen_test]
+fn ends_with_the_goals_heading() {
+    let mut session = session();
+    let route = r#"{ "waypoints": [], "goal": { "x": 9, "y": 8, "heading_rad": 2.5 } }"#;
+    assert!(session.set_route(given(route)).is_ok());
+    let last = ended(&mut session);
+    assert_eq!((text(&last, "after.outcome"), text(&last, "activity")), ("reached".into(), "arrived".into()));
+    assert!((number(&last, "pose.yaw") - 2.5).abs() < 0.1, "{}", number(&last, "pose.yaw"));
+    // Another heading at the goal is turned to there.
+    assert!(session.set_route(given(&route.replace("2.5", "1.0"))).is_ok());
+    let last = ended(&mut session);
+    assert_eq!(text(&last, "after.outcome"), "reached");
+    assert!((number(&last, "pose.yaw") - 1.0).abs() < 0.1, "{}", number(&last, "pose.yaw"));
 }

@@ -4,7 +4,7 @@ import { Editor } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { type Experiment, FIRST_SETUP, type Stroke } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
-import type { Heading, Place } from '../experiment/place.ts';
+import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setup } from '../experiment/setting.ts';
 import { HeightField } from '../ground/heightField.ts';
 import type {
@@ -297,9 +297,19 @@ export class App {
   }
 
   /** The goal, with waypoints to drive to before it. */
-  async setGoal(goal: Place, waypoints: readonly Place[] = []): Promise<void> {
+  async setGoal(goal: Goal, waypoints: readonly Place[] = []): Promise<void> {
     this.#autoAdvance.stop();
     await this.editor.setRoute(() => ({ waypoints, goal }));
+  }
+
+  /** The heading to end with at the goal; any heading without one. */
+  async setGoalHeading(heading_rad: number | undefined): Promise<void> {
+    const info = this.#info;
+    if (!info) return;
+    const { x, y } = info.goal;
+    const goal = heading_rad === undefined ? { x, y } : { x, y, heading_rad };
+    // What the robot has been to stays behind it.
+    await this.setGoal(goal, info.waypoints.slice(this.#frame?.waypoints_passed ?? 0));
   }
 
   /** A waypoint before the goal, after those there are; a robot at its goal goes on to it. */

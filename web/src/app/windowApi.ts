@@ -8,7 +8,7 @@ import { number } from '../base/checks.ts';
 import type { Experiment, Stroke } from '../experiment/experiment.ts';
 import { linkTo } from '../experiment/link.ts';
 import type { Overrides } from '../experiment/overrides.ts';
-import type { Heading, Place } from '../experiment/place.ts';
+import type { Goal, Heading, Place } from '../experiment/place.ts';
 import { readExperiment, readStroke } from '../experiment/readExperiment.ts';
 import type { Setting } from '../experiment/setting.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
@@ -48,8 +48,8 @@ export interface MaplessApi {
   restart(): Promise<void>;
   /** Simulated seconds per second; `Infinity` is as fast as it goes. */
   setSpeed(speed: number): Promise<void>;
-  /** The goal, with waypoints that are driven to before it. */
-  setGoal(goal: Place, waypoints?: readonly Place[]): Promise<void>;
+  /** The goal, with a final heading if it has one, and with waypoints that are driven to before it. */
+  setGoal(goal: Goal, waypoints?: readonly Place[]): Promise<void>;
   /** Goes to a tick of the run so far and pauses; the state's `timeline` says which there are. */
   seek(tick: number): Promise<void>;
   /** Begins anew with other parameters, as tables with the names of a scenario file: `{ sensor: { range_noise_m: 0.1 } }`. */
@@ -92,7 +92,10 @@ export function publish(app: App): void {
     step: used(() => app.step()),
     restart: used(() => app.restart()),
     setSpeed: used((speed: number) => app.setSpeed(number(speed, 'speed', 0.01, Number.POSITIVE_INFINITY))),
-    setGoal: used((goal: Place, waypoints?: readonly Place[]) => app.setGoal(goal, waypoints)),
+    setGoal: used((goal: Goal, waypoints?: readonly Place[]) => {
+      if (goal.heading_rad !== undefined) number(goal.heading_rad, 'goal.heading_rad', -1000, 1000);
+      return app.setGoal(goal, waypoints);
+    }),
     seek: used((tick: number) => app.seek(number(tick, 'tick', 0, Number.MAX_SAFE_INTEGER))),
     setOverrides: used((overrides: Overrides) => app.setOverrides(overrides)),
     setStart: used((start: Heading) => app.setStart(start)),

@@ -14,6 +14,16 @@ export function degrees(angle_rad: number, decimals = 0): string {
   return `${fixed((angle_rad * 180) / Math.PI, decimals)}°`;
 }
 
+/** As in a field: from 0 to 359. */
+export function wholeDegrees(angle_rad: number): number {
+  const angle_deg = Math.round((angle_rad * 180) / Math.PI) % 360;
+  return angle_deg < 0 ? angle_deg + 360 : angle_deg;
+}
+
+export function radians(angle_deg: number): number {
+  return (angle_deg * Math.PI) / 180;
+}
+
 /** Minutes and seconds: `1:07.3`. */
 export function clock(time_s: number): string {
   const tenths = Math.round(time_s * 10);

@@ -207,6 +207,7 @@ const actions = {
   help: () => help.showModal(),
   addWaypoints: (adding: boolean) => tools?.addWaypoints(adding),
   clearWaypoints: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
+  setGoalHeading: (heading_rad: number | undefined) => app.attempt(app.setGoalHeading(heading_rad)),
   jump: (times: number) => app.attempt(app.jump(times)),
   lab: () => app.attempt(openLab()),
 };

@@ -1,6 +1,7 @@
 /** The page's buttons, choosers and sliders: each calls one action, and shows the state it is told. */
 
 import { byId, html, setText } from '../base/dom.ts';
+import { radians, wholeDegrees } from '../base/format.ts';
 import { CATALOGUE } from '../experiment/catalogue.ts';
 import { LEARNING, MAX_SEED } from '../experiment/experiment.ts';
 import type { Setting } from '../experiment/setting.ts';
@@ -25,6 +26,8 @@ export interface Actions {
   /** Whether the goal's tool adds waypoints before the goal. */
   addWaypoints(adding: boolean): void;
   clearWaypoints(): void;
+  /** The heading to end with at the goal, or any. */
+  setGoalHeading(heading_rad: number | undefined): void;
 }
 
 export class Controls {
@@ -37,6 +40,7 @@ export class Controls {
   readonly #routeTools = byId('route-tools', HTMLElement);
   readonly #routeAdd = byId('route-add', HTMLInputElement);
   readonly #routeClear = byId('route-clear', HTMLButtonElement);
+  readonly #goalHeading = byId('goal-heading', HTMLInputElement);
   readonly #lesson = byId('scene-lesson', HTMLElement);
   readonly #hint = byId('tool-hint', HTMLElement);
   readonly #own = html('option');
@@ -64,6 +68,10 @@ export class Controls {
       actions.addWaypoints(this.#routeAdd.checked);
       this.showTool('goal');
     });
+    this.#goalHeading.addEventListener('change', () => {
+      const { value } = this.#goalHeading;
+      if (this.#goalHeading.reportValidity()) actions.setGoalHeading(value ? radians(Number(value)) : undefined);
+    });
     for (const input of this.#radios('tool')) {
       input.addEventListener('change', () => actions.selectTool(TOOLS.find((tool) => tool === input.value) ?? 'look'));
     }
@@ -79,8 +87,9 @@ export class Controls {
     this.#play.title = `${label} (Space)`;
   }
 
-  showSession({ scenario, preset, learning, seed, waypoints }: SessionInfo): void {
+  showSession({ scenario, preset, learning, seed, waypoints, goal }: SessionInfo): void {
     this.#routeClear.hidden = waypoints.length === 0;
+    this.#goalHeading.value = goal.heading_rad === undefined ? '' : String(wholeDegrees(goal.heading_rad));
     // What is not of the catalogue stands first, by its own name.
     const own = !CATALOGUE.some((one) => one.id === scenario);
     if (own) this.#scenario.prepend(this.#own);

@@ -5,6 +5,7 @@ import {
   MAX_TOUCHES,
   type Stroke,
   sameCourse,
+  tidyGoal,
   tidyHeading,
   tidyPlace,
 } from '../experiment/experiment.ts';
@@ -141,7 +142,7 @@ export class Editor {
   setRoute(route: () => Route): Promise<void> {
     const tidy = () => {
       const { waypoints, goal } = route();
-      return { waypoints: waypoints.map(tidyPlace), goal: tidyPlace(goal) };
+      return { waypoints: waypoints.map(tidyPlace), goal: tidyGoal(goal) };
     };
     return this.#edit(tidy, ({ waypoints, goal }) => ({ type: 'goal', goal, waypoints }));
   }

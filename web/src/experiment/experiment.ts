@@ -5,7 +5,7 @@
 
 import type { Stroke, StrokeKind } from '../wasm/mapless_wasm.js';
 import type { Overrides } from './overrides.ts';
-import type { Heading, Place } from './place.ts';
+import type { Goal, Heading, Place } from './place.ts';
 import type { Learning, Preset, Setup } from './setting.ts';
 
 export const VERSION = 1;
@@ -49,7 +49,7 @@ export interface Experiment {
   readonly start: Heading;
   /** Driven to one after the other, before the goal. */
   readonly waypoints: readonly Place[];
-  readonly goal: Place;
+  readonly goal: Goal;
   readonly seed: number;
   readonly preset: Preset;
   readonly learning: Learning;
@@ -87,10 +87,14 @@ export function tidyHeading(heading: Heading): Heading {
   return { ...tidyPlace(heading), heading_rad: Math.round(1000 * heading.heading_rad) / 1000 };
 }
 
+export function tidyGoal({ x, y, heading_rad }: Goal): Goal {
+  return heading_rad === undefined ? tidyPlace({ x, y }) : tidyHeading({ x, y, heading_rad });
+}
+
 /** Whether two experiments lead over the same ground from the same start to the same goal. */
 export function sameCourse(one: Experiment, other: Experiment): boolean {
   const route = ({ start, waypoints, goal }: Experiment) =>
-    JSON.stringify([tidyHeading(start), waypoints.map(tidyPlace), tidyPlace(goal)]);
+    JSON.stringify([tidyHeading(start), waypoints.map(tidyPlace), tidyGoal(goal)]);
   return (
     one.strokes.length + other.strokes.length === 0 &&
     route(one) === route(other) &&

@@ -1,3 +1,3 @@
 /** Places on the ground. World frame: x east, y north, in metres. */
 
-export type { Heading, Place } from '../wasm/mapless_wasm.js';
+export type { Goal, Heading, Place } from '../wasm/mapless_wasm.js';

@@ -19,7 +19,7 @@ import {
   VERSION,
 } from './experiment.ts';
 import type { Overrides, OverrideValue } from './overrides.ts';
-import type { Heading, Place } from './place.ts';
+import type { Goal, Heading, Place } from './place.ts';
 
 const MAX_STROKES = 5000;
 /** No coordinate lies farther out, in metres. */
@@ -65,6 +65,11 @@ function place(value: unknown, at: string): Place {
 function heading(value: unknown, at: string): Heading {
   const { heading_rad, ...rest } = fields(value, at, ['x', 'y', 'heading_rad']);
   return { ...place(rest, at), heading_rad: number(heading_rad, `${at}.heading_rad`, -1000, 1000) };
+}
+
+function goal(value: unknown, at: string): Goal {
+  const { heading_rad, ...rest } = fields(value, at, ['x', 'y'], ['heading_rad']);
+  return heading_rad === undefined ? place(rest, at) : heading({ ...rest, heading_rad }, at);
 }
 
 function imported(value: unknown, at: string): ImportedFile {
@@ -158,7 +163,7 @@ export function readExperiment(value: unknown): Experiment {
     strokes: strokes(found.strokes),
     start: heading(found.start, 'start'),
     waypoints: list(found.waypoints, 'waypoints', MAX_WAYPOINTS).map((one, at) => place(one, `waypoints[${at}]`)),
-    goal: place(found.goal, 'goal'),
+    goal: goal(found.goal, 'goal'),
     seed: whole(found.seed, 'seed', 0, MAX_SEED),
     preset: oneOf(found.preset, 'preset', PRESETS),
     learning: oneOf(found.learning, 'learning', LEARNING),

@@ -29,12 +29,13 @@ export type Scenario = Omit<Experiment, 'version' | 'name' | 'terrain' | 'stroke
 /** The scenario file of an experiment whose terrain is in the file `terrain`. */
 export function scenarioFile(scenario: Scenario, terrain: string): string {
   const { start, waypoints, goal, seed, preset, learning, overrides } = scenario;
+  const heading = goal.heading_rad === undefined ? '' : `, ${goal.heading_rad}`;
   const lines = [
     '# Runs as in the page with',
     `#   mapless run scenario.toml --planner ${preset} --learning ${learning}`,
     `terrain = ${JSON.stringify(terrain)}`,
     `start = [${start.x}, ${start.y}, ${start.heading_rad}]`,
-    `goal = [${goal.x}, ${goal.y}]`,
+    `goal = [${goal.x}, ${goal.y}${heading}]`,
     `seed = ${seed}`,
   ];
   if (waypoints.length > 0) lines.push(`waypoints = [${waypoints.map(({ x, y }) => `[${x}, ${y}]`).join(', ')}]`);

@@ -27,8 +27,9 @@ export async function mcapFile(run: Run): Promise<Blob> {
   const points = await channel(writer, '/points', PointCloud);
   const tick = await channel(writer, '/tick', TICK);
 
+  const { x, y, heading_rad = 0 } = info.goal;
   const begin_s = record.length > 0 ? record.get(0, 'time_s') : frame.time_s;
-  await goal(begin_s, inWorld(begin_s, { ...info.goal, z: 0 }, LEVEL));
+  await goal(begin_s, inWorld(begin_s, { x, y, z: 0 }, orientation(0, 0, heading_rad)));
   for (let row = 0; row < record.before(frame.tick); row += 1) {
     const value = (name: (typeof ROW)[number]) => record.get(row, name);
     const time_s = value('time_s');

@@ -11,7 +11,7 @@ import {
   RingGeometry,
 } from 'three';
 import type { Theme } from '../colours/theme.ts';
-import type { Heading, Place } from '../experiment/place.ts';
+import type { Goal, Heading } from '../experiment/place.ts';
 import type { Vector } from '../ground/heightField.ts';
 import { colour } from './relief.ts';
 
@@ -30,8 +30,9 @@ export class Places {
   readonly #poleLook = new MeshBasicMaterial();
   readonly #startLook = new MeshBasicMaterial({ side: DoubleSide });
   readonly #goal = new Group();
+  readonly #goalArrow: Mesh;
   readonly #start = new Group();
-  #at: { goal: Place; start: Heading } | undefined;
+  #at: { goal: Goal; start: Heading } | undefined;
 
   constructor() {
     const pole = new Mesh(
@@ -53,7 +54,12 @@ export class Places {
       ),
     );
     this.#start.add(new Mesh(arrow, this.#startLook));
-    this.group.add(this.#goal, this.#start);
+    const tip = new BufferGeometry();
+    tip.setAttribute('position', new Float32BufferAttribute([1.7, 0, 0, 0.85, 0.5, 0, 0.85, -0.5, 0], 3));
+    this.#goalArrow = new Mesh(tip, this.#goalLook);
+    // First over the slope, then to its heading.
+    this.#goalArrow.rotation.order = 'ZYX';
+    this.group.add(this.#goal, this.#goalArrow, this.#start);
   }
 
   theme(theme: Theme): void {
@@ -63,7 +69,7 @@ export class Places {
     this.#startLook.color.copy(colour(theme.ink));
   }
 
-  show(goal: Place, start: Heading, height: Height): void {
+  show(goal: Goal, start: Heading, height: Height): void {
     this.#at = { goal, start };
     this.settle(height);
   }
@@ -73,8 +79,19 @@ export class Places {
     if (!this.#at) return;
     const { goal, start } = this.#at;
     this.#goal.position.set(goal.x, goal.y, height(goal.x, goal.y));
+    this.#point(goal, height);
     this.#start.position.set(start.x, start.y, height(start.x, start.y));
     this.#start.rotation.z = start.heading_rad;
+  }
+
+  /** Lays the arrow of the goal's heading onto the ground around the goal. */
+  #point({ x, y, heading_rad }: Goal, height: Height): void {
+    this.#goalArrow.visible = heading_rad !== undefined;
+    if (heading_rad === undefined) return;
+    const [east, north] = [Math.cos(heading_rad), Math.sin(heading_rad)];
+    const slope = (ahead: number, left: number) => (height(x + ahead, y + left) - height(x - ahead, y - left)) / 2;
+    this.#goalArrow.rotation.set(Math.atan(slope(-north, east)), -Math.atan(slope(east, north)), heading_rad);
+    this.#goalArrow.position.set(x, y, height(x, y) + 0.2);
   }
 
   /** Turns the flag's cloth to the viewer, and keeps it in sight from afar. */
@@ -83,5 +100,6 @@ export class Places {
     const [east, north] = [x - position.x, y - position.y];
     rotation.z = Math.atan2(north, east) + Math.PI / 2;
     scale.setScalar(Math.max(1, Math.hypot(east, north, z - position.z) / FULL_SIZE_WITHIN_M));
+    this.#goalArrow.scale.copy(scale);
   }
 }

@@ -7,7 +7,7 @@
 
 import type { Experiment, Stroke, Terrain } from '../experiment/experiment.ts';
 import type { ParameterGroup } from '../experiment/parameters.ts';
-import type { Heading, Place } from '../experiment/place.ts';
+import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setting, Setup } from '../experiment/setting.ts';
 import type {
   Frame as CoreFrame,
@@ -123,7 +123,7 @@ export type Command =
   | { type: 'play'; playing: boolean }
   | { type: 'speed'; speed: Speed }
   | { type: 'step' }
-  | { type: 'goal'; goal: Place; waypoints: readonly Place[] }
+  | { type: 'goal'; goal: Goal; waypoints: readonly Place[] }
   /** Begins anew with these overrides in place of all others, on the same ground and route. */
   | { type: 'parameters'; overrides: Overrides; seed: number | undefined }
   /** Goes to a tick of the timeline and stays there. */

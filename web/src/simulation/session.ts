@@ -3,7 +3,7 @@
 import type { Core } from '../bindings/simulationModule.ts';
 import type { Experiment } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
-import type { Heading, Place } from '../experiment/place.ts';
+import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setting } from '../experiment/setting.ts';
 import type { Frame, FrameBuffers, Ground, GroundPatch, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Session as CoreSession, Standing, Stroke, Tick } from '../wasm/mapless_wasm.js';
@@ -74,7 +74,7 @@ export class Session {
     this.#began();
   }
 
-  setRoute(waypoints: readonly Place[], goal: Place): void {
+  setRoute(waypoints: readonly Place[], goal: Goal): void {
     this.#core.set_route({ waypoints, goal });
     this.#info = this.#readInfo(this.#info);
     this.#standing = this.#core.standing();

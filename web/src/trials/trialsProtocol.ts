@@ -1,7 +1,7 @@
 /** What the page and a worker that runs whole trials say to each other. A worker has one job and is then ended. */
 
 import type { Overrides } from '../experiment/overrides.ts';
-import type { Heading, Place } from '../experiment/place.ts';
+import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Learning } from '../experiment/setting.ts';
 import type { Ground, Metrics, Outcome } from '../protocol/simulationProtocol.ts';
 import { METRICS, POSE } from '../run/columns.ts';
@@ -13,7 +13,7 @@ export interface Course {
   readonly learning: Learning;
   readonly start: Heading;
   readonly waypoints: readonly Place[];
-  readonly goal: Place;
+  readonly goal: Goal;
   readonly ground: Ground;
 }
 

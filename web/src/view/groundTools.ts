@@ -1,7 +1,7 @@
 /** What pointer and keyboard do to the ground: drop a goal, drop a start, sculpt. */
 
 import type { Brush } from '../editor/strokeInHand.ts';
-import type { Heading, Place } from '../experiment/place.ts';
+import type { Goal, Heading, Place } from '../experiment/place.ts';
 import { BRUSHES, type BrushName, strength_m } from '../ground/brushes.ts';
 import type { Stage } from './stage.ts';
 
@@ -32,7 +32,7 @@ export interface BrushSetting {
 }
 
 export interface ToolActions {
-  setGoal(goal: Place): void;
+  setGoal(goal: Goal): void;
   /** A waypoint before the goal, after the others. */
   addWaypoint(place: Place): void;
   setStart(start: Heading): void;
@@ -48,8 +48,9 @@ const DAB_INTERVAL_MS = 40;
 const CURSOR_STEP_M = 0.5;
 /** A ramp or ditch dragged less than this was a slip. */
 const SHORTEST_LINE_M = 0.3;
-/** A start dragged less than this keeps the direction of view as its heading. */
+/** A goal or a start dragged less than this, over the ground or on the screen, was pressed: that sets no heading. */
 const HEADING_DRAG_M = 0.6;
+const HEADING_DRAG_PX = 14;
 const LOOK_STEP_RAD = 0.12;
 /** In shares of the distance to what is looked at. */
 const MOVE_STEP = 0.08;
@@ -71,6 +72,7 @@ export class GroundTools {
   #pointer: number | undefined;
   #touches = 0;
   #pressed: Place | undefined;
+  #pressed_px = { x: 0, y: 0 };
   #cursor: Place | undefined;
   #lastDab_ms = 0;
   #dabbing: ReturnType<typeof setInterval> | undefined;
@@ -124,6 +126,7 @@ export class GroundTools {
     this.#pointer = event.pointerId;
     this.#canvas.setPointerCapture(event.pointerId);
     this.#pressed = at;
+    this.#pressed_px = { x: event.clientX, y: event.clientY };
     this.#cursor = at;
     this.#ring();
     if (!isBrush(this.#tool)) return;
@@ -152,19 +155,29 @@ export class GroundTools {
     this.#stop();
     if (!done || !pressed || !cursor) return;
     if (isBrush(this.#tool)) this.#line(this.#tool, pressed, cursor);
-    if (this.#tool === 'goal') this.#drivesTo(cursor, event.shiftKey);
-    if (this.#tool === 'start') {
-      const [east, north] = [cursor.x - pressed.x, cursor.y - pressed.y];
-      const dragged = Math.hypot(east, north) > HEADING_DRAG_M;
-      const heading_rad = dragged ? Math.atan2(north, east) : this.#stage.viewHeading_rad;
-      this.#actions.setStart({ x: pressed.x, y: pressed.y, heading_rad });
-    }
+    const heading_rad = this.#dragged_rad(event, pressed, cursor);
+    if (this.#tool === 'goal') this.#drivesTo(pressed, heading_rad, event.shiftKey);
+    if (this.#tool === 'start') this.#startsAt(pressed, heading_rad);
     if (event.pointerType === 'touch') this.#hideCursor();
   }
 
-  #drivesTo({ x, y }: Place, shifted: boolean): void {
+  /** Which way the pointer was dragged over the ground, unless it was hardly moved. */
+  #dragged_rad({ clientX, clientY }: PointerEvent, from: Place, to: Place): number | undefined {
+    const [east, north] = [to.x - from.x, to.y - from.y];
+    const { x, y } = this.#pressed_px;
+    const moved = Math.hypot(east, north) > HEADING_DRAG_M && Math.hypot(clientX - x, clientY - y) > HEADING_DRAG_PX;
+    return moved ? Math.atan2(north, east) : undefined;
+  }
+
+  /** Without a heading the robot may face any way at the goal. */
+  #drivesTo({ x, y }: Place, heading_rad: number | undefined, shifted: boolean): void {
     if (this.#adding || shifted) this.#actions.addWaypoint({ x, y });
-    else this.#actions.setGoal({ x, y });
+    else this.#actions.setGoal(heading_rad === undefined ? { x, y } : { x, y, heading_rad });
+  }
+
+  /** Without a heading the robot faces where the view looks. */
+  #startsAt({ x, y }: Place, heading_rad = this.#stage.viewHeading_rad): void {
+    this.#actions.setStart({ x, y, heading_rad });
   }
 
   #key(event: KeyboardEvent): void {
@@ -201,10 +214,9 @@ export class GroundTools {
   #apply(shifted: boolean): void {
     const at = this.#cursor ?? this.#stage.robot;
     if (!at) return;
-    if (this.#tool === 'goal') this.#drivesTo(at, shifted);
-    else if (this.#tool === 'start') {
-      this.#actions.setStart({ x: at.x, y: at.y, heading_rad: this.#stage.viewHeading_rad });
-    } else if (isBrush(this.#tool)) {
+    if (this.#tool === 'goal') this.#drivesTo(at, undefined, shifted);
+    else if (this.#tool === 'start') this.#startsAt(at);
+    else if (isBrush(this.#tool)) {
       this.#cursor = at;
       this.#applyBrush(this.#tool, at);
     }
@@ -272,7 +284,8 @@ export class GroundTools {
   #ring(): void {
     const at = this.#cursor;
     const brush = isBrush(this.#tool) ? BRUSHES[this.#tool] : undefined;
-    const from = this.#anchor ?? (brush?.gesture === 'line' ? this.#pressed : undefined);
+    const turns = this.#tool === 'start' || (this.#tool === 'goal' && !this.#adding);
+    const from = this.#anchor ?? (turns || brush?.gesture === 'line' ? this.#pressed : undefined);
     const radius_m = this.#tool === 'look' || !at ? 0 : brush ? this.#brush.radius_m : 0.5;
     this.#stage.brush(at ?? { x: 0, y: 0 }, from ?? at ?? { x: 0, y: 0 }, radius_m);
   }

@@ -393,7 +393,7 @@ export interface ScenarioRead {
     terrain: string;
     start: Heading;
     waypoints: Place[];
-    goal: Place;
+    goal: Goal;
     seed: number;
     /**
      * Its tables `planner`, `sensor` and `robot` as written, where they are there.
@@ -419,7 +419,7 @@ export interface Scene {
      * Driven to one after the other, before the goal.
      */
     waypoints: Place[];
-    goal: Place;
+    goal: Goal;
     /**
      * Time between two ticks.
      */
@@ -577,11 +577,23 @@ export interface SensorPose {
 }
 
 /**
+ * Where to drive at last.
+ */
+export interface Goal {
+    x: number;
+    y: number;
+    /**
+     * The heading to end with, counter-clockwise from east; any heading without it.
+     */
+    heading_rad?: number;
+}
+
+/**
  * Where to drive: to each waypoint in turn, then to the goal.
  */
 export interface Route {
     waypoints: readonly Place[];
-    goal: Place;
+    goal: Goal;
 }
 
 /**

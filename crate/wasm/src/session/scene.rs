@@ -6,7 +6,7 @@ use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 use super::Session;
-use crate::places::{Heading, Place};
+use crate::places::{Goal, Heading, Place};
 use crate::shared::give;
 
 /// What a scenario is made of, after its files were read.
@@ -17,7 +17,7 @@ pub struct Scene {
     start: Heading,
     /// Driven to one after the other, before the goal.
     waypoints: Vec<Place>,
-    goal: Place,
+    goal: Goal,
     /// Time between two ticks.
     period_s: f64,
     limits: TiltLimits,
@@ -69,7 +69,7 @@ impl Session {
             seed: self.seed,
             start: trial.start().into(),
             waypoints: trial.waypoints_m().iter().copied().map(Place::from).collect(),
-            goal: trial.goal_m().into(),
+            goal: Goal::new(trial.goal_m(), trial.goal_heading_rad()),
             period_s: trial.period_s(),
             limits: TiltLimits {
                 roll_rad: config.robot.roll_limit_rad,
