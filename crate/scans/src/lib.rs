@@ -9,30 +9,35 @@
 //!   passed over.
 //! - `.csv`, `.txt` or `.xyz`: text with one point a line, x y z, separated by a comma or by blanks. The
 //!   first line may be the header `x,y,z`. Every value must be a finite number.
-//! - `.pcap`: a capture of one Velodyne VLP-16, with one or two returns a beam. Its azimuth turns clockwise
-//!   as seen from above, from the sensor's y axis, which looks forward: forward is Velodyne's y and left its
-//!   -x. A revolution goes from behind the sensor round to behind it again, so that what lies ahead is seen
-//!   in one sweep. What stands before the first whole revolution and after the last one is left out.
+//! - `.pcap`, `.pcapng` or `.cap`: a capture of a Velodyne VLP-16, Puck Hi-Res or VLP-32C, with one or two
+//!   returns a beam. Its azimuth turns clockwise as seen from above, from the sensor's y axis, which looks
+//!   forward: forward is Velodyne's y and left its -x. A revolution goes from behind the sensor round to behind
+//!   it again, so that what lies ahead is seen in one sweep. What stands before the first whole revolution and
+//!   after the last one is left out, and so is a revolution of which a packet was lost.
 
 mod capture;
 mod csv;
 mod error;
 mod pcd;
 mod scan;
-mod vlp16;
+mod source;
 
 use std::fs::File;
 use std::io::Read as _;
+use std::mem;
 use std::path::Path;
 
 pub use error::{ScanError, ScanFault};
 pub use scan::{Scan, ScanChoice, ScanWarning};
+pub use source::SourceAddress;
 
+/// Extensions of captures; the first bytes say of which kind.
+const CAPTURES: [&str; 3] = ["pcap", "pcapng", "cap"];
 /// Largest file read, in bytes: a quarter of an hour of a VLP-16.
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Reads one scan from the bytes of a file. A scan without a return is no error. The extension of `file`
-/// decides the format: `.pcd`, `.csv`, `.txt` and `.xyz` hold a scan, `.pcap` a capture.
+/// decides the format: `.pcd`, `.csv`, `.txt` and `.xyz` hold a scan, `.pcap`, `.pcapng` and `.cap` a capture.
 ///
 /// # Errors
 /// [`ScanError`] names the file, the place in it, the value and what was expected.
@@ -48,19 +53,32 @@ pub fn read_scan(path: &Path, choice: ScanChoice) -> Result<Scan, ScanError> {
     read_as(&path.display().to_string(), choice, || read_file(path))
 }
 
+/// Whether a file is a capture by its extension, and may hold many revolutions.
+pub fn is_capture(path: &Path) -> bool {
+    CAPTURES.contains(&extension(path).as_str())
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
 fn read_as<Bytes: AsRef<[u8]>>(
     file: &str,
     choice: ScanChoice,
     bytes: impl FnOnce() -> Result<Bytes, ScanFault>,
 ) -> Result<Scan, ScanError> {
-    let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let extension = extension(Path::new(file));
+    let mut warnings = Vec::new();
     let scan = match extension.as_str() {
-        "pcap" => bytes().and_then(|bytes| capture::read(bytes.as_ref(), choice.revolution)),
+        extension if CAPTURES.contains(&extension) => bytes().and_then(|bytes| {
+            let points_m = capture::read(bytes.as_ref(), choice, &mut warnings)?;
+            Ok(Scan { points_m, warnings: mem::take(&mut warnings) })
+        }),
         "pcd" => bytes().and_then(|bytes| pcd::read(bytes.as_ref())).and_then(only(choice)),
         "csv" | "txt" | "xyz" => bytes().and_then(|bytes| csv::read(bytes.as_ref())).and_then(only(choice)),
         _ => Err(ScanFault::Extension { extension }),
     };
-    scan.map_err(|fault| ScanError { file: file.to_owned(), fault })
+    scan.map_err(|fault| ScanError { file: file.to_owned(), fault, warnings })
 }
 
 /// Lets a file that holds one scan answer for revolution 0 alone.
