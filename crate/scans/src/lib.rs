@@ -15,9 +15,14 @@
 //!   in one sweep. What stands before the first whole revolution and after the last one is left out.
 
 mod capture;
-mod csv;
+mod kitti;
+mod lzf;
 mod error;
 mod pcd;
+mod ply;
+mod text;
+mod values;
+mod viewpoint;
 mod vlp16;
 
 use std::fs::File;
@@ -62,7 +67,7 @@ fn read_as<Bytes: AsRef<[u8]>>(
         "pcap" => bytes().and_then(|bytes| capture::read(bytes.as_ref(), revolution)),
         "pcd" => bytes().and_then(|bytes| pcd::read(bytes.as_ref())).and_then(only(revolution)),
         "csv" | "txt" | "xyz" => {
-            bytes().and_then(|bytes| csv::read(bytes.as_ref())).and_then(only(revolution))
+            bytes().and_then(|bytes| text::read(bytes.as_ref())).and_then(only(revolution))
         }
         _ => Err(ScanFault::Extension { extension }),
     };
