@@ -16,7 +16,7 @@ use glam::{DVec2, DVec3};
 use mapless::Pose;
 use mapless::skyline::surface::PredictedSurface;
 use mapless::{Goal, Planner, Step};
-use mapless_scans::read_scan;
+use mapless_scans::{ScanChoice, read_scan};
 
 use crate::picture::{OccupancyPicture, VarianceImage};
 use crate::setup::PlannerChoice;
@@ -27,8 +27,9 @@ const GOAL_M: DVec2 = DVec2::new(50.0, 0.0);
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Scan: .pcd, text with x y z a line (.csv, .txt, .xyz; sensor frame in metres: x forward, y left, z
-    /// up), or a capture of a VLP-16 (.pcap). The robot stands level at the origin with its goal 50 m ahead.
+    /// Scan: .pcd, .ply, KITTI's .bin, text with x y z a line or where a header names them (.csv, .txt, .xyz,
+    /// .asc, .pts), all in the sensor frame in metres: x forward, y left, z up; or a capture of a VLP-16
+    /// (.pcap). The robot stands level at the origin with its goal 50 m ahead.
     file: PathBuf,
     /// Which whole revolution of a capture, from 0.
     #[arg(long, value_name = "K", default_value_t = 0)]
@@ -45,13 +46,18 @@ pub(crate) struct Args {
 
 /// Perceives the scan and shows what was seen and decided.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let points_m = read_scan(&args.file, args.revolution)?;
+    let mut scan = read_scan(&args.file, ScanChoice { revolution: args.revolution })?;
     let config = args.planner.apply(args.planner.planner.planner_config());
     let mut planner = Planner::new(config)?;
+    let reach_m = planner.config().perception.surface_radius_m;
+    scan.warnings.extend(scan.out_of_reach(planner.config().sensor.min_range_m, reach_m));
+    for warning in &scan.warnings {
+        writeln!(std::io::stderr(), "warning: {}: {warning}", args.file.display())?;
+    }
     let variance_threshold = planner.config().perception.variance_threshold;
     planner.set_goal(Goal::at(GOAL_M));
-    let step = planner.step(&points_m, &POSE, Duration::ZERO);
-    let report = PerceptionReport::new(subject(args), points_m.len(), &step);
+    let step = planner.step(&scan.points_m, &POSE, Duration::ZERO);
+    let report = PerceptionReport::new(subject(args), &scan, &step);
     if let Some(folder) = &args.out {
         let predicted = planner.predicted_surface()?.clone();
         draw(folder, &report, &planner.last_step(), &predicted, variance_threshold)?;

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use mapless::glam::{DQuat, DVec2, DVec3};
 use mapless::{Goal, Planner, PlannerConfig, Pose, RobotModel, SensorModel};
-use mapless_scans::read_scan;
+use mapless_scans::{ScanChoice, read_scan};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).ok_or("usage: replay_capture FILE.pcap")?;
@@ -17,8 +17,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pose = Pose::from_quaternion(DVec3::ZERO, DQuat::IDENTITY);
     let mut revolution = 0;
     loop {
-        let points_m = match read_scan(Path::new(&file), revolution) {
-            Ok(points_m) => points_m,
+        let points_m = match read_scan(Path::new(&file), ScanChoice::of_revolution(revolution)) {
+            Ok(scan) => scan.points_m,
             Err(error) if revolution == 0 => return Err(error.into()),
             Err(end) => {
                 println!("{end}");

@@ -4,35 +4,39 @@
 //! else, such as the sensor's position packets, is skipped.
 
 use etherparse::{SlicedPacket, TransportSlice};
-use glam::Vec3;
 use pcap_file::pcap::PcapParser;
 use pcap_file::{DataLink, PcapError};
 
 use crate::error::ScanFault;
+use crate::scan::{Scan, ScanWarning};
 use crate::vlp16::{BLOCK_FLAG, PACKET_BYTES, TURN, firings};
 
 /// The points of one whole revolution.
-pub(crate) fn read(bytes: &[u8], revolution: usize) -> Result<Vec<Vec3>, ScanFault> {
+pub(crate) fn read(bytes: &[u8], revolution: usize) -> Result<Scan, ScanFault> {
     let (mut rest, parser) = PcapParser::new(bytes).map_err(|error| match error {
         PcapError::IncompleteBuffer => damaged("it ends inside its header"),
         error => damaged(error),
     })?;
     let link = parser.header().datalink;
-    let mut points = Vec::new();
+    let mut scan = Scan::default();
     let mut turns = Turns::default();
     let (mut number, mut data_packets) = (0, 0);
     while !rest.is_empty() {
         number += 1;
-        let (after, packet) = parser.next_raw_packet(rest).map_err(|error| match error {
-            PcapError::IncompleteBuffer => damaged(format!("it ends inside packet {number}")),
-            error => damaged(format!("packet {number}: {error}")),
-        })?;
+        let (after, packet) = match parser.next_raw_packet(rest) {
+            Ok(next) => next,
+            Err(PcapError::IncompleteBuffer) => {
+                scan.warnings.push(ScanWarning::CutOff { packet: number });
+                break;
+            }
+            Err(error) => return Err(damaged(format!("packet {number}: {error}"))),
+        };
         rest = after;
         let Some(packet) = data_packet(link, &packet.data)? else { continue };
         data_packets += 1;
         for firing in firings(packet, number)? {
             if turns.passed(firing.azimuth) == Some(revolution) {
-                points.extend(firing.points_m());
+                scan.points_m.extend(firing.points_m());
             }
         }
     }
@@ -42,7 +46,7 @@ pub(crate) fn read(bytes: &[u8], revolution: usize) -> Result<Vec<Vec3>, ScanFau
         )));
     }
     let whole = turns.begun.saturating_sub(1);
-    if revolution < whole { Ok(points) } else { Err(ScanFault::Revolution { revolution, whole }) }
+    if revolution < whole { Ok(scan) } else { Err(ScanFault::Revolution { revolution, whole }) }
 }
 
 fn damaged(reason: impl ToString) -> ScanFault {
@@ -129,7 +133,7 @@ mod tests {
         // A turn is 75 packets; the first passing comes after 37.5 packets.
         let capture = capture(0, 37 + 3 * 75 + 2);
         for revolution in 0..3 {
-            let points = read(&capture, revolution).unwrap();
+            let points = read(&capture, revolution).unwrap().points_m;
             assert_eq!(points.len(), 1800 * 16);
             let (first, last) = (points[0], points[points.len() - 1]);
             assert!(first.x < 0.0 && (-1e-6..0.02).contains(&first.y), "{first}");
@@ -168,17 +172,28 @@ mod tests {
     }
 
     #[test]
+    fn a_cut_capture_gives_what_is_whole_before_the_cut() {
+        let whole = capture(0, 150);
+        let cut = read(&whole[..whole.len() - 1], 0).unwrap();
+        assert_eq!(cut.points_m, read(&whole, 0).unwrap().points_m);
+        assert_eq!(
+            cut.warnings[0].to_string(),
+            "the capture ends inside packet 150; the 149 before it are read"
+        );
+    }
+
+    #[test]
     fn damage_is_named() {
         let whole = capture(0, 150);
         assert!(fault(&whole[..20], 0).contains("ends inside its header"));
-        assert!(fault(&whole[..5000], 0).contains("ends inside packet 4"), "{}", fault(&whole[..5000], 0));
+        assert!(fault(&whole[..5000], 0).contains("expected a longer capture"));
         assert!(fault(b"not a capture, but long enough for one", 0).contains("magic number"));
         let mut link = whole.clone();
         link[20] = 105;
         assert!(fault(&link, 0).starts_with("link type = 105: expected 1 (Ethernet)"));
         let mut huge = whole.clone();
         huge[24 + 8..24 + 12].copy_from_slice(&u32::MAX.to_le_bytes());
-        assert!(fault(&huge, 0).contains("ends inside packet 1"));
+        assert!(fault(&huge, 0).contains("none of its 1 packets"));
         let mut bent = whole;
         bent[24 + 16 + 42 + 100] = 0;
         assert!(fault(&bent, 0).starts_with("packet 1, block 2, flag = 0x00ee"));

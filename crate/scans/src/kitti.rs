@@ -1,13 +1,14 @@
 //! Scans of the KITTI data set: x, y, z and intensity of each point as little-endian floats, without a header.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use crate::error::ScanFault;
+use crate::scan::Scan;
 use crate::values::{self, Number};
 
 const RECORD_BYTES: usize = 16;
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Vec3>, ScanFault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Scan, ScanFault> {
     if !bytes.len().is_multiple_of(RECORD_BYTES) {
         let expected = "a multiple of 16: four floats x, y, z and intensity a point, as in KITTI";
         return Err(ScanFault::value("length in bytes", bytes.len(), expected));
@@ -24,11 +25,13 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Vec3>, ScanFault> {
         }
         points.extend(values::point(String::new, DVec3::new(x, y, z))?);
     }
-    Ok(points)
+    Ok(points.into())
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
     use proptest::prelude::*;
 
@@ -49,7 +52,7 @@ mod tests {
     #[test]
     fn points_that_are_not_finite_are_beams_without_a_return() {
         let points = [[1.0, 2.0, 3.0, 0.0], [f32::NAN, 2.0, 3.0, 0.0], [0.0, 0.0, 0.0, f32::NAN]];
-        assert_eq!(read(&written(&points)), Ok(vec![Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO]));
+        assert_eq!(read(&written(&points)), Ok(vec![Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO].into()));
     }
 
     proptest! {
@@ -59,13 +62,13 @@ mod tests {
         ) {
             let points: Vec<[f32; 4]> = points.into_iter().map(|[x, y, z, i]| [x, y, z, i.abs()]).collect();
             let expected: Vec<Vec3> = points.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)).collect();
-            prop_assert_eq!(read(&written(&points)).unwrap(), expected);
+            prop_assert_eq!(read(&written(&points)).unwrap().points_m, expected);
         }
 
         #[test]
         fn any_bytes_give_points_or_a_fault(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
-            if let Ok(points) = read(&bytes) {
-                prop_assert!(points.iter().all(|point| point.is_finite()));
+            if let Ok(scan) = read(&bytes) {
+                prop_assert!(scan.points_m.iter().all(|point| point.is_finite()));
             }
         }
     }

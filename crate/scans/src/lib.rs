@@ -1,25 +1,27 @@
 //! Reading recorded LiDAR scans.
 //!
-//! [`read_scan`] gives the returns of one scan in the project's sensor frame: x forward, y left, z up,
+//! [`read_scan`] gives the returns of one scan, and what the reader left out, in the project's sensor frame: x forward, y left, z up,
 //! metres. The extension of the file says its format:
 //!
-//! - `.pcd`: a point cloud of the Point Cloud Library, version 0.5 to 0.7, `ascii`, `binary` or
-//!   `binary_compressed`, with fields `x`, `y` and `z` of type F. Its coordinates are taken as the sensor
-//!   frame's and its viewpoint is not applied. Points that are not finite are beams without a return and are
-//!   passed over.
-//! - `.csv`, `.txt` or `.xyz`: text with one point a line, x y z, separated by a comma or by blanks. The
-//!   first line may be the header `x,y,z`. Every value must be a finite number.
+//! - `.pcd`: a point cloud of the Point Cloud Library, `ascii`, `binary` or `binary_compressed`. A viewpoint
+//!   is the sensor's pose: the points come out in a level frame at the sensor that faces where it faces.
+//! - `.csv`, `.txt`, `.xyz`, `.asc` or `.pts`: text with one point a line, x y z first or where a header names
+//!   them. VeloView's columns are turned as a capture's.
+//! - `.ply`: the element `vertex` of a polygon file, ascii or binary.
+//! - `.bin`: a scan of KITTI, four floats a point.
 //! - `.pcap`: a capture of one Velodyne VLP-16, with one or two returns a beam. Its azimuth turns clockwise
 //!   as seen from above, from the sensor's y axis, which looks forward: forward is Velodyne's y and left its
 //!   -x. A revolution goes from behind the sensor round to behind it again, so that what lies ahead is seen
 //!   in one sweep. What stands before the first whole revolution and after the last one is left out.
 
 mod capture;
+mod cloud_warning;
+mod error;
 mod kitti;
 mod lzf;
-mod error;
 mod pcd;
 mod ply;
+mod scan;
 mod text;
 mod values;
 mod viewpoint;
@@ -29,55 +31,57 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use glam::Vec3;
-
+pub use cloud_warning::CloudWarning;
 pub use error::{ScanError, ScanFault};
+pub use scan::{Scan, ScanChoice, ScanWarning};
 
 /// Largest file read, in bytes: a quarter of an hour of a VLP-16.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// Reads one scan from the bytes of a file: its returns in the sensor frame, metres, in the order of the
-/// file. A scan without a return is no error. The extension of `file` decides the format: `.pcd`, `.csv`,
-/// `.txt` and `.xyz` hold a scan, `.pcap` a capture.
-///
-/// `revolution` counts the whole revolutions of a capture from 0; a file of another format holds revolution 0
-/// alone.
+/// Reads one scan from the bytes of a file. A scan without a return is no error. The extension of `file`
+/// decides the format: `.pcap` holds a capture, every other one a scan.
 ///
 /// # Errors
 /// [`ScanError`] names the file, the place in it, the value and what was expected.
-pub fn read_scan_bytes(file: &str, bytes: &[u8], revolution: usize) -> Result<Vec<Vec3>, ScanError> {
-    read_as(file, revolution, || Ok(bytes))
+pub fn read_scan_bytes(file: &str, bytes: &[u8], choice: ScanChoice) -> Result<Scan, ScanError> {
+    read_as(file, choice, || Ok(bytes))
 }
 
 /// Reads one scan from disk; see [`read_scan_bytes`].
 ///
 /// # Errors
 /// [`ScanError`] names the file, the place in it, the value and what was expected.
-pub fn read_scan(path: &Path, revolution: usize) -> Result<Vec<Vec3>, ScanError> {
-    read_as(&path.display().to_string(), revolution, || read_file(path))
+pub fn read_scan(path: &Path, choice: ScanChoice) -> Result<Scan, ScanError> {
+    read_as(&path.display().to_string(), choice, || read_file(path))
 }
 
 fn read_as<Bytes: AsRef<[u8]>>(
     file: &str,
-    revolution: usize,
+    choice: ScanChoice,
     bytes: impl FnOnce() -> Result<Bytes, ScanFault>,
-) -> Result<Vec<Vec3>, ScanError> {
+) -> Result<Scan, ScanError> {
     let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let points = match extension.as_str() {
-        "pcap" => bytes().and_then(|bytes| capture::read(bytes.as_ref(), revolution)),
-        "pcd" => bytes().and_then(|bytes| pcd::read(bytes.as_ref())).and_then(only(revolution)),
-        "csv" | "txt" | "xyz" => {
-            bytes().and_then(|bytes| text::read(bytes.as_ref())).and_then(only(revolution))
+    let cloud: fn(&[u8]) -> Result<Scan, ScanFault> = match extension.as_str() {
+        "pcd" => pcd::read,
+        "ply" => ply::read,
+        "bin" => kitti::read,
+        _ => text::read,
+    };
+    let scan = match extension.as_str() {
+        "pcap" => bytes().and_then(|bytes| capture::read(bytes.as_ref(), choice.revolution)),
+        "pcd" | "ply" | "bin" | "csv" | "txt" | "xyz" | "asc" | "pts" => {
+            bytes().and_then(|bytes| cloud(bytes.as_ref())).and_then(only(choice))
         }
         _ => Err(ScanFault::Extension { extension }),
     };
-    points.map_err(|fault| ScanError { file: file.to_owned(), fault })
+    scan.map_err(|fault| ScanError { file: file.to_owned(), fault })
 }
 
 /// Lets a file that holds one scan answer for revolution 0 alone.
-fn only(revolution: usize) -> impl FnOnce(Vec<Vec3>) -> Result<Vec<Vec3>, ScanFault> {
-    move |points| {
-        if revolution == 0 { Ok(points) } else { Err(ScanFault::Revolution { revolution, whole: 1 }) }
+fn only(choice: ScanChoice) -> impl FnOnce(Scan) -> Result<Scan, ScanFault> {
+    let revolution = choice.revolution;
+    move |scan| {
+        if revolution == 0 { Ok(scan) } else { Err(ScanFault::Revolution { revolution, whole: 1 }) }
     }
 }
 
@@ -97,23 +101,30 @@ fn read_file(path: &Path) -> Result<Vec<u8>, ScanFault> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
 
-    fn read(name: &str, bytes: &[u8], revolution: usize) -> Result<Vec<Vec3>, String> {
+    fn read(name: &str, bytes: &[u8], revolution: usize) -> Result<Scan, String> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).unwrap();
-        read_scan(&path, revolution)
+        read_scan(&path, ScanChoice::of_revolution(revolution))
             .map_err(|error| error.to_string().replace(&format!("{}/", folder.path().display()), ""))
     }
 
     #[test]
     fn the_extension_says_the_format() {
-        assert_eq!(read("a.XYZ", b"1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)]));
+        assert_eq!(read("a.XYZ", b"1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)].into()));
         assert_eq!(
             read("a.las", b"1 2 3", 0).unwrap_err(),
-            "a.las: extension \"las\": expected .pcd, .csv, .txt, .xyz or .pcap"
+            "a.las: extension \"las\": expected .pcap, .pcd, .ply, .bin, .csv, .txt, .xyz, .asc or .pts"
         );
+        for name in ["a.csv", "a.txt", "a.asc", "a.pts"] {
+            assert_eq!(read(name, b"1\n1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)].into()), "{name}");
+        }
+        assert_eq!(read("a.bin", &[0; 16], 0), Ok(vec![Vec3::ZERO].into()));
+        assert!(read("a.ply", b"1 2 3", 0).unwrap_err().starts_with("a.ply: line 1 = 1 2 3: expected ply"));
         assert!(read("scan", b"1 2 3", 0).unwrap_err().contains("extension \"\""));
         assert!(read("a.pcd", b"1 2 3", 0).unwrap_err().starts_with("a.pcd: not a valid PCD file: "));
         assert!(read("a.pcap", b"1 2 3", 0).unwrap_err().starts_with("a.pcap: not a valid pcap file: "));
@@ -124,7 +135,7 @@ mod tests {
         for name in ["a.csv", "a.pcd", "a.pcap"] {
             assert_eq!(read(name, b"", 0).unwrap_err(), format!("{name}: cannot be read: the file is empty"));
         }
-        let missing = read_scan(Path::new("no/such.pcd"), 0).unwrap_err().to_string();
+        let missing = read_scan(Path::new("no/such.pcd"), ScanChoice::default()).unwrap_err().to_string();
         assert!(missing.starts_with("no/such.pcd: cannot be read: "), "{missing}");
     }
 

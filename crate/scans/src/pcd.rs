@@ -2,17 +2,19 @@
 
 mod header;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
+use crate::cloud_warning::CloudWarning;
 use crate::error::ScanFault;
 use crate::lzf;
+use crate::scan::{Scan, ScanWarning};
 use crate::values::{self, AXES, shortened};
 use header::{Header, Layout};
 
 /// LZF turns three bytes into at most 264.
 const MOST_COMPRESSION: usize = 88;
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Vec3>, ScanFault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Scan, ScanFault> {
     let mut warnings = Vec::new();
     let (header, data) = Header::read(bytes, &mut warnings)?;
     let mut points_m = match header.layout {
@@ -24,8 +26,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Vec3>, ScanFault> {
     let points = points_m.into_iter().enumerate().filter_map(|(index, point)| {
         values::point(|| format!("point {} of {}", index + 1, header.points), point).transpose()
     });
-    let points = points.collect::<Result<_, _>>()?;
-    Ok(points)
+    let points_m = points.collect::<Result<_, _>>()?;
+    Ok(Scan { points_m, warnings: warnings.into_iter().map(ScanWarning::Cloud).collect() })
 }
 
 fn damaged(reason: impl Into<String>) -> ScanFault {
@@ -33,7 +35,7 @@ fn damaged(reason: impl Into<String>) -> ScanFault {
 }
 
 /// One point a line.
-fn ascii(header: &Header, data: &[u8], warnings: &mut Vec<String>) -> Result<Vec<DVec3>, ScanFault> {
+fn ascii(header: &Header, data: &[u8], warnings: &mut Vec<CloudWarning>) -> Result<Vec<DVec3>, ScanFault> {
     let text = String::from_utf8_lossy(data);
     let mut points_m = Vec::new();
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
@@ -60,7 +62,12 @@ fn ascii(header: &Header, data: &[u8], warnings: &mut Vec<String>) -> Result<Vec
     }
     let more = lines.count();
     if more > 0 {
-        warnings.push(format!("{more} lines after the last of {} POINTS left out", header.points));
+        let said = header.points + more;
+        warnings.push(CloudWarning::Count {
+            place: "the number of lines".to_owned(),
+            said,
+            read: header.points,
+        });
     }
     Ok(points_m)
 }
@@ -131,6 +138,8 @@ fn coordinates<'a>(header: &Header, bytes: impl Fn(usize) -> Option<&'a [u8]>) -
 mod tests {
     use std::io::Cursor;
 
+    use glam::Vec3;
+
     use super::*;
     use pcd_rs::{DataKind, DynRecord, Field, Schema, ValueKind, ViewPoint, Writer, WriterInit};
     use proptest::prelude::*;
@@ -177,7 +186,7 @@ mod tests {
 
     #[test]
     fn ascii_is_read_and_beams_without_a_return_are_passed_over() {
-        assert_eq!(read(ASCII.as_bytes()).unwrap(), POINTS);
+        assert_eq!(read(ASCII.as_bytes()).unwrap().points_m, POINTS);
     }
 
     #[test]
@@ -219,8 +228,10 @@ mod tests {
             .replace("TYPE F F F", "TYPE U F F U U F U")
             .replace("COUNT 1 1 1", "COUNT 3 1 1 0 2 1 0");
         let text = header.replace("1 2 3\n", "0 0 0 1 2 7 7 3\n");
-        let text = text.replace("nan nan nan", "0 0 0 nan nan 7 7 nan").replace("-4.5 5 0.25", "0 0 0 -4.5 5 0 0 0.25");
-        assert_eq!(read(text.as_bytes()).unwrap(), POINTS);
+        let text = text
+            .replace("nan nan nan", "0 0 0 nan nan 7 7 nan")
+            .replace("-4.5 5 0.25", "0 0 0 -4.5 5 0 0 0.25");
+        assert_eq!(read(text.as_bytes()).unwrap().points_m, POINTS);
         let head = header[..header.find("ascii").unwrap()].replace("POINTS 3", "POINTS 2").into_bytes();
         let mut bytes = [&head, b"binary\n".as_slice()].concat();
         for point in POINTS {
@@ -229,37 +240,66 @@ mod tests {
             bytes.extend([7; 2]);
             bytes.extend(point.z.to_le_bytes());
         }
-        assert_eq!(read(&bytes).unwrap(), POINTS);
+        assert_eq!(read(&bytes).unwrap().points_m, POINTS);
     }
 
     #[test]
     fn numbers_of_any_type_and_old_headers_are_read() {
-        let text = "VERSION .5\nCOLUMNS X Y Z\nSIZE 8 2 4\nTYPE F I U\nWIDTH 2\nDATA ascii\n1 2 3\n-4.5 5 0\n";
-        assert_eq!(read(text.as_bytes()).unwrap(), [POINTS[0], Vec3::new(-4.5, 5.0, 0.0)]);
-        let mut binary = text[..text.find("ascii").unwrap()].replace("WIDTH 2", "WIDTH 2\nHEIGHT 1").into_bytes();
+        let text =
+            "VERSION .5\nCOLUMNS X Y Z\nSIZE 8 2 4\nTYPE F I U\nWIDTH 2\nDATA ascii\n1 2 3\n-4.5 5 0\n";
+        assert_eq!(read(text.as_bytes()).unwrap().points_m, [POINTS[0], Vec3::new(-4.5, 5.0, 0.0)]);
+        let mut binary =
+            text[..text.find("ascii").unwrap()].replace("WIDTH 2", "WIDTH 2\nHEIGHT 1").into_bytes();
         binary.extend(b"binary\r\n");
         for (x, y, z) in [(1.0_f64, 2_i16, 3_u32), (-4.5, -5, 0)] {
             binary.extend([x.to_le_bytes().as_slice(), &y.to_le_bytes(), &z.to_le_bytes()].concat());
         }
-        assert_eq!(read(&binary).unwrap(), [POINTS[0], Vec3::new(-4.5, -5.0, 0.0)]);
+        assert_eq!(read(&binary).unwrap().points_m, [POINTS[0], Vec3::new(-4.5, -5.0, 0.0)]);
     }
 
     #[test]
     fn organised_clouds_are_read() {
         let text = ASCII.replace("WIDTH 3\nHEIGHT 1", "WIDTH 1\nHEIGHT 3");
-        assert_eq!(read(text.as_bytes()).unwrap(), POINTS);
-        assert_eq!(read(text.replace("POINTS 3\n", "").as_bytes()).unwrap(), POINTS);
+        assert_eq!(read(text.as_bytes()).unwrap().points_m, POINTS);
+        assert_eq!(read(text.replace("POINTS 3\n", "").as_bytes()).unwrap().points_m, POINTS);
+    }
+
+    #[test]
+    fn numbers_of_points_that_do_not_agree_are_warned_of() {
+        let warned = |from: &str, to: &str| {
+            let scan = read(ASCII.replace(from, to).as_bytes()).unwrap();
+            (scan.points_m.len(), scan.warnings.iter().map(ToString::to_string).collect::<Vec<_>>())
+        };
+        assert_eq!(warned("", ""), (2, Vec::new()));
+        let (points, warnings) = warned("WIDTH 3", "WIDTH 5");
+        assert_eq!(
+            (points, warnings),
+            (2, vec!["WIDTH × HEIGHT says 5 points; the 3 that are there were read".to_owned()])
+        );
+        assert_eq!(warned("POINTS 3", "POINTS 1").1.len(), 2);
+    }
+
+    #[test]
+    fn the_viewpoint_is_applied() {
+        let half = 0.5_f64.sqrt();
+        let viewpoint = format!("VIEWPOINT 10 0 2 {half} 0 0 {half}");
+        let text = ASCII.replace("VIEWPOINT 0 0 0 1 0 0 0", &viewpoint).replace("nan nan nan", "10 3 2.5");
+        let scan = read(text.as_bytes()).unwrap();
+        assert!(scan.points_m[1].distance(Vec3::new(3.0, 0.0, 0.5)) < 1e-6, "{:?}", scan.points_m);
+        assert_eq!(scan.warnings, [ScanWarning::Cloud(CloudWarning::Viewpoint)]);
     }
 
     #[test]
     fn stored_data_are_read() {
-        let head = ASCII[..ASCII.find("ascii").unwrap()].replace("POINTS 3", "POINTS 2").replace("WIDTH 3", "WIDTH 2");
+        let head = ASCII[..ASCII.find("ascii").unwrap()]
+            .replace("POINTS 3", "POINTS 2")
+            .replace("WIDTH 3", "WIDTH 2");
         let mut bytes = (head + "binary_compressed\n").into_bytes();
         bytes.extend([24, 0, 0, 0, 24, 0, 0, 0]);
         for axis in 0..3 {
             bytes.extend(POINTS.iter().flat_map(|point| point[axis].to_le_bytes()));
         }
-        assert_eq!(read(&bytes).unwrap(), POINTS);
+        assert_eq!(read(&bytes).unwrap().points_m, POINTS);
         let at = bytes.len() - 32;
         bytes[at] = 23;
         assert!(read(&bytes).unwrap_err().to_string().contains("cannot be unpacked"));
@@ -291,7 +331,7 @@ mod tests {
             kind in prop::sample::select(vec![DataKind::Ascii, DataKind::Binary, DataKind::BinaryCompressed]),
         ) {
             let points: Vec<Vec3> = points.into_iter().map(Vec3::from_array).collect();
-            prop_assert_eq!(read(&written(&points, kind)).unwrap(), points);
+            prop_assert_eq!(read(&written(&points, kind)).unwrap().points_m, points);
         }
 
         #[test]
@@ -305,8 +345,8 @@ mod tests {
                 bytes[at % length] = byte;
             }
             bytes.truncate(end);
-            if let Ok(points) = read(&bytes) {
-                prop_assert!(points.iter().all(|point| point.is_finite()));
+            if let Ok(scan) = read(&bytes) {
+                prop_assert!(scan.points_m.iter().all(|point| point.is_finite()));
             }
         }
     }

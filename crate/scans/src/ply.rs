@@ -5,10 +5,11 @@ mod header;
 use glam::{DVec3, Vec3};
 
 use crate::error::ScanFault;
+use crate::scan::Scan;
 use crate::values::{self, AXES, shortened};
 use header::{Element, Header, Layout};
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Vec3>, ScanFault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Scan, ScanFault> {
     let (header, data) = Header::read(bytes)?;
     let Some(at) = header.elements.iter().position(|element| element.name == "vertex") else {
         let names: Vec<&str> = header.elements.iter().map(|element| element.name.as_str()).collect();
@@ -20,6 +21,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Vec3>, ScanFault> {
         Layout::Ascii => ascii(&header, data, before, vertices, xyz),
         Layout::Binary { big_endian } => binary(data, big_endian, before, vertices, xyz),
     }
+    .map(Scan::from)
 }
 
 fn damaged(reason: impl Into<String>) -> ScanFault {
@@ -34,7 +36,11 @@ fn axes(vertices: &Element) -> Result<[usize; 3], ScanFault> {
     };
     let [Some(x), Some(y), Some(z)] = AXES.map(index) else {
         let names: Vec<&str> = vertices.properties.iter().map(|property| property.name.as_str()).collect();
-        return Err(ScanFault::value("properties of vertex", shortened(&names.join(" ")), "x, y and z among them"));
+        return Err(ScanFault::value(
+            "properties of vertex",
+            shortened(&names.join(" ")),
+            "x, y and z among them",
+        ));
     };
     Ok([x, y, z])
 }
@@ -75,16 +81,14 @@ fn vertex(number: usize, line: &str, vertices: &Element, xyz: [usize; 3]) -> Res
             ScanFault::value(format!("line {number}"), shortened(line), expected)
         })?;
         if property.list.is_some() {
-            let count: usize = word
-                .parse()
-                .map_err(|_| ScanFault::value(place(), shortened(word), "a number of values"))?;
+            let count: usize =
+                word.parse().map_err(|_| ScanFault::value(place(), shortened(word), "a number of values"))?;
             if count > 0 {
                 words.nth(count - 1);
             }
         } else if let Some(axis) = xyz.iter().position(|&axis| axis == index) {
-            point[axis] = word
-                .parse()
-                .map_err(|_| ScanFault::value(place(), shortened(word), "a number of metres"))?;
+            point[axis] =
+                word.parse().map_err(|_| ScanFault::value(place(), shortened(word), "a number of metres"))?;
         }
     }
     Ok(point)
@@ -139,7 +143,8 @@ fn take(
             let too_short = || damaged(format!("it ends inside {name} {} of {count}", index + 1));
             let number = property.list.unwrap_or(property.number);
             let value = number.read(rest, big_endian).ok_or_else(too_short)?;
-            let list_bytes = property.list.map_or(0, |_| property.number.size().saturating_mul(value as usize));
+            let list_bytes =
+                property.list.map_or(0, |_| property.number.size().saturating_mul(value as usize));
             *rest = rest.get(number.size().saturating_add(list_bytes)..).ok_or_else(too_short)?;
             tell(index, place, value)?;
         }
@@ -181,7 +186,9 @@ mod tests {
         for name in ["camera", "vertex", "face"] {
             let mut element = ElementDef::new(name.to_owned());
             for (_, property, kind) in properties.iter().filter(|(element, ..)| *element == name) {
-                element.properties.insert((*property).to_owned(), PropertyDef::new((*property).to_owned(), kind.clone()));
+                element
+                    .properties
+                    .insert((*property).to_owned(), PropertyDef::new((*property).to_owned(), kind.clone()));
             }
             cloud.header.elements.insert(name.to_owned(), element);
         }
@@ -208,8 +215,8 @@ mod tests {
 
     #[test]
     fn ascii_is_read_and_beams_without_a_return_are_passed_over() {
-        assert_eq!(read(ASCII.as_bytes()).unwrap(), POINTS);
-        assert_eq!(read(ASCII.replace('\n', "\r\n").as_bytes()).unwrap(), POINTS);
+        assert_eq!(read(ASCII.as_bytes()).unwrap().points_m, POINTS);
+        assert_eq!(read(ASCII.replace('\n', "\r\n").as_bytes()).unwrap().points_m, POINTS);
     }
 
     #[test]
@@ -218,8 +225,10 @@ mod tests {
             property float Z\nend_header\n";
         for end in ["\n", "\r\n", "\r"] {
             let mut bytes = head.replace('\n', end).into_bytes();
-            bytes.extend([1.0_f64.to_be_bytes().as_slice(), &2_i16.to_be_bytes(), &3.0_f32.to_be_bytes()].concat());
-            assert_eq!(read(&bytes).unwrap(), [POINTS[0]], "{end:?}");
+            bytes.extend(
+                [1.0_f64.to_be_bytes().as_slice(), &2_i16.to_be_bytes(), &3.0_f32.to_be_bytes()].concat(),
+            );
+            assert_eq!(read(&bytes).unwrap().points_m, [POINTS[0]], "{end:?}");
         }
     }
 
@@ -238,7 +247,10 @@ mod tests {
             "properties of vertex = red u y views z: expected x, y and z among them"
         );
         assert_eq!(with("5 2 8 9 0.25", "5 2 8 9 high"), "line 18, z = high: expected a number of metres");
-        assert_eq!(with("5 2 8 9 0.25", "5 9 8 9 1"), "line 18 = 1 -4.5 5 9 8 9 1: expected 5 values, those of a vertex");
+        assert_eq!(
+            with("5 2 8 9 0.25", "5 9 8 9 1"),
+            "line 18 = 1 -4.5 5 9 8 9 1: expected 5 values, those of a vertex"
+        );
         let short = &ASCII[..ASCII.find("3 0 1 2").unwrap()];
         assert_eq!(
             fault(&short.replace("vertex 3", "vertex 9")),
@@ -251,8 +263,14 @@ mod tests {
             read(&[head.as_bytes(), &bytes[end..]].concat()).unwrap_err().to_string()
         };
         let huge = usize::MAX.to_string();
-        assert!(binary("vertex 2", &format!("vertex {huge}")).starts_with(&format!("number of vertex = {huge}: ")));
-        assert!(binary("camera 2", &format!("camera {huge}")).starts_with(&format!("number of camera = {huge}: ")));
+        assert!(
+            binary("vertex 2", &format!("vertex {huge}"))
+                .starts_with(&format!("number of vertex = {huge}: "))
+        );
+        assert!(
+            binary("camera 2", &format!("camera {huge}"))
+                .starts_with(&format!("number of camera = {huge}: "))
+        );
         assert!(binary("vertex 2", "vertex 3").contains("it ends inside vertex 3 of 3"));
     }
 
@@ -263,7 +281,7 @@ mod tests {
             encoding in prop::sample::select(ENCODINGS.to_vec()),
         ) {
             let points: Vec<Vec3> = points.into_iter().map(Vec3::from_array).collect();
-            prop_assert_eq!(read(&written(&points, encoding)).unwrap(), points);
+            prop_assert_eq!(read(&written(&points, encoding)).unwrap().points_m, points);
         }
 
         #[test]
@@ -277,11 +295,12 @@ mod tests {
                 bytes[at % length] = byte;
             }
             bytes.truncate(end);
-            if let Ok(points) = read(&bytes) {
-                prop_assert!(points.iter().all(|point| point.is_finite()));
+            if let Ok(scan) = read(&bytes) {
+                prop_assert!(scan.points_m.iter().all(|point| point.is_finite()));
             }
         }
     }
 
-    const ENCODINGS: [Encoding; 3] = [Encoding::Ascii, Encoding::BinaryLittleEndian, Encoding::BinaryBigEndian];
+    const ENCODINGS: [Encoding; 3] =
+        [Encoding::Ascii, Encoding::BinaryLittleEndian, Encoding::BinaryBigEndian];
 }

@@ -5,10 +5,12 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::cloud_warning::CloudWarning;
 use crate::error::ScanFault;
+use crate::scan::{Scan, ScanWarning};
 use crate::values::{self, AXES, shortened};
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Vec3>, ScanFault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Scan, ScanFault> {
     if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
         return Err(damaged(format!("byte {at} is 0: expected ASCII or UTF-8, not UTF-16 or binary data")));
     }
@@ -38,8 +40,8 @@ struct Cloud {
     points: Vec<Vec3>,
     /// Rows read, those without a return too.
     rows: usize,
-    /// Number of points that the first line says, as in a .pts file.
-    announced: Option<usize>,
+    /// The first line and the number of points that it says, as in a .pts file.
+    announced: Option<(usize, usize)>,
     /// Columns that a comment names; they hold if the first row has as many values.
     noted: Option<Columns>,
     /// The columns and the line that they come from, once known.
@@ -69,19 +71,14 @@ impl Cloud {
     }
 
     /// The columns if this line is the first point; `None` if it stands before the points.
-    fn begin(
-        &mut self,
-        number: usize,
-        line: &str,
-        fields: &[&str],
-    ) -> Result<Option<Columns>, ScanFault> {
+    fn begin(&mut self, number: usize, line: &str, fields: &[&str]) -> Result<Option<Columns>, ScanFault> {
         if line.to_ascii_lowercase().starts_with("ncols") {
             return Err(damaged("it is an ESRI ASCII grid, which is a terrain and no scan"));
         }
         if let ([count], None) = (fields, self.announced)
             && let Ok(count) = count.parse()
         {
-            self.announced = Some(count);
+            self.announced = Some((number, count));
             return Ok(None);
         }
         let values = fields.iter().take(3).filter(|field| value(field).is_some()).count();
@@ -98,8 +95,13 @@ impl Cloud {
         Ok(None)
     }
 
-    fn finish(self) -> Result<Vec<Vec3>, ScanFault> {
-        Ok(self.points)
+    fn finish(self) -> Result<Scan, ScanFault> {
+        let mut scan = Scan::from(self.points);
+        if let Some((number, said)) = self.announced.filter(|(_, said)| *said != self.rows) {
+            let warning = CloudWarning::Count { place: format!("line {number}"), said, read: self.rows };
+            scan.warnings.push(ScanWarning::Cloud(warning));
+        }
+        Ok(scan)
     }
 }
 
@@ -196,7 +198,8 @@ fn value(field: &str) -> Option<f64> {
 /// A number with a decimal comma between digits.
 fn decimal_comma(field: &str) -> Option<f64> {
     let (whole, fraction) = field.split_once(',')?;
-    let between = whole.ends_with(|c: char| c.is_ascii_digit()) && fraction.starts_with(|c: char| c.is_ascii_digit());
+    let between =
+        whole.ends_with(|c: char| c.is_ascii_digit()) && fraction.starts_with(|c: char| c.is_ascii_digit());
     if between && !whole.contains('.') { format!("{whole}.{fraction}").parse().ok() } else { None }
 }
 
@@ -246,7 +249,7 @@ mod tests {
 
     #[track_caller]
     fn reads(text: &str) {
-        assert_eq!(read(text.as_bytes()).unwrap(), POINTS, "{text:?}");
+        assert_eq!(read(text.as_bytes()).unwrap().points_m, POINTS, "{text:?}");
     }
 
     #[test]
@@ -272,8 +275,11 @@ mod tests {
         reads("1,0 -2,5 0,25\n-3 4 0,001");
         reads("1\t-2,5\t0,25\n-3\t4,0\t0,001");
         reads("\"x\",\"y\",\"z\"\n1,\"-2,5\",\"0,25\"\n-3,4,\"0,001\"");
-        assert_eq!(fault("1;2;1.234,5"), "line 1 = 1;2;1.234,5: expected x, y and z, or a header that names these \
-            columns, in m, cm or mm");
+        assert_eq!(
+            fault("1;2;1.234,5"),
+            "line 1 = 1;2;1.234,5: expected x, y and z, or a header that names these \
+            columns, in m, cm or mm"
+        );
     }
 
     #[test]
@@ -296,8 +302,12 @@ mod tests {
 
     #[test]
     fn veloviews_axes_are_turned() {
-        reads("\"laser_id\",\"Points_m_XYZ:0\",\"Points_m_XYZ:1\",\"Points_m_XYZ:2\"\n0,2.5,1,0.25\n1,-4,-3,1e-3");
-        reads("Points_m_XYZ:0,Points_m_XYZ:1,Points_m_XYZ:2,X,Y,Z\n2.5,1,0.25,2.5,1,0.25\n-4,-3,1e-3,-4,-3,1e-3");
+        reads(
+            "\"laser_id\",\"Points_m_XYZ:0\",\"Points_m_XYZ:1\",\"Points_m_XYZ:2\"\n0,2.5,1,0.25\n1,-4,-3,1e-3",
+        );
+        reads(
+            "Points_m_XYZ:0,Points_m_XYZ:1,Points_m_XYZ:2,X,Y,Z\n2.5,1,0.25,2.5,1,0.25\n-4,-3,1e-3,-4,-3,1e-3",
+        );
         reads("Points:0,Points:1,Points:2,laser_id\n2.5,1,0.25,1\n-4,-3,1e-3,2");
     }
 
@@ -314,13 +324,23 @@ mod tests {
     }
 
     #[test]
+    fn a_number_of_points_may_come_first() {
+        reads("2\n1 -2.5 0.25\n-3 4 1e-3");
+        reads("2\nx y z\n1 -2.5 0.25\n-3 4 1e-3");
+        let warnings = |text: &str| read(text.as_bytes()).unwrap().warnings;
+        assert!(warnings("2\n1 2 3\nnan nan nan").is_empty());
+        let warned: Vec<String> = warnings("4\n1 2 3").iter().map(ToString::to_string).collect();
+        assert_eq!(warned, ["line 1 says 4 points; the 1 that are there were read"]);
+    }
+
+    #[test]
     fn rows_without_a_return_are_passed_over() {
         for none in ["nan,nan,nan", "NaN,NaN,NaN", "-nan,1,2", ",,", "NA,NA,NA", "inf,0,0", "-nan(ind),0,0"] {
             reads(&format!("x,y,z\n1,-2.5,0.25\n{none}\n-3,4,1e-3"));
             reads(&format!("{none}\n1,-2.5,0.25\n-3,4,1e-3"));
         }
-        assert_eq!(read(b"x,y,z\n"), Ok(Vec::new()), "a scan without returns");
-        assert_eq!(read(b"0 0 0"), Ok(vec![Vec3::ZERO]), "the planner knows the sensor's least range");
+        assert_eq!(read(b"x,y,z\n"), Ok(Scan::default()), "a scan without returns");
+        assert_eq!(read(b"0 0 0"), Ok(vec![Vec3::ZERO].into()), "the planner knows the sensor's least range");
     }
 
     #[test]
@@ -374,20 +394,20 @@ mod tests {
                 text.push('\n');
             }
             let expected: Vec<Vec3> = points.into_iter().map(Vec3::from_array).collect();
-            prop_assert_eq!(read(text.replace('\n', end).as_bytes()).unwrap(), expected);
+            prop_assert_eq!(read(text.replace('\n', end).as_bytes()).unwrap(), expected.into());
         }
 
         #[test]
         fn any_bytes_give_points_or_a_fault(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
-            if let Ok(points) = read(&bytes) {
-                prop_assert!(points.iter().all(|point| point.is_finite()));
+            if let Ok(scan) = read(&bytes) {
+                prop_assert!(scan.points_m.iter().all(|point| point.is_finite()));
             }
         }
 
         #[test]
         fn any_text_gives_points_or_a_fault(text in "[-0-9.,;xyzenaif#/\"() \t\n]{0,200}") {
-            if let Ok(points) = read(text.as_bytes()) {
-                prop_assert!(points.iter().all(|point| point.is_finite()));
+            if let Ok(scan) = read(text.as_bytes()) {
+                prop_assert!(scan.points_m.iter().all(|point| point.is_finite()));
             }
         }
     }

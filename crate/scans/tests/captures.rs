@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use glam::Vec3;
-use mapless_scans::{ScanFault, read_scan};
+use mapless_scans::{ScanChoice, ScanFault, read_scan};
 
 /// Points of the second whole revolution as velodyne-decoder 3.1.0 (PyPI) gives them, whose frame is ours.
 const GPS: &[[f32; 3]] = &[
@@ -34,13 +34,13 @@ fn captures_hold_the_points_that_another_decoder_finds() {
         [("vlp16_gps_bsd3.pcap", 3, GPS), ("vlp16_single_apache2.pcap", 10, SINGLE)]
     {
         let path = folder.join(name);
-        let points = read_scan(&path, 1).unwrap();
+        let points = read_scan(&path, ScanChoice::of_revolution(1)).unwrap().points_m;
         for place in expected.iter().copied().map(Vec3::from_array) {
             let nearest = points.iter().map(|point| point.distance(place)).fold(f32::INFINITY, f32::min);
             // The other decoder interpolates azimuths across packets and tilts the vertical offset.
             assert!(nearest < 0.002, "{name}: {place} is {nearest} m from the nearest point");
         }
-        let beyond = read_scan(&path, whole).unwrap_err().fault;
+        let beyond = read_scan(&path, ScanChoice::of_revolution(whole)).unwrap_err().fault;
         assert_eq!(beyond, ScanFault::Revolution { revolution: whole, whole });
     }
 }

@@ -3,9 +3,10 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use mapless_scans::{ScanChoice, read_scan_bytes};
 
 fuzz_target!(|bytes: &[u8]| {
     for revolution in 0..2 {
-        let _ = mapless_scans::read_scan_bytes("scan.pcd", bytes, revolution);
+        let _ = read_scan_bytes("scan.pcd", bytes, ScanChoice::of_revolution(revolution));
     }
 });

@@ -6,6 +6,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use mapless::Step;
 use mapless::skyline::occupancy::COLUMNS;
 use mapless::skyline::profile::Column;
+use mapless_scans::Scan;
 use mapless_trials::Activity;
 
 use super::rows::{ColumnRow, CommandRow, CostRow, SegmentRow, SubgoalRow};
@@ -16,6 +17,8 @@ use super::rows::{ColumnRow, CommandRow, CostRow, SegmentRow, SubgoalRow};
 pub(crate) struct PerceptionReport {
     #[serde(skip)]
     subject: String,
+    /// What the reader of the file left out.
+    warnings: Vec<String>,
     /// Returns in the scan.
     returns: usize,
     /// `driving`, `arrived`, `backtracking`, `searching` or `stopped`.
@@ -38,7 +41,7 @@ pub(crate) struct PerceptionReport {
 }
 
 impl PerceptionReport {
-    pub(crate) fn new(subject: String, returns: usize, step: &Step<'_>) -> Self {
+    pub(crate) fn new(subject: String, scan: &Scan, step: &Step<'_>) -> Self {
         let activity = Activity::from(step.status);
         let reason = match activity {
             Activity::Stopped(reason) => Some(reason.to_string()),
@@ -47,7 +50,8 @@ impl PerceptionReport {
         let column = |index: usize| step.profile.get(index).copied().unwrap_or(Column::Unknown);
         Self {
             subject,
-            returns,
+            warnings: scan.warnings.iter().map(ToString::to_string).collect(),
+            returns: scan.points_m.len(),
             status: activity.name(),
             reason,
             command: CommandRow::of(step.command),

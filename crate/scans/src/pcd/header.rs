@@ -1,5 +1,6 @@
 //! The header of a PCD file.
 
+use crate::cloud_warning::CloudWarning;
 use crate::error::ScanFault;
 use crate::pcd::damaged;
 use crate::values::{AXES, Number, shortened};
@@ -49,7 +50,10 @@ struct Entries(Vec<(String, Vec<String>)>);
 
 impl Header {
     /// The header and the data after it.
-    pub(super) fn read<'a>(bytes: &'a [u8], warnings: &mut Vec<String>) -> Result<(Self, &'a [u8]), ScanFault> {
+    pub(super) fn read<'a>(
+        bytes: &'a [u8],
+        warnings: &mut Vec<CloudWarning>,
+    ) -> Result<(Self, &'a [u8]), ScanFault> {
         let mut entries = Entries::default();
         let mut rest = bytes;
         let mut lines = 0;
@@ -70,7 +74,7 @@ impl Header {
         Ok((Self::new(&entries, lines, warnings)?, rest))
     }
 
-    fn new(entries: &Entries, lines: usize, warnings: &mut Vec<String>) -> Result<Self, ScanFault> {
+    fn new(entries: &Entries, lines: usize, warnings: &mut Vec<CloudWarning>) -> Result<Self, ScanFault> {
         let fields = entries.fields()?;
         let (mut found, mut record_bytes, mut values) = ([None; 3], Some(0_usize), 0_usize);
         for field in &fields {
@@ -104,7 +108,9 @@ impl Entries {
 
     fn numbers<T: core::str::FromStr>(&self, name: &str) -> Result<Vec<T>, ScanFault> {
         let values = self.find(name).unwrap_or_default().iter();
-        values.map(|value| value.parse().map_err(|_| ScanFault::value(name, shortened(value), "numbers"))).collect()
+        values
+            .map(|value| value.parse().map_err(|_| ScanFault::value(name, shortened(value), "numbers")))
+            .collect()
     }
 
     fn fields(&self) -> Result<Vec<Field>, ScanFault> {
@@ -133,13 +139,14 @@ impl Entries {
     }
 
     /// The number of points.
-    fn points(&self, warnings: &mut Vec<String>) -> Result<usize, ScanFault> {
+    fn points(&self, warnings: &mut Vec<CloudWarning>) -> Result<usize, ScanFault> {
         let number = |name: &str| Ok(self.numbers::<usize>(name)?.first().copied());
         let (points, width, height) = (number("POINTS")?, number("WIDTH")?, number("HEIGHT")?);
         let product = width.and_then(|width| width.checked_mul(height.unwrap_or(1)));
         match (points, product) {
             (Some(points), Some(product)) if points != product => {
-                warnings.push(format!("WIDTH × HEIGHT is {product}, POINTS is {points}, which was taken"));
+                let place = "WIDTH × HEIGHT".to_owned();
+                warnings.push(CloudWarning::Count { place, said: product, read: points });
             }
             _ => {}
         }

@@ -65,7 +65,8 @@ impl Header {
             }
         }
         let formats = "one of ascii, binary_little_endian and binary_big_endian";
-        header.layout = layout.ok_or_else(|| damaged(format!("its header has no known format: expected {formats}")))?;
+        header.layout =
+            layout.ok_or_else(|| damaged(format!("its header has no known format: expected {formats}")))?;
         Ok((header, rest))
     }
 
