@@ -199,8 +199,12 @@ fn the_same_points_give_the_same_result_from_every_format() {
     folder.write("yard.pts", format!("{}\n{points}", count - 1));
     folder.write("yard.asc", format!("//X Y Z\n{points}"));
     let vertices = "property float x\nproperty float y\nproperty float z\nend_header\n";
-    folder.write("yard.ply", format!("ply\nformat ascii 1.0\nelement vertex {}\n{vertices}{points}", count - 1));
-    let numbers = |row: &str| row.split(',').map(|value| value.parse().unwrap()).chain([0.5]).collect::<Vec<f32>>();
+    folder.write(
+        "yard.ply",
+        format!("ply\nformat ascii 1.0\nelement vertex {}\n{vertices}{points}", count - 1),
+    );
+    let numbers =
+        |row: &str| row.split(',').map(|value| value.parse().unwrap()).chain([0.5]).collect::<Vec<f32>>();
     folder.write("yard.bin", rows.clone().flat_map(numbers).flat_map(f32::to_le_bytes).collect::<Vec<u8>>());
 
     let expected = folder.json("yard.csv", &[]);
@@ -283,7 +287,7 @@ fn out_draws_segments_subgoals_and_the_three_surfaces() {
 fn what_cannot_be_read_is_refused_by_file_and_place() {
     let folder = Folder::new();
     folder.refuses("none.csv", &[], "none.csv: cannot be read: ");
-    folder.refuses(".", &[], ".: extension \"\": expected .pcap, .pcd");
+    folder.refuses(".", &[], ".: extension \"\": expected .pcap, .pcapng, .pcd");
     folder.write("empty.pcd", "");
     folder.refuses("empty.pcd", &[], "empty.pcd: cannot be read: the file is empty");
     folder.write("bad.csv", "x,y,z\n1,2,3\n1,high,3\n");

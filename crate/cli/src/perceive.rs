@@ -16,7 +16,7 @@ use glam::{DVec2, DVec3};
 use mapless::Pose;
 use mapless::skyline::surface::PredictedSurface;
 use mapless::{Goal, Planner, Step};
-use mapless_scans::{ScanChoice, read_scan};
+use mapless_scans::{ScanChoice, SourceAddress, is_capture, read_scan};
 
 use crate::picture::{OccupancyPicture, VarianceImage};
 use crate::setup::PlannerChoice;
@@ -28,12 +28,17 @@ const GOAL_M: DVec2 = DVec2::new(50.0, 0.0);
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Scan: .pcd, .ply, KITTI's .bin, text with x y z a line or where a header names them (.csv, .txt, .xyz,
-    /// .asc, .pts), all in the sensor frame in metres: x forward, y left, z up; or a capture of a VLP-16
-    /// (.pcap). The robot stands level at the origin with its goal 50 m ahead.
+    /// .asc, .pts), all in the sensor frame in metres: x forward, y left, z up; or a capture of a Velodyne
+    /// VLP-16, Puck Hi-Res or VLP-32C (.pcap, .pcapng). The robot stands level at the origin with its goal
+    /// 50 m ahead.
     file: PathBuf,
     /// Which whole revolution of a capture, from 0.
     #[arg(long, value_name = "K", default_value_t = 0)]
     revolution: usize,
+    /// Which sensor of a capture with several, by the address it sends from: 192.168.1.201 or
+    /// 192.168.1.201:2368.
+    #[arg(long, value_name = "ADDRESS")]
+    source: Option<SourceAddress>,
     #[command(flatten)]
     planner: PlannerChoice,
     /// Write variance_image.svg and occupancy_surface.svg to this folder, which is made when missing.
@@ -46,7 +51,7 @@ pub(crate) struct Args {
 
 /// Perceives the scan and shows what was seen and decided.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let mut scan = read_scan(&args.file, ScanChoice { revolution: args.revolution })?;
+    let mut scan = read_scan(&args.file, ScanChoice { revolution: args.revolution, source: args.source })?;
     let config = args.planner.apply(args.planner.planner.planner_config());
     let mut planner = Planner::new(config)?;
     let reach_m = planner.config().perception.surface_radius_m;
@@ -69,8 +74,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 /// File, revolution and planner; the title of the tables and pictures.
 fn subject(args: &Args) -> String {
     let file = args.file.file_name().unwrap_or_default().to_string_lossy();
-    let is_capture = args.file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pcap"));
-    let revolution = if is_capture { format!(", revolution {}", args.revolution) } else { String::new() };
+    let revolution =
+        if is_capture(&args.file) { format!(", revolution {}", args.revolution) } else { String::new() };
     format!("{file}{revolution}, planner {}", args.planner.planner.name())
 }
 

@@ -1,94 +1,99 @@
-//! Captures of a VLP-16: pcap, Ethernet or IP, UDP, data packets, revolutions.
+//! Captures of a Velodyne sensor: from the packets of a file to the returns of a whole revolution.
 //!
-//! A data packet is a UDP payload of 1206 bytes that begins with the flag of a block, on any port. Everything
-//! else, such as the sensor's position packets, is skipped.
+//! A data packet is a UDP payload of 1206 bytes that begins with the flag of a block, on any port. The
+//! sensor's position packets are passed over; what else is left out is told in a warning.
 
-use etherparse::{SlicedPacket, TransportSlice};
-use pcap_file::pcap::PcapParser;
-use pcap_file::{DataLink, PcapError};
+mod container;
+mod datagrams;
+mod link;
+mod model;
+mod packet;
+mod revolutions;
+mod sensors;
+
+use std::collections::BTreeMap;
+
+use glam::Vec3;
 
 use crate::error::ScanFault;
-use crate::scan::{Scan, ScanWarning};
-use crate::vlp16::{BLOCK_FLAG, PACKET_BYTES, TURN, firings};
+use crate::scan::{ScanChoice, ScanWarning};
+use container::{Frame, frames};
+use datagrams::{Arrival, Datagrams};
+use link::{Content, content};
+use revolutions::revolutions;
+use sensors::Sensors;
+
+/// Length of a Velodyne position packet.
+const POSITION_BYTES: usize = 512;
 
 /// The points of one whole revolution.
-pub(crate) fn read(bytes: &[u8], revolution: usize) -> Result<Scan, ScanFault> {
-    let (mut rest, parser) = PcapParser::new(bytes).map_err(|error| match error {
-        PcapError::IncompleteBuffer => damaged("it ends inside its header"),
-        error => damaged(error),
-    })?;
-    let link = parser.header().datalink;
-    let mut scan = Scan::default();
-    let mut turns = Turns::default();
-    let (mut number, mut data_packets) = (0, 0);
-    while !rest.is_empty() {
-        number += 1;
-        let (after, packet) = match parser.next_raw_packet(rest) {
-            Ok(next) => next,
-            Err(PcapError::IncompleteBuffer) => {
-                scan.warnings.push(ScanWarning::CutOff { packet: number });
-                break;
+pub(crate) fn read(
+    capture: &[u8],
+    choice: ScanChoice,
+    warnings: &mut Vec<ScanWarning>,
+) -> Result<Vec<Vec3>, ScanFault> {
+    let frames = frames(capture, warnings)?;
+    let sensors = sensors(&frames, warnings)?;
+    let sensor = sensors.choose(choice.source, warnings)?;
+    let found = revolutions(&sensor, choice.revolution, warnings);
+    let (revolution, whole) = (choice.revolution, found.whole);
+    match found.wanted {
+        Some(points) => Ok(points),
+        None if whole == 0 => Err(ScanFault::NoRevolution { data_packets: sensor.packets.len() }),
+        None => Err(ScanFault::Revolution { revolution, whole }),
+    }
+}
+
+/// Sorts the data packets out of all others, and counts those.
+fn sensors<'a>(frames: &[Frame<'a>], warnings: &mut Vec<ScanWarning>) -> Result<Sensors<'a>, ScanFault> {
+    let mut sensors = Sensors::default();
+    let mut datagrams = Datagrams::default();
+    let mut links: BTreeMap<u32, usize> = BTreeMap::new();
+    let (mut cut, mut longest_cut, mut others) = (0, (0, 0), 0);
+    for frame in frames {
+        let arrival = match content(frame.link, frame.bytes) {
+            Content::Packet(sliced) => datagrams.take(frame.number, &sliced),
+            Content::Nothing if frame.bytes.len() < frame.wire_bytes => {
+                cut += 1;
+                longest_cut = longest_cut.max((frame.wire_bytes, frame.bytes.len()));
+                continue;
             }
-            Err(error) => return Err(damaged(format!("packet {number}: {error}"))),
+            Content::Nothing => Arrival::Other,
+            Content::UnknownLink => {
+                *links.entry(frame.link).or_default() += 1;
+                continue;
+            }
         };
-        rest = after;
-        let Some(packet) = data_packet(link, &packet.data)? else { continue };
-        data_packets += 1;
-        for firing in firings(packet, number)? {
-            if turns.passed(firing.azimuth) == Some(revolution) {
-                scan.points_m.extend(firing.points_m());
+        match arrival {
+            Arrival::Datagram { source, payload } => {
+                let is_position = payload.len() == POSITION_BYTES;
+                if !sensors.keep(frame.number, source, payload) && !is_position {
+                    others += 1;
+                }
             }
+            Arrival::Fragment => {}
+            Arrival::Other => others += 1,
         }
     }
-    if data_packets == 0 {
-        return Err(damaged(format!(
-            "none of its {number} packets is a VLP-16 data packet, {PACKET_BYTES} bytes over UDP"
-        )));
+    if sensors.is_empty()
+        && let Some(link) = links.keys().next()
+    {
+        return Err(ScanFault::value("link type", link, link::SUPPORTED));
     }
-    let whole = turns.begun.saturating_sub(1);
-    if revolution < whole { Ok(scan) } else { Err(ScanFault::Revolution { revolution, whole }) }
-}
-
-fn damaged(reason: impl ToString) -> ScanFault {
-    ScanFault::Damaged { format: "pcap", reason: reason.to_string() }
-}
-
-/// The payload of a frame if it is a data packet.
-fn data_packet(link: DataLink, frame: &[u8]) -> Result<Option<&[u8; PACKET_BYTES]>, ScanFault> {
-    let sliced = match link {
-        DataLink::ETHERNET => SlicedPacket::from_ethernet(frame).ok(),
-        DataLink::LINUX_SLL => SlicedPacket::from_linux_sll(frame).ok(),
-        DataLink::RAW | DataLink::IPV4 => SlicedPacket::from_ip(frame).ok(),
-        other => {
-            let expected = "1 (Ethernet), 101 (raw IP), 113 (Linux cooked) or 228 (raw IPv4)";
-            return Err(ScanFault::value("link type", u32::from(other), expected));
-        }
-    };
-    let Some(TransportSlice::Udp(udp)) = sliced.and_then(|sliced| sliced.transport) else { return Ok(None) };
-    let packet = <&[u8; PACKET_BYTES]>::try_from(udp.payload()).ok();
-    Ok(packet.filter(|packet| packet[..2] == BLOCK_FLAG))
-}
-
-/// Counts the passings behind the sensor.
-#[derive(Default)]
-struct Turns {
-    begun: usize,
-    /// How far the last firing was past straight behind, hundredths of a degree.
-    past: Option<f64>,
-}
-
-impl Turns {
-    /// Takes the azimuth of the next firing; returns the revolution it belongs to, `None` before the first
-    /// passing.
-    fn passed(&mut self, azimuth: f64) -> Option<usize> {
-        let past = (azimuth + 0.5 * TURN).rem_euclid(TURN);
-        // The azimuth jitters; only a passing takes it back by most of a turn.
-        if self.past.is_some_and(|before| before - past > 0.5 * TURN) {
-            self.begun += 1;
-        }
-        self.past = Some(past);
-        self.begun.checked_sub(1)
+    let links = links.into_iter().map(|(link, packets)| ScanWarning::UnknownLink { link, packets });
+    warnings.extend(links);
+    if cut > 0 {
+        let (wire_bytes, captured_bytes) = longest_cut;
+        warnings.push(ScanWarning::Snaplen { packets: cut, captured_bytes, wire_bytes });
     }
+    let fragments = datagrams.fragments_left();
+    if fragments > 0 {
+        warnings.push(ScanWarning::Fragments { packets: fragments });
+    }
+    if others > 0 {
+        warnings.push(ScanWarning::OtherPackets { packets: others });
+    }
+    if sensors.is_empty() { Err(ScanFault::NoDataPacket { packets: frames.len() }) } else { Ok(sensors) }
 }
 
 #[cfg(test)]

@@ -1,13 +1,17 @@
 //! Errors of scan files.
 
+use crate::scan::ScanWarning;
+
 /// Why a scan could not be read: the file and what is wrong with it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{file}: {fault}")]
+#[error("{file}: {fault}{}", told(.warnings))]
 pub struct ScanError {
     /// The file as it was named.
     pub file: String,
     /// What is wrong with it.
     pub fault: ScanFault,
+    /// What the reader had left out by then.
+    pub warnings: Vec<ScanWarning>,
 }
 
 /// What is wrong with a file.
@@ -20,7 +24,9 @@ pub enum ScanFault {
         reason: String,
     },
     /// The file's extension is not that of a supported format.
-    #[error("extension \"{extension}\": expected .pcap, .pcd, .ply, .bin, .csv, .txt, .xyz, .asc or .pts")]
+    #[error(
+        "extension \"{extension}\": expected .pcap, .pcapng, .pcd, .ply, .bin, .csv, .txt, .xyz, .asc or .pts"
+    )]
     Extension {
         /// The extension found, in lower case and without the dot.
         extension: String,
@@ -43,6 +49,20 @@ pub enum ScanFault {
         /// The values allowed there.
         expected: String,
     },
+    /// A capture without a data packet.
+    #[error(
+        "expected data packets of a Velodyne sensor, 1206 bytes over UDP: none of its {packets} packets is one"
+    )]
+    NoDataPacket {
+        /// Packets in the capture.
+        packets: usize,
+    },
+    /// A capture without a whole revolution.
+    #[error("expected a longer capture: its {data_packets} data packets hold no whole revolution")]
+    NoRevolution {
+        /// Data packets of the sensor.
+        data_packets: usize,
+    },
     /// There is no such revolution.
     #[error("revolution = {revolution}: expected {}", expected_revolution(*.whole))]
     Revolution {
@@ -59,9 +79,12 @@ impl ScanFault {
     }
 }
 
+fn told(warnings: &[ScanWarning]) -> String {
+    warnings.iter().map(|warning| format!("; {warning}")).collect()
+}
+
 fn expected_revolution(whole: usize) -> String {
     match whole {
-        0 => "a longer capture: this one has no whole revolution".to_owned(),
         1 => "0, the only one in the file".to_owned(),
         _ => format!("0 to {}: the capture has {whole} whole revolutions", whole - 1),
     }

@@ -1,7 +1,7 @@
 //! Reading recorded LiDAR scans.
 //!
-//! [`read_scan`] gives the returns of one scan, and what the reader left out, in the project's sensor frame: x forward, y left, z up,
-//! metres. The extension of the file says its format:
+//! [`read_scan`] gives the returns of one scan, and what the reader left out, in the project's sensor
+//! frame: x forward, y left, z up, metres. The extension of the file says its format:
 //!
 //! - `.pcd`: a point cloud of the Point Cloud Library, `ascii`, `binary` or `binary_compressed`. A viewpoint
 //!   is the sensor's pose: the points come out in a level frame at the sensor that faces where it faces.
@@ -9,10 +9,11 @@
 //!   them. VeloView's columns are turned as a capture's.
 //! - `.ply`: the element `vertex` of a polygon file, ascii or binary.
 //! - `.bin`: a scan of KITTI, four floats a point.
-//! - `.pcap`: a capture of one Velodyne VLP-16, with one or two returns a beam. Its azimuth turns clockwise
-//!   as seen from above, from the sensor's y axis, which looks forward: forward is Velodyne's y and left its
-//!   -x. A revolution goes from behind the sensor round to behind it again, so that what lies ahead is seen
-//!   in one sweep. What stands before the first whole revolution and after the last one is left out.
+//! - `.pcap`, `.pcapng` or `.cap`: a capture of a Velodyne VLP-16, Puck Hi-Res or VLP-32C, with one or two
+//!   returns a beam. Its azimuth turns clockwise as seen from above, from the sensor's y axis, which looks
+//!   forward: forward is Velodyne's y and left its -x. A revolution goes from behind the sensor round to behind
+//!   it again, so that what lies ahead is seen in one sweep. What stands before the first whole revolution and
+//!   after the last one is left out, and so is a revolution of which a packet was lost.
 
 mod capture;
 mod cloud_warning;
@@ -22,24 +23,28 @@ mod lzf;
 mod pcd;
 mod ply;
 mod scan;
+mod source;
 mod text;
 mod values;
 mod viewpoint;
-mod vlp16;
 
 use std::fs::File;
 use std::io::Read as _;
+use std::mem;
 use std::path::Path;
 
 pub use cloud_warning::CloudWarning;
 pub use error::{ScanError, ScanFault};
 pub use scan::{Scan, ScanChoice, ScanWarning};
+pub use source::SourceAddress;
 
+/// Extensions of captures; the first bytes say of which kind.
+const CAPTURES: [&str; 3] = ["pcap", "pcapng", "cap"];
 /// Largest file read, in bytes: a quarter of an hour of a VLP-16.
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Reads one scan from the bytes of a file. A scan without a return is no error. The extension of `file`
-/// decides the format: `.pcap` holds a capture, every other one a scan.
+/// decides the format: `.pcap`, `.pcapng` and `.cap` hold a capture, every other one a scan.
 ///
 /// # Errors
 /// [`ScanError`] names the file, the place in it, the value and what was expected.
@@ -55,12 +60,22 @@ pub fn read_scan(path: &Path, choice: ScanChoice) -> Result<Scan, ScanError> {
     read_as(&path.display().to_string(), choice, || read_file(path))
 }
 
+/// Whether a file is a capture by its extension, and may hold many revolutions.
+pub fn is_capture(path: &Path) -> bool {
+    CAPTURES.contains(&extension(path).as_str())
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
 fn read_as<Bytes: AsRef<[u8]>>(
     file: &str,
     choice: ScanChoice,
     bytes: impl FnOnce() -> Result<Bytes, ScanFault>,
 ) -> Result<Scan, ScanError> {
-    let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let extension = extension(Path::new(file));
+    let mut warnings = Vec::new();
     let cloud: fn(&[u8]) -> Result<Scan, ScanFault> = match extension.as_str() {
         "pcd" => pcd::read,
         "ply" => ply::read,
@@ -68,13 +83,16 @@ fn read_as<Bytes: AsRef<[u8]>>(
         _ => text::read,
     };
     let scan = match extension.as_str() {
-        "pcap" => bytes().and_then(|bytes| capture::read(bytes.as_ref(), choice.revolution)),
+        extension if CAPTURES.contains(&extension) => bytes().and_then(|bytes| {
+            let points_m = capture::read(bytes.as_ref(), choice, &mut warnings)?;
+            Ok(Scan { points_m, warnings: mem::take(&mut warnings) })
+        }),
         "pcd" | "ply" | "bin" | "csv" | "txt" | "xyz" | "asc" | "pts" => {
             bytes().and_then(|bytes| cloud(bytes.as_ref())).and_then(only(choice))
         }
         _ => Err(ScanFault::Extension { extension }),
     };
-    scan.map_err(|fault| ScanError { file: file.to_owned(), fault })
+    scan.map_err(|fault| ScanError { file: file.to_owned(), fault, warnings })
 }
 
 /// Lets a file that holds one scan answer for revolution 0 alone.
@@ -118,7 +136,7 @@ mod tests {
         assert_eq!(read("a.XYZ", b"1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)].into()));
         assert_eq!(
             read("a.las", b"1 2 3", 0).unwrap_err(),
-            "a.las: extension \"las\": expected .pcap, .pcd, .ply, .bin, .csv, .txt, .xyz, .asc or .pts"
+            "a.las: extension \"las\": expected .pcap, .pcapng, .pcd, .ply, .bin, .csv, .txt, .xyz, .asc or .pts"
         );
         for name in ["a.csv", "a.txt", "a.asc", "a.pts"] {
             assert_eq!(read(name, b"1\n1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)].into()), "{name}");

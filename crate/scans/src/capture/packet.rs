@@ -1,144 +1,198 @@
-//! The data packets of a VLP-16 (Velodyne, *VLP-16 User Manual*, 63-9243, chapters 6 to 9).
+//! A data packet (Velodyne, *VLP-16 User Manual*, 63-9243, chapters 6 to 9).
 //!
-//! A packet has twelve blocks of two firing sequences of the sixteen lasers, then the return mode and the
-//! type of sensor. A block has the azimuth of its first firing alone; the others are interpolated.
+//! A packet has twelve blocks of 32 returns: two firing sequences of sixteen lasers or one of 32. Then come
+//! the time stamp, the return mode and the product. A block has the azimuth of its first firing alone; the
+//! others are interpolated.
 
 use glam::Vec3;
 
+use crate::capture::model::{MOST_LASERS, Model};
 use crate::error::ScanFault;
 
 /// Length of a data packet: 12 blocks, a time stamp of four bytes, return mode and product.
 pub(crate) const PACKET_BYTES: usize = BLOCKS * BLOCK_BYTES + 6;
-/// The first bytes of each block.
-pub(crate) const BLOCK_FLAG: [u8; 2] = [0xff, 0xee];
 /// A whole turn in the sensor's unit, hundredths of a degree.
 pub(crate) const TURN: f64 = 36_000.0;
 
+/// The first bytes of each block.
+const BLOCK_FLAG: [u8; 2] = [0xff, 0xee];
 const BLOCKS: usize = 12;
 const BLOCK_BYTES: usize = 100;
-const LASERS: usize = 16;
 const RETURN_BYTES: usize = 3;
+const RETURNS: usize = 32;
 
 const STRONGEST: u8 = 0x37;
 const LAST: u8 = 0x38;
 const DUAL: u8 = 0x39;
-const VLP16: u8 = 0x22;
 
-const DISTANCE_UNIT_M: f64 = 0.002;
-/// Time between two lasers, two firing sequences and two blocks, microseconds.
-const LASER_US: f64 = 2.304;
+/// Time between two firings of a sequence and between two sequences, microseconds.
+const FIRING_US: f64 = 2.304;
 const SEQUENCE_US: f64 = 55.296;
-const BLOCK_US: f64 = 2.0 * SEQUENCE_US;
 
-/// Elevation of each laser in degrees, in the order they fire.
-const ELEVATION_DEG: [f64; LASERS] =
-    [-15.0, 1.0, -13.0, 3.0, -11.0, 5.0, -9.0, 7.0, -7.0, 9.0, -5.0, 11.0, -3.0, 13.0, -1.0, 15.0];
-/// How far above the sensor's origin each laser's beam crosses the vertical axis, millimetres.
-const VERTICAL_OFFSET_MM: [f64; LASERS] =
-    [11.2, -0.7, 9.7, -2.2, 8.1, -3.7, 6.6, -5.1, 5.1, -6.6, 3.7, -8.1, 2.2, -9.7, 0.7, -11.2];
+type Packet = [u8; PACKET_BYTES];
+
+/// Whether a UDP payload is a data packet of any model. A damaged packet is still one: most of its blocks
+/// have their flag.
+pub(crate) fn data_packet(payload: &[u8]) -> Option<&Packet> {
+    let packet: &Packet = payload.try_into().ok()?;
+    let flagged = (0..BLOCKS).filter(|block| packet[block * BLOCK_BYTES..].starts_with(&BLOCK_FLAG));
+    (flagged.count() > BLOCKS / 2).then_some(packet)
+}
+
+/// The number of the model that sent a packet.
+pub(crate) fn product(packet: &Packet) -> u8 {
+    packet[PACKET_BYTES - 1]
+}
+
+/// When the first firing of a packet happened, microseconds after the hour.
+pub(crate) fn stamp_us(packet: &Packet) -> u32 {
+    let at = BLOCKS * BLOCK_BYTES;
+    u32::from_le_bytes([packet[at], packet[at + 1], packet[at + 2], packet[at + 3]])
+}
+
+/// What a packet holds.
+pub(crate) struct Sweep {
+    /// In the order of time.
+    pub(crate) firings: Vec<Firing>,
+    /// How long it took, microseconds.
+    pub(crate) duration_us: f64,
+    /// Azimuth of its first firing, hundredths of a degree.
+    pub(crate) begin: f64,
+    /// How far it turned, hundredths of a degree.
+    pub(crate) turned: f64,
+    /// Blocks that are left out.
+    pub(crate) bad_blocks: Vec<ScanFault>,
+}
 
 /// One firing sequence: each laser once.
 pub(crate) struct Firing {
     /// Azimuth as the first laser fires, clockwise from forward, hundredths of a degree, below [`TURN`].
     pub(crate) azimuth: f64,
-    /// How far the head turns during a block, hundredths of a degree.
-    turn_per_block: f64,
-    /// Distances in units of 2 mm; 0 is no return.
-    distances: [u16; LASERS],
+    model: &'static Model,
+    /// How far the head turns in a microsecond, hundredths of a degree.
+    turn_per_us: f64,
+    /// Distances in the unit of the model; 0 is no return.
+    distances: [u16; MOST_LASERS],
 }
 
 impl Firing {
     /// The returns in the project's sensor frame, metres: Velodyne's azimuth turns clockwise, ours
     /// anticlockwise.
     pub(crate) fn points_m(&self) -> impl Iterator<Item = Vec3> {
-        self.distances.iter().enumerate().filter(|(_, distance)| **distance > 0).map(|(laser, &distance)| {
-            let turned = self.turn_per_block * LASER_US * laser as f64 / BLOCK_US;
-            let (sin_a, cos_a) = libm::sincos(((self.azimuth + turned) * 0.01).to_radians());
-            let (sin_e, cos_e) = libm::sincos(ELEVATION_DEG[laser].to_radians());
-            let range_m = f64::from(distance) * DISTANCE_UNIT_M;
+        let lasers = self.model.lasers.iter().zip(self.distances).enumerate();
+        lasers.filter(|(_, (_, distance))| *distance > 0).map(|(index, (laser, distance))| {
+            let fired_us = FIRING_US * (index / self.model.lasers_at_once) as f64;
+            let azimuth = self.azimuth + self.turn_per_us * fired_us;
+            let (sin_a, cos_a) = libm::sincos((azimuth * 0.01 + laser.azimuth_deg).to_radians());
+            let (sin_e, cos_e) = libm::sincos(laser.elevation_deg.to_radians());
+            let range_m = f64::from(distance) * self.model.distance_unit_m;
             Vec3::new(
                 (range_m * cos_e * cos_a) as f32,
                 (-range_m * cos_e * sin_a) as f32,
-                (range_m * sin_e + 1e-3 * VERTICAL_OFFSET_MM[laser]) as f32,
+                (range_m * sin_e + 1e-3 * laser.above_mm) as f32,
             )
         })
     }
 }
 
-/// The firings of a data packet, in the order of time; `number` is its place in the capture, from 1.
-pub(crate) fn firings(packet: &[u8; PACKET_BYTES], number: usize) -> Result<Vec<Firing>, ScanFault> {
-    let [mode, product] = [packet[PACKET_BYTES - 2], packet[PACKET_BYTES - 1]];
-    if product != VLP16 {
-        let place = format!("packet {number}, product");
-        return Err(ScanFault::value(place, format!("0x{product:02x}"), "0x22, a VLP-16"));
-    }
-    let returns = match mode {
+/// How far it is from one azimuth to another, the shorter way round.
+pub(crate) fn turn_between(from: f64, to: f64) -> f64 {
+    (to - from + 0.5 * TURN).rem_euclid(TURN) - 0.5 * TURN
+}
+
+/// Reads a packet of a sensor of this model; `number` is its place in the capture, from 1.
+pub(crate) fn sweep(packet: &Packet, model: &'static Model, number: usize) -> Result<Sweep, ScanFault> {
+    let returns = match packet[PACKET_BYTES - 2] {
         STRONGEST | LAST => 1,
         DUAL => 2,
-        _ => {
+        mode => {
             let place = format!("packet {number}, return mode");
             let expected = "0x37 (strongest), 0x38 (last) or 0x39 (dual)";
             return Err(ScanFault::value(place, format!("0x{mode:02x}"), expected));
         }
     };
-    let azimuths = azimuths(packet, number)?;
-    let mut firings = Vec::with_capacity(2 * BLOCKS);
+    let sequences = RETURNS / model.lasers.len();
+    let block_us = SEQUENCE_US * sequences as f64;
+    let mut bad_blocks = Vec::new();
+    let azimuths: [Option<f64>; BLOCKS] = std::array::from_fn(|block| {
+        azimuth(packet, block, number).map_err(|fault| bad_blocks.push(fault)).ok()
+    });
     // With two returns a beam, two blocks hold the same firings: the last return, then the strongest.
-    for first in (0..BLOCKS).step_by(returns) {
-        // The last block of the packet turns as far as the one before it.
-        let from = first.min(BLOCKS - 1 - returns);
-        let turn_per_block = (azimuths[from + returns] - azimuths[from]).rem_euclid(TURN);
-        for sequence in 0..2 {
-            let azimuth = azimuths[first] + turn_per_block * sequence as f64 * SEQUENCE_US / BLOCK_US;
-            let mut firing = Firing {
+    let good: Vec<(usize, f64)> = azimuths
+        .chunks(returns)
+        .enumerate()
+        .filter_map(|(index, pair)| Some((index, pair.iter().flatten().next().copied()?)))
+        .collect();
+    let turn_per_block = |&(index, azimuth): &(usize, f64), &(later, next): &(usize, f64)| {
+        turn_between(azimuth, next) / (later - index) as f64
+    };
+    // The last block of the packet turns as far as the one before it.
+    let [.., before, last] = good.as_slice() else {
+        let expected = "at least two with flag and azimuth";
+        return Err(ScanFault::value(format!("packet {number}, good blocks"), good.len(), expected));
+    };
+    let last_turn = turn_per_block(before, last);
+    let mut firings = Vec::with_capacity(RETURNS * BLOCKS / model.lasers.len());
+    for (place, &(index, begin)) in good.iter().enumerate() {
+        let turn = good.get(place + 1).map_or(last_turn, |next| turn_per_block(&(index, begin), next));
+        for sequence in 0..sequences {
+            let azimuth = begin + turn * sequence as f64 / sequences as f64;
+            let firing = |distances: [u16; MOST_LASERS]| Firing {
                 azimuth: azimuth.rem_euclid(TURN),
-                turn_per_block,
-                distances: distances(packet, first, sequence),
+                model,
+                turn_per_us: turn / block_us,
+                distances,
             };
-            if returns == 1 {
-                firings.push(firing);
-                continue;
-            }
-            let last = firing.distances;
-            let strongest = distances(packet, first + 1, sequence);
-            firing.distances = strongest;
+            let distances = |block: usize| {
+                azimuths[block].map(|_| distances(packet, block, sequence * model.lasers.len(), model))
+            };
+            let first = distances(index * returns);
+            let mut second = if returns == 2 { distances(index * returns + 1) } else { None };
             // A beam with one return reports it twice.
-            for (laser, distance) in firing.distances.iter_mut().enumerate() {
-                if *distance == last[laser] {
+            for (distance, last) in second.iter_mut().flatten().zip(first.iter().flatten()) {
+                if distance == last {
                     *distance = 0;
                 }
             }
-            firings.push(Firing { distances: last, ..firing });
-            firings.push(firing);
+            firings.extend(first.map(firing));
+            firings.extend(second.map(firing));
         }
     }
-    Ok(firings)
-}
-
-/// The azimuths of the blocks, hundredths of a degree.
-fn azimuths(packet: &[u8; PACKET_BYTES], number: usize) -> Result<[f64; BLOCKS], ScanFault> {
-    let mut azimuths = [0.0; BLOCKS];
-    for (block, azimuth) in azimuths.iter_mut().enumerate() {
-        let place = |what: &str| format!("packet {number}, block {}, {what}", block + 1);
-        let head = &packet[block * BLOCK_BYTES..];
-        if head[..2] != BLOCK_FLAG {
-            let value = format!("0x{:02x}{:02x}", head[0], head[1]);
-            return Err(ScanFault::value(place("flag"), value, "0xffee"));
-        }
-        *azimuth = f64::from(u16::from_le_bytes([head[2], head[3]]));
-        if *azimuth >= TURN {
-            return Err(ScanFault::value(place("azimuth"), *azimuth, "hundredths of a degree below 36000"));
-        }
-    }
-    Ok(azimuths)
-}
-
-fn distances(packet: &[u8; PACKET_BYTES], block: usize, sequence: usize) -> [u16; LASERS] {
-    let first = block * BLOCK_BYTES + 4 + sequence * LASERS * RETURN_BYTES;
-    std::array::from_fn(|laser| {
-        let at = first + laser * RETURN_BYTES;
-        u16::from_le_bytes([packet[at], packet[at + 1]])
+    let groups = BLOCKS / returns;
+    let begin = good[0].1 - turn_per_block(&good[0], &good[1]) * good[0].0 as f64;
+    let end = last.1 + last_turn * (groups - last.0) as f64;
+    Ok(Sweep {
+        firings,
+        duration_us: block_us * groups as f64,
+        begin,
+        turned: turn_between(begin, end),
+        bad_blocks,
     })
+}
+
+/// The azimuth of a block, hundredths of a degree.
+fn azimuth(packet: &Packet, block: usize, number: usize) -> Result<f64, ScanFault> {
+    let place = |what: &str| format!("packet {number}, block {}, {what}", block + 1);
+    let head = &packet[block * BLOCK_BYTES..];
+    if head[..2] != BLOCK_FLAG {
+        let value = format!("0x{:02x}{:02x}", head[0], head[1]);
+        return Err(ScanFault::value(place("flag"), value, "0xffee"));
+    }
+    let azimuth = f64::from(u16::from_le_bytes([head[2], head[3]]));
+    if azimuth >= TURN {
+        return Err(ScanFault::value(place("azimuth"), azimuth, "hundredths of a degree below 36000"));
+    }
+    Ok(azimuth)
+}
+
+/// The distances of a firing sequence whose first return in the block is `first`.
+fn distances(packet: &Packet, block: usize, first: usize, model: &Model) -> [u16; MOST_LASERS] {
+    let mut distances = [0; MOST_LASERS];
+    for (index, distance) in distances.iter_mut().enumerate().take(model.lasers.len()) {
+        let at = block * BLOCK_BYTES + 4 + (first + index) * RETURN_BYTES;
+        *distance = u16::from_le_bytes([packet[at], packet[at + 1]]);
+    }
+    distances
 }
 
 #[cfg(test)]
