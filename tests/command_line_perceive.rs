@@ -186,12 +186,30 @@ fn the_same_points_give_the_same_result_from_every_format() {
     folder.write("ascii.pcd", header("ascii") + "nan nan nan\n" + &points);
     let mut binary = header("binary").into_bytes();
     binary.extend([f32::NAN; 3].iter().flat_map(|value| value.to_le_bytes()));
-    let values = rows.flat_map(|row| row.split(',')).map(|value| value.parse::<f32>().unwrap());
+    let values = rows.clone().flat_map(|row| row.split(',')).map(|value| value.parse::<f32>().unwrap());
     binary.extend(values.flat_map(f32::to_le_bytes));
     folder.write("binary.pcd", binary);
+    let veloview = rows.clone().map(|row| {
+        let [x, y, z] = row.split(',').collect::<Vec<_>>()[..] else { panic!("{row}") };
+        let right = y.strip_prefix('-').map_or_else(|| format!("-{y}"), str::to_owned);
+        format!("7,{right},{x},{z}\n")
+    });
+    let names = "\"intensity\",\"Points_m_XYZ:0\",\"Points_m_XYZ:1\",\"Points_m_XYZ:2\"\n";
+    folder.write("veloview.csv", names.to_owned() + &veloview.collect::<String>());
+    folder.write("yard.pts", format!("{}\n{points}", count - 1));
+    folder.write("yard.asc", format!("//X Y Z\n{points}"));
+    let vertices = "property float x\nproperty float y\nproperty float z\nend_header\n";
+    folder.write(
+        "yard.ply",
+        format!("ply\nformat ascii 1.0\nelement vertex {}\n{vertices}{points}", count - 1),
+    );
+    let numbers =
+        |row: &str| row.split(',').map(|value| value.parse().unwrap()).chain([0.5]).collect::<Vec<f32>>();
+    folder.write("yard.bin", rows.clone().flat_map(numbers).flat_map(f32::to_le_bytes).collect::<Vec<u8>>());
 
     let expected = folder.json("yard.csv", &[]);
-    for name in ["yard.xyz", "ascii.pcd", "binary.pcd"] {
+    let others = ["yard.xyz", "veloview.csv", "yard.pts", "yard.asc", "yard.ply", "yard.bin"];
+    for name in others.into_iter().chain(["ascii.pcd", "binary.pcd"]) {
         assert_eq!(folder.json(name, &[]), expected, "{name}");
     }
 }
@@ -200,11 +218,11 @@ fn the_same_points_give_the_same_result_from_every_format() {
 fn a_scan_without_returns_has_a_named_result() {
     let folder = Folder::new();
     folder.write("empty.csv", "x,y,z\n");
-    folder.write("far.csv", scan(|_, _| Some(30.0)));
+    folder.write("high.csv", scan(|_, elevation| (elevation > 0.2).then_some(5.0).or(Some(30.0))));
     let empty = folder.json("empty.csv", &["--out", "pictures"]);
     assert_eq!(empty["status"], "stopped");
     assert_eq!(empty["reason"], "the scan has no returns");
-    let far = folder.json("far.csv", &[]);
+    let far = folder.json("high.csv", &[]);
     assert_eq!((far["status"].as_str(), far["occupied_cells"].as_u64()), (Some("searching"), Some(0)));
     for result in [&empty, &far] {
         let profile = result["profile"].as_array().unwrap();
@@ -214,6 +232,19 @@ fn a_scan_without_returns_has_a_named_result() {
     let table = String::from_utf8(folder.perceive("empty.csv", &[]).stdout).unwrap();
     assert!(table.contains("stopped: the scan has no returns"), "{table}");
     assert!(fs::read_to_string(folder.path("pictures/variance_image.svg")).unwrap().ends_with("</svg>\n"));
+}
+
+#[test]
+fn a_scan_out_of_reach_gets_a_word() {
+    let folder = Folder::new();
+    folder.write("far.csv", scan(|_, _| Some(30.0)));
+    let output = folder.perceive("far.csv", &["--json"]);
+    let said = "no return within 7 m, the nearest is 30.0 m away: are the points in millimetres, or in another \
+                frame than the sensor's?";
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), format!("warning: far.csv: {said}\n"));
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(result["warnings"][0], said);
+    assert_eq!((result["status"].as_str(), result["occupied_cells"].as_u64()), (Some("searching"), Some(0)));
 }
 
 #[test]
@@ -256,11 +287,15 @@ fn out_draws_segments_subgoals_and_the_three_surfaces() {
 fn what_cannot_be_read_is_refused_by_file_and_place() {
     let folder = Folder::new();
     folder.refuses("none.csv", &[], "none.csv: cannot be read: ");
-    folder.refuses(".", &[], ".: extension \"\": expected .pcd");
+    folder.refuses(".", &[], ".: extension \"\": expected .pcap, .pcapng, .pcd");
     folder.write("empty.pcd", "");
     folder.refuses("empty.pcd", &[], "empty.pcd: cannot be read: the file is empty");
-    folder.write("bad.csv", "x,y,z\n1,2,3\n1,nan,3\n");
-    folder.refuses("bad.csv", &[], "bad.csv: line 3, y = nan: expected a finite number, metres");
+    folder.write("bad.csv", "x,y,z\n1,2,3\n1,high,3\n");
+    folder.refuses("bad.csv", &[], "bad.csv: line 3, column 2 (y) = high: expected a number of metres");
+    folder.write("cut.bin", [0; 30]);
+    folder.refuses("cut.bin", &[], "cut.bin: length in bytes = 30: expected a multiple of 16");
+    folder.write("survey.las", "LASF");
+    folder.refuses("survey.las", &[], "survey.las: extension \"las\": expected ");
     folder.write("bad.pcap", [7; 100]);
     folder.refuses("bad.pcap", &[], "bad.pcap: not a valid pcap file: ");
     folder.write("good.csv", "1 2 3\n");

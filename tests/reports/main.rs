@@ -32,6 +32,7 @@ struct Report {
 /// What the program answered.
 #[derive(Debug)]
 struct Answer {
+    code: Option<i32>,
     /// Standard output as JSON; null if it is none.
     json: Value,
     /// Warnings, and the error if there was one.
@@ -59,6 +60,7 @@ fn run(folder: &Path, arguments: &[&str]) -> Answer {
     let output =
         Command::new(env!("CARGO_BIN_EXE_mapless")).args(arguments).current_dir(folder).output().unwrap();
     Answer {
+        code: output.status.code(),
         json: serde_json::from_slice(&output.stdout).unwrap_or(Value::Null),
         stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
     }

@@ -29,8 +29,10 @@ const GOAL_M: DVec2 = DVec2::new(50.0, 0.0);
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Scan: .pcd, text with x y z a line (.csv, .txt, .xyz; sensor frame in metres: x forward, y left, z
-    /// up), or a capture of a Velodyne VLP-16, Puck Hi-Res or VLP-32C (.pcap, .pcapng). The robot stands level at the origin with its goal 50 m ahead.
+    /// Scan: .pcd, .ply, KITTI's .bin, text with x y z a line or where a header names them (.csv, .txt, .xyz,
+    /// .asc, .pts), all in the sensor frame in metres: x forward, y left, z up; or a capture of a Velodyne
+    /// VLP-16, Puck Hi-Res or VLP-32C (.pcap, .pcapng). The robot stands level at the origin with its goal
+    /// 50 m ahead.
     file: PathBuf,
     /// Which whole revolution of a capture, from 0.
     #[arg(long, value_name = "K", default_value_t = 0)]
@@ -56,9 +58,12 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let scan = read_scan(&args.file, ScanChoice { revolution: args.revolution, source: args.source })?;
     let config = args.planner.apply(config(args)?);
+    let mut warnings: Vec<String> = scan.warnings.iter().map(ToString::to_string).collect();
+    let reach_m = config.perception.surface_radius_m;
+    let out_of_reach = scan.out_of_reach(config.sensor.min_range_m, reach_m);
+    warnings.extend(out_of_reach.into_iter().map(|warning| warning.to_string()));
     let misfit = MountMisfit::of(&scan.points_m, &config.sensor);
-    let warnings: Vec<String> =
-        scan.warnings.iter().map(ToString::to_string).chain(misfit.iter().map(ToString::to_string)).collect();
+    warnings.extend(misfit.map(|misfit| misfit.to_string()));
     for warning in &warnings {
         writeln!(std::io::stderr(), "warning: {}: {warning}", args.file.display())?;
     }

@@ -24,7 +24,9 @@ pub enum ScanFault {
         reason: String,
     },
     /// The file's extension is not that of a supported format.
-    #[error("extension \"{extension}\": expected .pcd, .csv, .txt, .xyz, .pcap or .pcapng")]
+    #[error(
+        "extension \"{extension}\": expected .pcap, .pcapng, .pcd, .ply, .bin, .csv, .txt, .xyz, .asc or .pts"
+    )]
     Extension {
         /// The extension found, in lower case and without the dot.
         extension: String,

@@ -1,14 +1,14 @@
 //! Reading recorded LiDAR scans.
 //!
-//! [`read_scan`] gives the returns of one scan, and what the reader left out, in the project's sensor frame: x forward, y left, z up,
-//! metres. The extension of the file says its format:
+//! [`read_scan`] gives the returns of one scan, and what the reader left out, in the project's sensor
+//! frame: x forward, y left, z up, metres. The extension of the file says its format:
 //!
-//! - `.pcd`: a point cloud of the Point Cloud Library, version 0.5 to 0.7, `ascii`, `binary` or
-//!   `binary_compressed`, with fields `x`, `y` and `z` of type F. Its coordinates are taken as the sensor
-//!   frame's and its viewpoint is not applied. Points that are not finite are beams without a return and are
-//!   passed over.
-//! - `.csv`, `.txt` or `.xyz`: text with one point a line, x y z, separated by a comma or by blanks. The
-//!   first line may be the header `x,y,z`. Every value must be a finite number.
+//! - `.pcd`: a point cloud of the Point Cloud Library, `ascii`, `binary` or `binary_compressed`. A viewpoint
+//!   is the sensor's pose: the points come out in a level frame at the sensor that faces where it faces.
+//! - `.csv`, `.txt`, `.xyz`, `.asc` or `.pts`: text with one point a line, x y z first or where a header names
+//!   them. VeloView's columns are turned as a capture's.
+//! - `.ply`: the element `vertex` of a polygon file, ascii or binary.
+//! - `.bin`: a scan of KITTI, four floats a point.
 //! - `.pcap`, `.pcapng` or `.cap`: a capture of a Velodyne VLP-16, Puck Hi-Res or VLP-32C, with one or two
 //!   returns a beam. Its azimuth turns clockwise as seen from above, from the sensor's y axis, which looks
 //!   forward: forward is Velodyne's y and left its -x. A revolution goes from behind the sensor round to behind
@@ -16,17 +16,24 @@
 //!   after the last one is left out, and so is a revolution of which a packet was lost.
 
 mod capture;
-mod csv;
+mod cloud_warning;
 mod error;
+mod kitti;
+mod lzf;
 mod pcd;
+mod ply;
 mod scan;
 mod source;
+mod text;
+mod values;
+mod viewpoint;
 
 use std::fs::File;
 use std::io::Read as _;
 use std::mem;
 use std::path::Path;
 
+pub use cloud_warning::CloudWarning;
 pub use error::{ScanError, ScanFault};
 pub use scan::{Scan, ScanChoice, ScanWarning};
 pub use source::SourceAddress;
@@ -37,7 +44,7 @@ const CAPTURES: [&str; 3] = ["pcap", "pcapng", "cap"];
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Reads one scan from the bytes of a file. A scan without a return is no error. The extension of `file`
-/// decides the format: `.pcd`, `.csv`, `.txt` and `.xyz` hold a scan, `.pcap`, `.pcapng` and `.cap` a capture.
+/// decides the format: `.pcap`, `.pcapng` and `.cap` hold a capture, every other one a scan.
 ///
 /// # Errors
 /// [`ScanError`] names the file, the place in it, the value and what was expected.
@@ -69,23 +76,30 @@ fn read_as<Bytes: AsRef<[u8]>>(
 ) -> Result<Scan, ScanError> {
     let extension = extension(Path::new(file));
     let mut warnings = Vec::new();
+    let cloud: fn(&[u8]) -> Result<Scan, ScanFault> = match extension.as_str() {
+        "pcd" => pcd::read,
+        "ply" => ply::read,
+        "bin" => kitti::read,
+        _ => text::read,
+    };
     let scan = match extension.as_str() {
         extension if CAPTURES.contains(&extension) => bytes().and_then(|bytes| {
             let points_m = capture::read(bytes.as_ref(), choice, &mut warnings)?;
             Ok(Scan { points_m, warnings: mem::take(&mut warnings) })
         }),
-        "pcd" => bytes().and_then(|bytes| pcd::read(bytes.as_ref())).and_then(only(choice)),
-        "csv" | "txt" | "xyz" => bytes().and_then(|bytes| csv::read(bytes.as_ref())).and_then(only(choice)),
+        "pcd" | "ply" | "bin" | "csv" | "txt" | "xyz" | "asc" | "pts" => {
+            bytes().and_then(|bytes| cloud(bytes.as_ref())).and_then(only(choice))
+        }
         _ => Err(ScanFault::Extension { extension }),
     };
     scan.map_err(|fault| ScanError { file: file.to_owned(), fault, warnings })
 }
 
 /// Lets a file that holds one scan answer for revolution 0 alone.
-fn only<S: Into<Scan>>(choice: ScanChoice) -> impl FnOnce(S) -> Result<Scan, ScanFault> {
+fn only(choice: ScanChoice) -> impl FnOnce(Scan) -> Result<Scan, ScanFault> {
     let revolution = choice.revolution;
     move |scan| {
-        if revolution == 0 { Ok(scan.into()) } else { Err(ScanFault::Revolution { revolution, whole: 1 }) }
+        if revolution == 0 { Ok(scan) } else { Err(ScanFault::Revolution { revolution, whole: 1 }) }
     }
 }
 
@@ -122,8 +136,13 @@ mod tests {
         assert_eq!(read("a.XYZ", b"1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)].into()));
         assert_eq!(
             read("a.las", b"1 2 3", 0).unwrap_err(),
-            "a.las: extension \"las\": expected .pcd, .csv, .txt, .xyz or .pcap"
+            "a.las: extension \"las\": expected .pcap, .pcapng, .pcd, .ply, .bin, .csv, .txt, .xyz, .asc or .pts"
         );
+        for name in ["a.csv", "a.txt", "a.asc", "a.pts"] {
+            assert_eq!(read(name, b"1\n1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)].into()), "{name}");
+        }
+        assert_eq!(read("a.bin", &[0; 16], 0), Ok(vec![Vec3::ZERO].into()));
+        assert!(read("a.ply", b"1 2 3", 0).unwrap_err().starts_with("a.ply: line 1 = 1 2 3: expected ply"));
         assert!(read("scan", b"1 2 3", 0).unwrap_err().contains("extension \"\""));
         assert!(read("a.pcd", b"1 2 3", 0).unwrap_err().starts_with("a.pcd: not a valid PCD file: "));
         assert!(read("a.pcap", b"1 2 3", 0).unwrap_err().starts_with("a.pcap: not a valid pcap file: "));

@@ -5,6 +5,7 @@ use std::net::SocketAddr;
 
 use glam::Vec3;
 
+use crate::cloud_warning::CloudWarning;
 use crate::source::SourceAddress;
 
 /// One scan as a file holds it.
@@ -48,6 +49,8 @@ pub enum ScanWarning {
         /// Place of that packet in the capture, from 1.
         packet: usize,
     },
+    /// Of a point cloud.
+    Cloud(CloudWarning),
     /// The capture is damaged at a packet, and what follows is not read.
     Unreadable {
         /// Place of that packet in the capture, from 1.
@@ -126,6 +129,7 @@ pub enum ScanWarning {
 impl fmt::Display for ScanWarning {
     fn fmt(&self, text: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Cloud(warning) => warning.fmt(text),
             Self::CutOff { packet } => {
                 write!(text, "the capture ends inside packet {packet}; what comes before is read")
             }
