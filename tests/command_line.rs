@@ -97,6 +97,7 @@ fn json_has_every_name_and_the_same_seed_gives_the_same_digest() {
         "reason",
         "sim_time_s",
         "ticks",
+        "warnings",
     ];
     assert_eq!(names("", &first), expected);
     assert_eq!(first["outcome"], "reached");

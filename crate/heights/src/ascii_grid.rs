@@ -26,7 +26,7 @@ struct Header {
     punctuation: Punctuation,
 }
 
-/// What separates whole numbers from fractions in a file.
+/// What separates whole numbers from fractions in a header, or in the heights: they may differ.
 #[derive(Default)]
 struct Punctuation {
     points: bool,
@@ -56,7 +56,7 @@ pub(crate) fn read(bytes: &[u8], import: &Import) -> Result<Grid, Fault> {
     }
     let mut samples = Samples::new(columns, rows)?;
     let meaning = Meaning { no_data: header.no_data, scale: 1.0, offset_m: 0.0 };
-    let mut punctuation = header.punctuation;
+    let mut punctuation = Punctuation::default();
     let mut at = 0;
     for (index, line) in lines {
         for token in line.split_ascii_whitespace() {
@@ -78,7 +78,11 @@ pub(crate) fn read(bytes: &[u8], import: &Import) -> Result<Grid, Fault> {
         let reason = format!("it ends after {at} of {count} heights");
         return Err(Fault::damaged(FORMAT, reason));
     }
-    let warnings = if punctuation.commas { vec![DECIMAL_COMMAS.to_owned()] } else { Vec::new() };
+    let warnings = if punctuation.commas || header.punctuation.commas {
+        vec![DECIMAL_COMMAS.to_owned()]
+    } else {
+        Vec::new()
+    };
     samples.grid(cell_m, FirstRow::North, import.holes, warnings)
 }
 
@@ -149,13 +153,13 @@ impl Header {
 }
 
 impl Punctuation {
-    /// A number with a decimal point, or with a decimal comma in a file that has no points.
+    /// A number with a decimal point, or with a decimal comma where there are no points beside it.
     fn number(&mut self, token: &str, place: impl Fn() -> String, expected: &str) -> Result<f64, Fault> {
         let fault = |expected: &str| Fault::value(place(), token, expected);
         let Some((whole, fraction)) = token.split_once(',') else {
             self.points |= token.contains('.');
             if self.points && self.commas {
-                return Err(fault("either decimal points or decimal commas in a file"));
+                return Err(fault("either decimal points or decimal commas"));
             }
             return token.parse().map_err(|_| fault(expected));
         };
@@ -168,7 +172,7 @@ impl Punctuation {
         }
         self.commas = true;
         if self.points {
-            return Err(fault("either decimal points or decimal commas in a file"));
+            return Err(fault("either decimal points or decimal commas"));
         }
         format!("{whole}.{fraction}").parse().map_err(|_| fault(expected))
     }
@@ -222,6 +226,8 @@ mod tests {
         let commas = grid("ncols 2\nnrows 2\ncellsize 0,5\n1,25 2 -3,5 4\n");
         assert_eq!((commas.heights_m, commas.cell_m), (vec![-3.5, 4.0, 1.25, 2.0], 0.5));
         assert_eq!(commas.warnings, [DECIMAL_COMMAS]);
+        let header_with_point = grid("ncols 2\nnrows 2\ncellsize 0.5\n1,25 2 -3,5 4\n");
+        assert_eq!((header_with_point.cell_m, header_with_point.warnings.len()), (0.5, 1));
         let head = "ncols 2\nnrows 2\ncellsize 1\n";
         let both = "expected either decimal points or decimal commas";
         assert!(fault(&format!("{head}1,2 3.4 5 6")).contains(both));

@@ -87,9 +87,9 @@ impl Samples {
                 Holes::Refuse => {
                     let row_and_column =
                         format!("{place}row {}, column {}", at / self.columns + 1, at % self.columns + 1);
-                    let are = if holes == 1 { "sample is a hole" } else { "samples are holes" };
+                    let are = if holes == 1 { "is a hole" } else { "are holes" };
                     let expected = format!(
-                        "a height in metres; {holes} of {all} {are}: holes = \"fill\" or \"crop\" under [import] of a recipe \
+                        "a height in metres; {holes} of {all} samples {are}: holes = \"fill\" or \"crop\" under [import] of a recipe \
                          makes ground of the rest"
                     );
                     return Err(Fault::value(row_and_column, value, expected));
