@@ -26,9 +26,8 @@ pub(crate) struct Meaning {
 impl Meaning {
     /// The height of a number, in metres; nothing for a hole.
     pub(crate) fn height_m(&self, number: f64) -> Option<f64> {
-        let plain = self.scale == 1.0 && self.offset_m == 0.0;
-        let is_marked =
-            self.no_data.is_some_and(|hole| number == hole || (number - hole).abs() <= 1e-6 * hole.abs());
+        let plain = (self.scale - 1.0).abs() < 1e-12 && self.offset_m == 0.0;
+        let is_marked = self.no_data.is_some_and(|hole| (number - hole).abs() <= 1e-6 * hole.abs());
         let is_usual = number == VOID || (plain && number == USUAL_HOLE);
         let height_m = number * self.scale + self.offset_m;
         (!is_marked && !is_usual && (LOWEST_M..=HIGHEST_M).contains(&height_m)).then_some(height_m)
@@ -147,15 +146,6 @@ fn turn(heights_m: &mut [f32], columns: usize) {
     }
 }
 
-/// A file's name without folders and extension, and its extension in lower case.
-pub fn split_name(file: &str) -> (&str, String) {
-    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
-    match name.rsplit_once('.') {
-        Some((stem, extension)) => (stem, extension.to_ascii_lowercase()),
-        None => (name, String::new()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,11 +196,5 @@ mod tests {
         assert!(holed(&[0, 1]).grid(1.0, FirstRow::North, Holes::Fill, Vec::new()).is_ok());
         let fault = holed(&[0]).grid(1.0, FirstRow::North, Holes::Crop, Vec::new()).unwrap_err();
         assert!(fault.to_string().ends_with("expected at least 2 × 2"), "{fault}");
-    }
-
-    #[test]
-    fn names_are_split() {
-        assert_eq!(split_name("a/b.c\\d.e.TIF"), ("d.e", "tif".to_owned()));
-        assert_eq!(split_name("a.b/c"), ("c", String::new()));
     }
 }

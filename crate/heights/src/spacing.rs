@@ -18,7 +18,7 @@ pub(crate) fn square(place: &str, east: f64, north: f64, metres: f64) -> Result<
         let found = format!("{east} × {north}");
         return Err(Fault::value(place, found, format!("square pixels; resample the grid, or {WAY_OUT}")));
     }
-    let side = if east == north { east } else { 0.5 * (east + north) };
+    let side = 0.5 * (east + north);
     let cell_m = side * metres;
     if cell_m < MIN_CELL_M {
         let expected =

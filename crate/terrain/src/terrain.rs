@@ -30,27 +30,9 @@ pub struct TerrainError {
 /// What is wrong with a terrain file.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum TerrainFault {
-    /// The file is damaged or not of the format its extension says.
-    #[error("not a valid {format} file: {reason}")]
-    Damaged {
-        /// The format expected.
-        format: &'static str,
-        /// What the reader met, with the place where known.
-        reason: String,
-    },
-    /// A value is not allowed.
-    #[error("{place} = {value}: expected {expected}")]
-    Value {
-        /// Where in the file.
-        place: String,
-        /// What stands there.
-        value: String,
-        /// What is allowed there.
-        expected: String,
-    },
-    /// A file of heights makes no grid.
+    /// A file that cannot be read, or a value in it that is not allowed.
     #[error(transparent)]
-    Heights(#[from] Fault),
+    File(#[from] Fault),
     /// The values make no height field.
     #[error(transparent)]
     Field(#[from] FieldError),
@@ -58,11 +40,11 @@ pub enum TerrainFault {
 
 impl TerrainFault {
     pub(crate) fn value(place: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Self {
-        Self::Value { place: place.into(), value: value.to_string(), expected: expected.into() }
+        Fault::value(place, value, expected).into()
     }
 
     pub(crate) fn damaged(format: &'static str, reason: impl ToString) -> Self {
-        Self::Damaged { format, reason: reason.to_string() }
+        Fault::damaged(format, reason).into()
     }
 
     pub(crate) fn of(self, file: &str) -> TerrainError {

@@ -84,7 +84,7 @@ impl Alpha {
     fn put(&mut self, at: usize, number: f64) {
         if number == 0.0 {
             self.clear.push(at);
-        } else if *self.opaque.get_or_insert(number) != number {
+        } else if self.opaque.get_or_insert(number).to_bits() != number.to_bits() {
             self.has_more = true;
         }
     }

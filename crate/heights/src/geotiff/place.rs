@@ -68,12 +68,18 @@ impl Place {
             (None, Some(unit)) => (unit, "the unit of the grid, as the file has no VerticalUnits"),
             (None, None) => return 1.0,
         };
-        if unit.metres != 1.0 {
+        if !unit.is_metre() {
             let Unit { name, metres } = unit;
             warnings
                 .push(format!("heights are in units of {metres:.7} m ({name}; {why}): converted to metres"));
         }
         unit.metres
+    }
+}
+
+impl Unit {
+    fn is_metre(&self) -> bool {
+        (self.metres - 1.0).abs() < 1e-12
     }
 }
 
@@ -154,7 +160,7 @@ pub(super) fn read(
         }
         (None, Some(axes)) => {
             let unit = linear.clone().unwrap_or(Unit { name: "metre".to_owned(), metres: 1.0 });
-            if unit.metres != 1.0 {
+            if !unit.is_metre() {
                 let Unit { name, metres } = &unit;
                 warnings
                     .push(format!("the spacing is in units of {metres:.7} m ({name}): converted to metres"));
