@@ -102,7 +102,10 @@ fn start_z_of(folder: &Path, scenario: &str) -> Result<f64, String> {
 
 /// Refused without an option, and the ground of the good file with either.
 fn border(report: &Report) -> Result<(), String> {
-    refused(report, &["row 1, column 1 = -9999", "140 of 1271 samples are holes", "holes = \"fill\" or \"crop\""])?;
+    refused(
+        report,
+        &["row 1, column 1 = -9999", "140 of 1271 samples are holes", "holes = \"fill\" or \"crop\""],
+    )?;
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     let write = |name: &str, text: &[u8]| {
         fs::write(folder.path().join(name), text).map_err(|error| error.to_string())

@@ -46,6 +46,11 @@ impl Holes {
     /// The words for it in a recipe.
     pub const NAMES: [(&str, Self); 3] =
         [("refuse", Self::Refuse), ("fill", Self::Fill), ("crop", Self::Crop)];
+
+    /// The word for it in a recipe.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, holes)| *holes == self).map_or("", |(name, _)| name)
+    }
 }
 
 impl FromStr for Holes {
