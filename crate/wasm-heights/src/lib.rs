@@ -17,6 +17,7 @@ pub fn start() {
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Heights {
+    file: String,
     grid: Grid,
 }
 
@@ -40,10 +41,10 @@ impl Heights {
         self.grid.cell_m
     }
 
-    /// What was done to the file's numbers that its owner should know.
+    /// What was done to the file's numbers that its owner should know, each with the file's name.
     #[wasm_bindgen(getter)]
     pub fn warnings(&self) -> Vec<String> {
-        self.grid.warnings.clone()
+        self.grid.warnings.iter().map(|warning| format!("{}: {warning}", self.file)).collect()
     }
 
     /// The heights in metres. They can be taken once.
@@ -68,5 +69,7 @@ pub fn read_heights(
     let named = |fault| JsError::new(&format!("{file}: {fault}"));
     let import =
         Import { cell_m, range_m: height_min_m.zip(height_max_m), holes: holes.parse().map_err(named)? };
-    mapless_heights::read(file, bytes, &import).map(|grid| Heights { grid }).map_err(named)
+    mapless_heights::read(file, bytes, &import)
+        .map(|grid| Heights { file: file.to_owned(), grid })
+        .map_err(named)
 }

@@ -25,7 +25,7 @@ export class Heights {
      */
     readonly rows: number;
     /**
-     * What was done to the file's numbers that its owner should know.
+     * What was done to the file's numbers that its owner should know, each with the file's name.
      */
     readonly warnings: string[];
 }
