@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 use js_sys::{Array, Float32Array, Object, Reflect, Uint8Array};
-use mapless_wasm::{Session, generated_recipe, level_places, read_scenario, terrain_preview};
+use mapless_wasm::{Session, generated_recipe, import_of, level_places, read_scenario, terrain_preview};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::{JsCast as _, JsError, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -438,8 +438,8 @@ fn a_recipe_that_imports_asks_for_the_file() {
     let fault = message(level_places(terrain(recipe)).unwrap_err());
     assert!(fault.contains("expected the file heights.asc"), "{fault}");
     let grid = js_sys::JSON::parse(r#"{ "columns": 3, "rows": 3, "cell_m": 20 }"#).unwrap();
-    let heights = Float32Array::from([0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0].as_slice());
-    Reflect::set(&grid, &"heights_m".into(), &heights).unwrap();
+    let bump = Float32Array::from([0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0].as_slice());
+    Reflect::set(&grid, &"heights_m".into(), &bump).unwrap();
     let files = JsValue::from(terrain::<mapless_wasm::TerrainFiles>(recipe));
     Reflect::set(&files, &"imported".into(), &grid).unwrap();
     let preview = terrain_preview(Ts::new_unchecked(files), 50);
