@@ -5,7 +5,8 @@ use crate::{Fault, Grid, Import, ascii_grid, geotiff, png_image};
 /// Reads a grid in the format that the file's extension names.
 ///
 /// # Errors
-/// [`Fault`] names the place in the file, the value and what was expected, and the way out where there is one.
+/// [`Fault`] names the place in the file, the value and what was expected, and the way out where there is
+/// one.
 pub fn read(file: &str, bytes: &[u8], import: &Import) -> Result<Grid, Fault> {
     let (_, extension) = split_name(file);
     match extension.as_str() {

@@ -14,7 +14,7 @@ pub struct Grid {
     pub cell_m: f64,
     /// Heights in metres: row by row from the south, each from west to east.
     pub heights_m: Vec<f32>,
-    /// What was done to the file's numbers that its owner should know, in whole sentences without a full stop.
+    /// What was done to the file's numbers that its owner should know, in sentences without a full stop.
     pub warnings: Vec<String>,
 }
 

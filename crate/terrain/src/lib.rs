@@ -1,7 +1,7 @@
 //! Terrains from files and by seed: recipes, imported grids of heights, and what generates recipes.
 //!
-//! `mapless-heights` reads the grids. On wasm it does so in a module of its own, so that nothing here calls its
-//! readers there.
+//! `mapless-heights` reads the grids. On wasm it does so in a module of its own, so that nothing here calls
+//! its readers there.
 //!
 //! Everything here is a pure function of its arguments, apart from [`load_terrain`], which reads files.
 

@@ -1,5 +1,5 @@
-//! GeoTIFF with one band of heights, and perhaps an alpha band or a mask beside it. Of its place on Earth only the
-//! spacing is used and which way is up.
+//! GeoTIFF with one band of heights, and perhaps an alpha band or a mask beside it. Of its place on Earth
+//! only the spacing is used and which way is up.
 //!
 //! The directories are read by the crate `tiff`, strips and tiles here (`pixels`).
 

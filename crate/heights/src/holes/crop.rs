@@ -31,7 +31,8 @@ pub(crate) fn largest_whole(columns: usize, heights_m: &[f32]) -> Rectangle {
     let mut largest = Rectangle::default();
     // For each column, how many rows there are without a hole up to the present one.
     let mut free = vec![0_usize; columns];
-    // Columns from which a rectangle may still grow to the east, each with its number of rows, which increase.
+    // Columns from which a rectangle may still grow to the east, each with its number of rows, which
+    // increase.
     let mut open: Vec<(usize, usize)> = Vec::new();
     for (row, line) in heights_m.chunks_exact(columns).enumerate() {
         for (rows, height_m) in free.iter_mut().zip(line) {

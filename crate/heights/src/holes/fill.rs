@@ -1,7 +1,8 @@
 //! Heights for holes, from around them: Laplace's equation, level across the border of the grid.
 //!
-//! Every hole becomes the mean of its neighbours, so that nothing in it is higher or lower than what surrounds
-//! it. Grids of half the resolution, each solved before the next finer one, carry heights far into wide holes.
+//! Every hole becomes the mean of its neighbours, so that nothing in it is higher or lower than what
+//! surrounds it. Grids of half the resolution, each solved before the next finer one, carry heights far into
+//! wide holes.
 
 /// Sweeps over the holes of each grid: what they leave over is smooth, and small from the coarser grid.
 const SWEEPS: usize = 40;

@@ -63,7 +63,8 @@
 //! [import]
 //! file = "island.png"            # .png, .asc, .tif or .tiff, relative to the recipe
 //! cell_m = 0.2                   # in place of the file's own spacing
-//! holes = "fill"                 # from the heights around; "crop" to the largest rectangle without; default "refuse"
+//! holes = "fill"                 # from the heights around, or "crop" to the largest part without; default
+//!                                # "refuse"
 //! height_min_m = -2.0            # of black, and of white; PNG only, both or neither
 //! height_max_m = 8.0
 //! ```
