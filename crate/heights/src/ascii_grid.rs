@@ -318,7 +318,9 @@ mod tests {
 
         #[test]
         fn mutations_never_panic(at in 0..70usize, byte in any::<u8>()) {
-            let mut bytes = b"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nnodata_value -9\n1 2 3 4\n".to_vec();
+            let text =
+                "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nnodata_value -9\n1 2 3 4\n";
+            let mut bytes = text.as_bytes().to_vec();
             bytes[at] = byte;
             for (_, holes) in Holes::NAMES {
                 drop(read(&bytes, &Import { holes, ..Import::default() }));

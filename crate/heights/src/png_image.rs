@@ -80,8 +80,8 @@ fn own_cell_m(info: &Info, warnings: &mut Vec<String>) -> Result<f64, Fault> {
     // A printer's dots are smaller, and a pixel cannot be larger than 1 m.
     if ![east, north].iter().all(|side| (MIN_CELL_M..=1.0).contains(side)) {
         warnings.push(format!(
-            "pHYs = {} × {} pixels per metre is no spacing of heights but a printer's: {DEFAULT_CELL_M} m is taken in \
-             its place; cell_m under [import] of a recipe says another",
+            "pHYs = {} × {} pixels per metre is a printer's, not a spacing of heights: {DEFAULT_CELL_M} m is \
+             taken in its place; cell_m under [import] of a recipe says another",
             pitch.xppu, pitch.yppu
         ));
         return Ok(DEFAULT_CELL_M);
@@ -234,12 +234,15 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_written_image_reads_back(width in 2..9u32, height in 2..9u32, levels in prop::collection::vec(any::<u16>(), 64)) {
+        fn a_written_image_reads_back(
+            width in 2..9u32, height in 2..9u32, levels in prop::collection::vec(any::<u16>(), 64),
+        ) {
             let columns = width as usize;
             let levels = &levels[..columns * height as usize];
             let grid = plain(&grey((width, height), levels, None)).unwrap();
             let rows = levels.chunks_exact(columns).rev().flatten();
-            let expected: Vec<f32> = rows.map(|&level| (f64::from(level) * METRES_PER_LEVEL) as f32).collect();
+            let height_m = |&level: &u16| (f64::from(level) * METRES_PER_LEVEL) as f32;
+            let expected: Vec<f32> = rows.map(height_m).collect();
             prop_assert_eq!(grid.heights_m, expected);
         }
     }

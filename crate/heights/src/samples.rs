@@ -88,14 +88,14 @@ impl Samples {
                         format!("{place}row {}, column {}", at / self.columns + 1, at % self.columns + 1);
                     let are = if holes == 1 { "is a hole" } else { "are holes" };
                     let expected = format!(
-                        "a height in metres; {holes} of {all} samples {are}: holes = \"fill\" or \"crop\" under [import] of a recipe \
-                         makes ground of the rest"
+                        "a height in metres; {holes} of {all} samples {are}: holes = \"fill\" or \"crop\" \
+                         under [import] of a recipe makes ground of the rest"
                     );
                     return Err(Fault::value(row_and_column, value, expected));
                 }
                 Holes::Fill if 2 * holes > all => {
-                    let expected = "at most half of the samples, to fill them; holes = \"crop\" takes the largest \
-                                    rectangle without";
+                    let expected = "at most half of the samples, to fill them; holes = \"crop\" takes the \
+                                    largest rectangle without";
                     return Err(Fault::value("holes", format!("{holes} of {all}"), expected));
                 }
                 Holes::Fill => {

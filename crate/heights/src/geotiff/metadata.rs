@@ -58,8 +58,10 @@ mod tests {
     #[test]
     fn the_first_band_has_scale_offset_and_unit() {
         let xml = "<GDALMetadata>\n  <Item name=\"OFFSET\" sample=\"0\" role=\"offset\">-10</Item>\n  \
-            <Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.001</Item>\n  <Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item>\n  \
-            <Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">ft</Item><Item name=\"AREA\">x</Item>\n</GDALMetadata>\n";
+            <Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.001</Item>\n  \
+            <Item name=\"SCALE\" sample=\"1\" role=\"scale\">7</Item>\n  \
+            <Item name=\"UNITTYPE\" sample=\"0\" role=\"unittype\">ft</Item>\
+            <Item name=\"AREA\">x</Item>\n</GDALMetadata>\n";
         let expected = Metadata { scale: Some(0.001), offset: Some(-10.0), metres: Some(0.3048) };
         assert_eq!(Metadata::parse(xml), Ok(expected));
         assert_eq!(Metadata::parse("<GDALMetadata></GDALMetadata>"), Ok(Metadata::default()));

@@ -187,7 +187,8 @@ impl Axes {
                 return Err(Fault::value("ModelPixelScale", format!("{scale:?}"), "two or three numbers"));
             };
             if *north < 0.0 {
-                let sign = "ModelPixelScale is negative northwards: the first row is read as the northern one, as GDAL does";
+                let sign = "ModelPixelScale is negative northwards: the first row is read as the northern \
+                            one, as GDAL does";
                 warnings.push(sign.to_owned());
             }
             let tag = "ModelPixelScale";

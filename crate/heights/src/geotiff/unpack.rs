@@ -15,7 +15,8 @@ pub(super) fn unpack(compression: u64, packed: &[u8], length: usize) -> Result<C
         PACK_BITS => Cow::Owned(pack_bits(packed, length)),
         50000 => Cow::Owned(zstd(packed, length)?),
         other => {
-            let expected = "none, LZW, Deflate, PackBits or ZSTD; gdal_translate -co COMPRESS=DEFLATE writes one of them";
+            let expected = "none, LZW, Deflate, PackBits or ZSTD; gdal_translate -co COMPRESS=DEFLATE \
+                            writes one of them";
             return Err(Fault::value("Compression", name(other), expected));
         }
     };

@@ -94,9 +94,12 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_rectangle_is_larger(columns in 1..7usize, holes in prop::collection::vec(any::<bool>(), 1..42)) {
+        fn no_rectangle_is_larger(
+            columns in 1..7usize, holes in prop::collection::vec(any::<bool>(), 1..42),
+        ) {
             let whole = holes.len() / columns * columns;
-            let heights: Vec<f32> = holes[..whole].iter().map(|&hole| if hole { f32::NAN } else { 1.0 }).collect();
+            let height = |&hole: &bool| if hole { f32::NAN } else { 1.0 };
+            let heights: Vec<f32> = holes[..whole].iter().map(height).collect();
             let found = largest_whole(columns, &heights);
             let cut = found.cut(columns, &heights);
             prop_assert_eq!(cut.len(), area_by_trial(columns, &heights));

@@ -133,7 +133,8 @@ mod tests {
     proptest! {
         #[test]
         fn what_is_filled_is_no_pit_and_no_peak(
-            columns in 2..12usize, heights in prop::collection::vec(prop::option::of(-50.0f32..900.0), 24..140),
+            columns in 2..12usize,
+            heights in prop::collection::vec(prop::option::of(-50.0f32..900.0), 24..140),
         ) {
             let whole = heights.len() / columns * columns;
             let given: Vec<f32> = heights[..whole].iter().map(|height| height.unwrap_or(f32::NAN)).collect();
