@@ -97,6 +97,7 @@ fn json_has_every_name_and_the_same_seed_gives_the_same_digest() {
         "reason",
         "sim_time_s",
         "ticks",
+        "warnings",
     ];
     assert_eq!(names("", &first), expected);
     assert_eq!(first["outcome"], "reached");
@@ -303,6 +304,46 @@ fn a_bad_terrain_is_refused_by_scenario_and_terrain() {
 
     folder.write("typo.toml", RECIPE.replace("cell_m", "cel_m"));
     folder.refuses(&on("typo.toml"), "error: bad.toml: terrain: typo.toml: ", &["cel_m", "line 3"]);
+}
+
+#[test]
+fn what_was_done_to_a_file_of_heights_is_said_as_text_and_as_data() {
+    let folder = Folder::new();
+    // A meadow of 20 m by 10 m with decimal commas, and a frame without heights.
+    let line = |row: i32| match row {
+        0 | 20 => "-9999 ".repeat(41),
+        _ => format!("-9999 {}-9999", "1,25 ".repeat(39)),
+    };
+    let lines: Vec<String> = (0..21).map(line).collect();
+    folder.write("framed.asc", format!("ncols 41\nnrows 21\ncellsize 0,5\n{}\n", lines.join("\n")));
+    let on = |terrain: &str| SCENARIO.replace("meadow.toml", terrain);
+    let refusal = ["row 1, column 1 = -9999", "120 of 861 samples are holes", "holes = \"fill\" or \"crop\""];
+    folder.refuses(&on("framed.asc"), "error: bad.toml: terrain: framed.asc: line 4, ", &refusal);
+
+    let recipe = "name = \"framed\"\n[import]\nfile = \"framed.asc\"\nholes = ";
+    for (holes, done) in
+        [("fill", "filled from the heights around"), ("crop", "columns 2 to 40, rows 2 to 20")]
+    {
+        folder.write("framed.toml", format!("{recipe}\"{holes}\"\n"));
+        folder.write("meadow-drive.toml", on("framed.toml"));
+        let output = folder.run("meadow-drive.toml", &["--json"]);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let warnings: Vec<&str> =
+            json["warnings"].as_array().unwrap().iter().map(|warning| warning.as_str().unwrap()).collect();
+        assert_eq!(warnings.len(), 2, "{warnings:?}");
+        assert_eq!(warnings[0], "framed.asc: decimal commas are read as decimal points");
+        assert!(warnings[1].starts_with("framed.asc: 120 of 861 samples were holes: "), "{warnings:?}");
+        assert!(warnings[1].contains(done), "{warnings:?}");
+        let said: String = warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
+        assert_eq!(String::from_utf8_lossy(&output.stderr), said);
+    }
+    folder.write("framed.toml", format!("{recipe}\"dig\"\n"));
+    folder.refuses(
+        &on("framed.toml"),
+        "error: bad.toml: terrain: framed.toml: import.holes = \"dig\"",
+        &["\"crop\""],
+    );
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use mapless::PlannerConfig;
-use mapless_terrain::{load_terrain, load_terrain_bytes};
+use mapless_terrain::{Fault, load_recipe, load_terrain};
 use mapless_trials::{ProfileAccuracy, TrialError, profile_accuracy};
 use mapless_world::{Caster, HeightField, RobotConfig, SensorConfig};
 
@@ -40,8 +40,10 @@ fn the_profile_can_be_trusted() {
             "name = \"fresh\"\ndescription = \"Noise.\"\nsize_m = [50.0, 50.0]\ncell_m = 0.2\nseed = {seed}\n\
              [[noise]]\namplitude_m = {height_m:?}\nwavelength_m = {wavelength_m:?}\noctaves = 4\n"
         );
-        let terrain =
-            load_terrain_bytes("fresh.toml", recipe.as_bytes(), &mut |_| Err("none".into())).unwrap();
+        let terrain = load_recipe("fresh.toml", recipe.as_bytes(), &mut |_, _| {
+            Err(Fault::Read { reason: "none".into() })
+        })
+        .unwrap();
         fields.push((format!("fresh {seed}"), terrain.field));
     }
     let (mut bias, mut columns) = (0.0, 0.0);

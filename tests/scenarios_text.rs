@@ -42,8 +42,8 @@ impl Bundled {
     pub fn trial(&self) -> Result<Trial, String> {
         let scenario = Scenario::parse(self.name, self.scenario).map_err(|e| e.to_string())?;
         let terrain =
-            mapless_terrain::load_terrain_bytes(&scenario.terrain, self.terrain.as_bytes(), &mut |file| {
-                Err(format!("{file}: not bundled"))
+            mapless_terrain::load_recipe(&scenario.terrain, self.terrain.as_bytes(), &mut |_, _| {
+                Err(mapless_terrain::Fault::Read { reason: "not bundled".to_owned() })
             })
             .map_err(|e| e.to_string())?;
         let seed = scenario.seed;

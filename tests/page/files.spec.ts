@@ -101,6 +101,35 @@ test('heights from ASCII, GeoTIFF and PNG are the ground, and drive', async ({ m
   expect(await difference(page)).toBeLessThan(1e-6);
 });
 
+test('holes are refused with their place, or become what is chosen, and what was done is said', async ({
+  mapless: page,
+}) => {
+  const notice = page.locator('#notice-text');
+  const lines = ascii().split('\n');
+  // The northern edge.
+  const framed = [...lines.slice(0, 3), Array(SIDE).fill('-9999').join(' '), ...lines.slice(4)].join('\n');
+  await open(page, file('framed.asc', framed));
+  await expect(notice).toContainText('line 4, row 1, column 1 = -9999: expected a height in metres; 61 of 3721');
+  expect((await state(page)).scenario).not.toBe('framed');
+
+  await page.locator('#holes').selectOption('fill', { force: true });
+  await open(page, file('framed.asc', framed));
+  await until(page, (now) => now.scenario === 'framed');
+  await expect(notice).toContainText('61 of 3721 samples were holes: filled from the heights around.');
+  // The filled edge is as high as the row before, to what a step of half a metre rises.
+  expect(await difference(page)).toBeLessThan(0.1);
+  const experiment = await page.evaluate(() => window.mapless?.experiment());
+  expect(experiment?.terrain).toMatchObject({ recipe: expect.stringContaining('holes = "fill"') });
+
+  await page.locator('#holes').selectOption('crop', { force: true });
+  await open(page, file('cut.asc', framed));
+  await until(page, (now) => now.scenario === 'cut');
+  await expect(notice).toContainText('columns 1 to 61, rows 2 to 61 of the file are the ground');
+  const height = (y: number) => page.evaluate((y) => window.mapless?.heightAt({ x: 1, y }), y);
+  expect(await height(29.5)).toBeDefined();
+  expect(await height(29.75)).toBeUndefined();
+});
+
 test('a scenario opens with its own terrain, and one of the catalogue by itself', async ({ mapless: page }) => {
   const head =
     'start = [4.0, 5.0, 0.25]\ngoal = [20.0, 21.0]\nseed = 5\n\n[planner.decision]\nsteepness_weight = 0.5\n';

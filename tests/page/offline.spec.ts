@@ -1,4 +1,4 @@
-import { expect, loaded, state, test, until } from './page.ts';
+import { expect, file, loaded, state, test, until } from './page.ts';
 
 // A small view leaves a processor without graphics card its time.
 test.use({ viewport: { width: 720, height: 560 } });
@@ -12,6 +12,9 @@ test('after the first visit the page opens and drives without a network', async 
   // What is loaded only when it is asked for is there, too.
   await page.evaluate(() => window.mapless?.loadScenario('vta'));
   expect((await state(page)).scenario).toBe('vta');
+  const heights = 'ncols 60\nnrows 60\ncellsize 0.5\n' + `${'0 '.repeat(60)}\n`.repeat(60);
+  await page.locator('#files').setInputFiles([file('flat.asc', heights)]);
+  await until(page, (now) => now.scenario === 'flat');
   const waiting = page.waitForEvent('download');
   await page.locator('#save-mcap').click();
   expect((await waiting).suggestedFilename()).toMatch(/\.mcap$/);

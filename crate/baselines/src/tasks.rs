@@ -7,7 +7,7 @@
 use crate::oracle::{OracleConfig, OracleError, OraclePath, PlanPose, SafePoses};
 use glam::DVec2;
 use mapless_terrain::generate::{Difficulty, terrain_recipe};
-use mapless_terrain::{Terrain, TerrainError, load_terrain_bytes};
+use mapless_terrain::{Fault, Terrain, TerrainError, load_recipe};
 use mapless_world::RobotConfig;
 use mapless_world::random::{Sequence, key};
 use std::f64::consts::TAU;
@@ -122,8 +122,9 @@ impl Task {
             let place = key(key(seed, difficulty as u64), u64::from(index));
             let terrain_seed = key(place, u64::from(drawn));
             let recipe = terrain_recipe(&name.to_string(), difficulty, terrain_seed);
-            let no_import = &mut |file: &str| Err(format!("{file}: expected no import"));
-            let terrain = load_terrain_bytes(&format!("{name}.toml"), recipe.as_bytes(), no_import)?;
+            let no_import =
+                &mut |_: &str, _: &_| Err(Fault::Read { reason: "expected no import".to_owned() });
+            let terrain = load_recipe(&format!("{name}.toml"), recipe.as_bytes(), no_import)?;
             let safe_poses = SafePoses::new(&terrain.field, &robot, &config)?;
             let mut draw = Sequence::new(key(terrain_seed, 1));
             let Some((start, goal_m)) = start_and_goal(&safe_poses, &mut draw) else { continue };

@@ -13,6 +13,7 @@ use crate::any_trial::AnyTrial;
 use crate::log::Log;
 use crate::parsers;
 use crate::progress::Progress;
+use crate::setup;
 use crate::trial_report::{Report, Subject};
 
 #[derive(clap::Args)]
@@ -43,6 +44,7 @@ pub(crate) struct Args {
 /// Runs the trial and shows its result.
 pub(crate) fn run(args: &Args) -> anyhow::Result<Outcome> {
     let LoadedScenario { scenario, terrain } = LoadedScenario::read(&args.scenario)?;
+    setup::show_warnings(&terrain.warnings);
     let file = || args.scenario.display().to_string();
     let seed = args.seed.unwrap_or(scenario.seed);
     let mut config = args.planner.planner_config(&scenario).with_context(file)?;
@@ -66,7 +68,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Outcome> {
         roll_limit_rad: scenario.robot.roll_limit_rad,
         pitch_limit_rad: scenario.robot.pitch_limit_rad,
     };
-    let report = Report::new(subject, &trial, outcome, planner_times);
+    let report = Report::new(subject, &trial, outcome, planner_times, terrain.warnings);
     if let Some(log) = log {
         log.finish(&trial, &report)?;
     }

@@ -32,6 +32,7 @@ impl Setup {
     /// The scenario with its terrain, and the planner's configuration.
     pub(crate) fn load(&self) -> anyhow::Result<(LoadedScenario, PlannerConfig)> {
         let loaded = LoadedScenario::read(&self.scenario)?;
+        show_warnings(&loaded.terrain.warnings);
         let config = loaded.scenario.planner_config(self.planner.planner).with_context(|| self.file())?;
         Ok((loaded, self.planner.apply(config)))
     }
@@ -39,6 +40,13 @@ impl Setup {
     /// The scenario file's name, for messages.
     pub(crate) fn file(&self) -> String {
         self.scenario.display().to_string()
+    }
+}
+
+/// Says what was done to files that their owner should know.
+pub(crate) fn show_warnings(warnings: &[String]) {
+    for warning in warnings {
+        eprintln!("warning: {warning}");
     }
 }
 

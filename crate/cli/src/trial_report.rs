@@ -39,6 +39,8 @@ pub(crate) struct Report {
     pub(crate) sim_time_s: f64,
     pub(crate) planner_ms: PlannerTime,
     pub(crate) digest: String,
+    /// What was done to the terrain's file that its owner should know.
+    pub(crate) warnings: Vec<String>,
 }
 
 /// Quantiles of the time of one planner step, by wall clock, in milliseconds.
@@ -54,6 +56,7 @@ impl Report {
         trial: &AnyTrial,
         outcome: Outcome,
         planner_times: Vec<Duration>,
+        warnings: Vec<String>,
     ) -> Self {
         Self {
             subject,
@@ -64,6 +67,7 @@ impl Report {
             sim_time_s: trial.time_s(),
             planner_ms: PlannerTime::of(planner_times),
             digest: trial.digest(),
+            warnings,
         }
     }
 

@@ -11,6 +11,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use mapless_campaign::{Done, Options, Plan, Progress, Shard};
 use mapless_trials::Outcome;
 
+use crate::setup;
+
 /// Without a terminal, a line of progress is written this often.
 const LINE_EVERY: Duration = Duration::from_secs(30);
 
@@ -37,6 +39,7 @@ pub(crate) struct Args {
 /// Runs the campaign, or the rest of it.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let plan = Plan::read(&args.campaign)?;
+    plan.routes.iter().for_each(|route| setup::show_warnings(&route.loaded.terrain.warnings));
     if let Some(id) = &args.only {
         return replay(&plan, id, args.out.as_deref());
     }

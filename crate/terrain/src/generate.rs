@@ -118,7 +118,7 @@ impl FromStr for Difficulty {
     }
 }
 
-/// A recipe for [`crate::load_terrain_bytes`], with a name of one's own.
+/// A recipe for [`crate::load_recipe`], with a name of one's own.
 #[must_use]
 pub fn terrain_recipe(name: &str, difficulty: Difficulty, seed: u64) -> String {
     let level = difficulty.level();

@@ -1,5 +1,6 @@
 //! A terrain, and what may be wrong with its file.
 
+use mapless_heights::{Fault, Grid};
 use mapless_world::{FieldError, HeightField};
 use thiserror::Error;
 
@@ -12,6 +13,8 @@ pub struct Terrain {
     pub description: String,
     /// The ground.
     pub field: HeightField,
+    /// What was done to an imported grid that its owner should know, each with the file's name.
+    pub warnings: Vec<String>,
 }
 
 /// Why a terrain could not be loaded: the file and what is wrong with it.
@@ -27,36 +30,9 @@ pub struct TerrainError {
 /// What is wrong with a terrain file.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum TerrainFault {
-    /// The file could not be read.
-    #[error("cannot be read: {reason}")]
-    Read {
-        /// Why.
-        reason: String,
-    },
-    /// The file's extension is not that of a supported format.
-    #[error("extension \"{extension}\": expected .toml, .png, .asc, .tif or .tiff")]
-    Extension {
-        /// The extension found, without the dot.
-        extension: String,
-    },
-    /// The file is damaged or not of the format its extension says.
-    #[error("not a valid {format} file: {reason}")]
-    Damaged {
-        /// The format expected.
-        format: &'static str,
-        /// What the reader met, with the place where known.
-        reason: String,
-    },
-    /// A value is not allowed.
-    #[error("{place} = {value}: expected {expected}")]
-    Value {
-        /// Where in the file.
-        place: String,
-        /// What stands there.
-        value: String,
-        /// What is allowed there.
-        expected: String,
-    },
+    /// A file that cannot be read, or a value in it that is not allowed.
+    #[error(transparent)]
+    File(#[from] Fault),
     /// The values make no height field.
     #[error(transparent)]
     Field(#[from] FieldError),
@@ -64,14 +40,22 @@ pub enum TerrainFault {
 
 impl TerrainFault {
     pub(crate) fn value(place: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Self {
-        Self::Value { place: place.into(), value: value.to_string(), expected: expected.into() }
+        Fault::value(place, value, expected).into()
     }
 
     pub(crate) fn damaged(format: &'static str, reason: impl ToString) -> Self {
-        Self::Damaged { format, reason: reason.to_string() }
+        Fault::damaged(format, reason).into()
     }
 
     pub(crate) fn of(self, file: &str) -> TerrainError {
         TerrainError { file: file.to_owned(), fault: self }
     }
+}
+
+/// The ground of a grid, and its warnings, each with the file's name.
+pub(crate) fn ground(file: &str, grid: Grid) -> Result<(HeightField, Vec<String>), TerrainError> {
+    let Grid { columns, rows, cell_m, heights_m, warnings } = grid;
+    let field = HeightField::new(columns, rows, cell_m, heights_m)
+        .map_err(|fault| TerrainFault::from(fault).of(file))?;
+    Ok((field, warnings.into_iter().map(|warning| format!("{file}: {warning}")).collect()))
 }

@@ -23,7 +23,8 @@ pub use session::{
 pub use shared::{Metrics, Outcome, OverrideValue, Overrides, Pose};
 pub use stroke::{Stroke, StrokeKind};
 pub use terrain::{
-    Ground, GroundPatch, LevelPlaces, TerrainFiles, generated_recipe, level_places, terrain_preview,
+    Ground, GroundPatch, ImportRequest, LevelPlaces, TerrainFiles, generated_recipe, import_of, level_places,
+    terrain_preview,
 };
 
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -2,7 +2,7 @@
 
 use js_sys::{Float32Array, Uint8Array};
 use mapless_terrain::generate::{Difficulty, terrain_recipe};
-use mapless_terrain::load_terrain_bytes;
+use mapless_terrain::{Fault, Grid, Import, Imported, load_recipe};
 use mapless_world::{HeightField, SampleRect};
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
@@ -18,29 +18,41 @@ pub struct TerrainFiles {
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Uint8Array")]
     bytes: Uint8Array,
-    /// The file that the recipe imports, where it imports one.
-    #[tsify(optional, type = "Uint8Array")]
-    imported: Option<Bytes>,
+    /// The heights of the file that the recipe imports, where it imports one: read as `import_of` says.
+    #[tsify(optional)]
+    imported: Option<Ground>,
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(transparent)]
-struct Bytes(#[serde(with = "serde_wasm_bindgen::preserve")] Uint8Array);
+/// The file that a recipe imports, and how to read it.
+#[derive(Debug, Serialize, Tsify)]
+pub struct ImportRequest {
+    file: String,
+    /// In place of the file's own.
+    #[tsify(optional)]
+    cell_m: Option<f64>,
+    /// Of black and white.
+    #[tsify(optional)]
+    height_min_m: Option<f64>,
+    #[tsify(optional)]
+    height_max_m: Option<f64>,
+    /// `refuse`, `fill` or `crop`.
+    holes: String,
+}
 
 impl TerrainFiles {
     pub(crate) fn load(&self) -> Result<HeightField, JsError> {
-        let terrain = load_terrain_bytes(&self.name, &self.bytes.to_vec(), &mut |wanted| {
-            let Some(Bytes(imported)) = &self.imported else {
-                return Err(format!("expected the file {wanted} beside the recipe"));
-            };
-            Ok(imported.to_vec())
-        })?;
+        // A module of its own has read the file: this one is what every visitor loads.
+        let mut imported = |wanted: &str, _: &Import| {
+            let missing = || Fault::Read { reason: format!("expected the file {wanted} beside the recipe") };
+            self.imported.as_ref().map(Ground::grid).ok_or_else(missing)
+        };
+        let terrain = load_recipe(&self.name, &self.bytes.to_vec(), &mut imported)?;
         Ok(terrain.field)
     }
 }
 
 /// A regular grid of heights: row by row, each from west to east, the southern row first.
-#[derive(Debug, Serialize, Tsify)]
+#[derive(Debug, Serialize, Deserialize, Tsify)]
 pub struct Ground {
     columns: usize,
     rows: usize,
@@ -58,6 +70,12 @@ impl Ground {
             cell_m: field.cell_m(),
             heights_m: Float32Array::from(field.heights_m()),
         }
+    }
+
+    fn grid(&self) -> Grid {
+        let Self { columns, rows, cell_m, heights_m } = self;
+        let heights_m = heights_m.to_vec();
+        Grid { columns: *columns, rows: *rows, cell_m: *cell_m, heights_m, warnings: Vec::new() }
     }
 
     /// Every so many samples, so that there are at most `most` along a side.
@@ -133,6 +151,19 @@ pub struct LevelPlaces {
 pub fn generated_recipe(difficulty: &str, seed: u32) -> Result<String, JsError> {
     let difficulty: Difficulty = difficulty.parse()?;
     Ok(terrain_recipe(&format!("{difficulty} {seed}"), difficulty, seed.into()))
+}
+
+/// What a recipe imports; nothing where it imports nothing.
+///
+/// # Errors
+/// A fault of the recipe, with place, value and expectation.
+#[wasm_bindgen]
+pub fn import_of(file: &str, recipe: &str) -> Result<Option<Ts<ImportRequest>>, JsError> {
+    let Some(Imported { file, import }) = mapless_terrain::import_of(file, recipe)? else { return Ok(None) };
+    let Import { cell_m, range_m, holes } = import;
+    let (height_min_m, height_max_m) = range_m.unzip();
+    let holes = holes.name().to_owned();
+    give(&ImportRequest { file, cell_m, height_min_m, height_max_m, holes }).map(Some)
 }
 
 /// Two level places of a terrain far from each other, for a start and a goal.

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 use js_sys::{Array, Float32Array, Object, Reflect, Uint8Array};
-use mapless_wasm::{Session, generated_recipe, level_places, read_scenario, terrain_preview};
+use mapless_wasm::{Session, generated_recipe, import_of, level_places, read_scenario, terrain_preview};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::{JsCast as _, JsError, JsValue};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -453,11 +453,26 @@ fn a_recipe_that_imports_asks_for_the_file() {
     let recipe = "name = \"a\"\n\n[import]\nfile = \"heights.asc\"\n";
     let fault = message(level_places(terrain(recipe)).unwrap_err());
     assert!(fault.contains("expected the file heights.asc"), "{fault}");
-    let grid = "ncols 3\nnrows 3\ncellsize 20\n0 0 0\n0 1 0\n0 0 0\n";
+    let grid = js_sys::JSON::parse(r#"{ "columns": 3, "rows": 3, "cell_m": 20 }"#).unwrap();
+    let bump = Float32Array::from([0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0].as_slice());
+    Reflect::set(&grid, &"heights_m".into(), &bump).unwrap();
     let files = JsValue::from(terrain::<mapless_wasm::TerrainFiles>(recipe));
-    Reflect::set(&files, &"imported".into(), &Uint8Array::from(grid.as_bytes())).unwrap();
+    Reflect::set(&files, &"imported".into(), &grid).unwrap();
     let preview = terrain_preview(Ts::new_unchecked(files), 50);
     assert_eq!(heights(&got(preview))[4], 1.0);
+}
+
+#[wasm_bindgen_test]
+fn a_recipe_says_what_it_imports() {
+    let recipe = "name = \"a\"\n\n[import]\nfile = \"h.png\"\ncell_m = 0.5\nholes = \"crop\"\n";
+    let import = got(import_of("a.toml", recipe).map(Option::unwrap));
+    assert_eq!((text(&import, "file"), text(&import, "holes")), ("h.png".into(), "crop".into()));
+    assert_eq!(number(&import, "cell_m"), 0.5);
+    assert!(matches!(import_of("a.toml", RECIPE), Ok(None)));
+    let dug = recipe.replace("crop", "dig");
+    assert!(
+        message(import_of("a.toml", &dug).unwrap_err()).contains("expected \"refuse\", \"fill\" or \"crop\"")
+    );
 }
 
 #[wasm_bindgen_test]

@@ -154,7 +154,7 @@ fn clippy_wasm(sh: &Shell) -> anyhow::Result<Count> {
     check(cmd!(sh, "cargo clippy --target {target} {libraries...} -- --deny warnings"))?;
     check(cmd!(
         sh,
-        "cargo clippy --target {target} -p mapless-wasm -p mapless-wasm-baselines --all-targets -- --deny warnings"
+        "cargo clippy --target {target} -p mapless-wasm -p mapless-wasm-baselines -p mapless-wasm-heights --all-targets -- --deny warnings"
     ))
 }
 
@@ -170,15 +170,15 @@ fn package(sh: &Shell) -> anyhow::Result<Count> {
 
 fn build_page(sh: &Shell) -> anyhow::Result<Count> {
     // The type files are in the repository, for checks of the page without a build of the modules.
-    let files =
-        ["mapless_wasm", "mapless_wasm_baselines"].map(|module| format!("web/src/wasm/{module}.d.ts"));
+    let files = ["mapless_wasm", "mapless_wasm_baselines", "mapless_wasm_heights"]
+        .map(|module| format!("web/src/wasm/{module}.d.ts"));
     let types = || files.clone().map(|file| sh.read_file(file).ok());
     let kept = types();
     page::build(sh)?;
     anyhow::ensure!(
         types() == kept,
         "{} were out of date; the build wrote them anew: commit them",
-        files.join(" and ")
+        files.join(", ")
     );
     Ok(Count::default())
 }

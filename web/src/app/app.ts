@@ -2,7 +2,7 @@
 
 import { Editor } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
-import { type Experiment, FIRST_SETUP, type Stroke } from '../experiment/experiment.ts';
+import { type Experiment, FIRST_SETUP, type Holes, type Stroke } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setup } from '../experiment/setting.ts';
@@ -44,6 +44,8 @@ export interface Views {
   /** The experiment, or what can be undone, has changed. */
   experiment(editor: Editor): void;
   notice(message: string): void;
+  /** Something that is not wrong, but good to know. */
+  news(message: string): void;
   clearNotice(): void;
   /** Something takes long to open, which can be stopped. */
   slow(stop: () => void): void;
@@ -57,6 +59,8 @@ export class App {
   readonly #views: Views;
   readonly #core: SimulationClient;
   #info: SessionInfo | undefined;
+  /** Of what was loaded last. */
+  #warnings: readonly string[] = [];
   #frame: Frame | undefined;
   #field: HeightField | undefined;
   #playing = false;
@@ -164,7 +168,7 @@ export class App {
     this.#autoAdvance.stop();
     // Before anybody has touched the page there is nothing to go back to.
     await this.editor.open(source, this.#touched || this.editor.canUndo, play);
-    this.#views.clearNotice();
+    this.#showWarnings();
   }
 
   /** Other settings for the experiment as it is. */
@@ -225,7 +229,7 @@ export class App {
       return known;
     });
     await this.#drive(this.editor.begin(beginning));
-    this.#views.clearNotice();
+    this.#showWarnings();
     return beginning;
   }
 
@@ -235,8 +239,8 @@ export class App {
   }
 
   /** Files that somebody opened. */
-  async runFiles(files: readonly NamedFile[]): Promise<void> {
-    await this.run({ files, setup: this.setup });
+  async runFiles(files: readonly NamedFile[], holes: Holes): Promise<void> {
+    await this.run({ files, holes, setup: this.setup });
   }
 
   async play(): Promise<void> {
@@ -409,10 +413,19 @@ export class App {
 
   #onSession(info: SessionInfo, loaded: Loaded | undefined): void {
     this.#info = info;
-    if (loaded) this.editor.loaded(loaded);
+    if (loaded) {
+      this.editor.loaded(loaded);
+      this.#warnings = loaded.warnings;
+    }
     const field = loaded && new HeightField(loaded.ground);
     this.#field = field ?? this.#field;
     this.#views.session(info, field);
+  }
+
+  /** In place of what was said before. */
+  #showWarnings(): void {
+    if (this.#warnings.length > 0) this.#views.news(`${this.#warnings.join('. ')}.`);
+    else this.#views.clearNotice();
   }
 
   #onPatch(patch: GroundPatch): void {

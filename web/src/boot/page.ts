@@ -145,6 +145,7 @@ const app = new App(core, {
     app.attempt(leadOut(editor.experiment));
   },
   notice: (message) => notice.show(message),
+  news: (message) => notice.tell(message),
   clearNotice: () => notice.hide(),
   slow: (stop) => notice.tell(SLOW, 'Stop', stop),
   clearSlow: () => notice.withdraw(SLOW),

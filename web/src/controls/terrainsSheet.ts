@@ -3,7 +3,7 @@
 import { byId, html, setText } from '../base/dom.ts';
 import { readTheme } from '../colours/theme.ts';
 import { CATALOGUE } from '../experiment/catalogue.ts';
-import { DIFFICULTIES, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
+import { DIFFICULTIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
 import type { Ground, NamedFile } from '../protocol/simulationProtocol.ts';
 import { drawRelief } from './reliefPicture.ts';
 
@@ -15,7 +15,8 @@ export interface TerrainActions {
   preview(terrain: Terrain): Promise<Ground>;
   runScenario(scenario: string): Promise<void>;
   runTerrain(terrain: Terrain, name: string): Promise<void>;
-  runFiles(files: readonly NamedFile[]): Promise<void>;
+  /** `holes`: what becomes of samples without a height. */
+  runFiles(files: readonly NamedFile[], holes: Holes): Promise<void>;
   /** Says what goes wrong. */
   attempt(action: Promise<void>): void;
 }
@@ -28,6 +29,7 @@ export class TerrainsSheet {
   readonly #difficulty = byId('difficulty', HTMLSelectElement);
   readonly #seed = byId('terrain-seed', HTMLInputElement);
   readonly #files = byId('files', HTMLInputElement);
+  readonly #holes = byId('holes', HTMLSelectElement);
 
   constructor(actions: TerrainActions) {
     this.#actions = actions;
@@ -99,7 +101,8 @@ export class TerrainsSheet {
     for (const file of Array.from(list)) {
       files.push({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
     }
-    if (files.length > 0) await this.#actions.runFiles(files);
+    const holes = HOLES.find((one) => one === this.#holes.value) ?? 'refuse';
+    if (files.length > 0) await this.#actions.runFiles(files, holes);
   }
 }
 

@@ -19,6 +19,10 @@ export interface ImportedFile {
   readonly base64: string;
 }
 
+/** What becomes of samples without a height in a file of heights by itself; a recipe says so itself. */
+export const HOLES = ['refuse', 'fill', 'crop'] as const;
+export type Holes = (typeof HOLES)[number];
+
 /** Where the ground comes from, before any stroke. */
 export type Terrain =
   | { readonly catalogue: string }

@@ -5,7 +5,7 @@
  * Pitch is positive nose-up, roll positive with the left side up. Azimuths are positive to the robot's left.
  */
 
-import type { Experiment, Stroke, Terrain } from '../experiment/experiment.ts';
+import type { Experiment, Holes, Stroke, Terrain } from '../experiment/experiment.ts';
 import type { ParameterGroup } from '../experiment/parameters.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setting, Setup } from '../experiment/setting.ts';
@@ -97,7 +97,7 @@ export type Source =
   | { readonly scenario: string; readonly setup: Setup; readonly seed: number | undefined }
   | { readonly experiment: Experiment }
   | { readonly terrain: Terrain; readonly name: string; readonly setup: Setup }
-  | { readonly files: readonly NamedFile[]; readonly setup: Setup };
+  | { readonly files: readonly NamedFile[]; readonly holes: Holes; readonly setup: Setup };
 
 /** The parts of the page's address that say what to begin with. */
 export interface Address {
@@ -146,6 +146,8 @@ export interface Loaded {
   readonly experiment: Experiment;
   /** The scenario that it is named after, as that comes; nothing where there is none. */
   readonly scenario: Experiment | undefined;
+  /** What was done to a file of heights that its owner should know. */
+  readonly warnings: readonly string[];
 }
 
 /** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */

@@ -1,10 +1,12 @@
 /** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
 
+import { loadHeights } from '../bindings/heightsModule.ts';
 import type { Core } from '../bindings/simulationModule.ts';
 import { loadTrials } from '../bindings/trialsModule.ts';
 import { CATALOGUE, TASK, terrainFile } from '../experiment/catalogue.ts';
 import {
   type Experiment,
+  type Holes,
   MAX_FILE_BYTES,
   MAX_SEED,
   type Stroke,
@@ -32,9 +34,26 @@ export function filesOf(core: Core, experiment: Experiment): [NamedFile, NamedFi
   return [{ name: 'scenario.toml', bytes: scenario }, ...filesOfTerrain(core, experiment.terrain, experiment.strokes)];
 }
 
-/** As the core takes them: a recipe, and the grid that it imports, if it does. */
-export function terrainFiles([recipe, imported]: readonly [NamedFile, ...NamedFile[]]): TerrainFiles {
-  return imported ? { ...recipe, imported: imported.bytes } : recipe;
+/** A terrain as the core takes it, and what is to be said of the file that it imports. */
+interface ReadTerrain {
+  readonly files: TerrainFiles;
+  readonly warnings: readonly string[];
+}
+
+/** Reads the grid that a recipe imports, if it does. */
+export async function readTerrain(
+  core: Core,
+  [recipe, grid]: readonly [NamedFile, ...NamedFile[]],
+): Promise<ReadTerrain> {
+  const request = grid && core.import_of(recipe.name, new TextDecoder().decode(recipe.bytes));
+  if (!request) return { files: recipe, warnings: [] };
+  const { read_heights } = await loadHeights();
+  const { cell_m, height_min_m, height_max_m, holes } = request;
+  const heights = read_heights(grid.name, grid.bytes, cell_m, height_min_m, height_max_m, holes);
+  const { columns, rows, cell_m: spacing_m, warnings } = heights;
+  const heights_m = heights.take_heights_m() as Float32Array<ArrayBuffer>;
+  heights.free();
+  return { files: { ...recipe, imported: { columns, rows, cell_m: spacing_m, heights_m } }, warnings };
 }
 
 /** The files of a terrain with strokes. */
@@ -54,14 +73,15 @@ function baseRecipe(core: Core, terrain: Terrain): string {
 }
 
 /** A small picture's worth of a terrain's heights. */
-export function preview(core: Core, terrain: Terrain): Ground {
-  return core.terrain_preview(terrainFiles(filesOfTerrain(core, terrain, [])), PREVIEW_SAMPLES);
+export async function preview(core: Core, terrain: Terrain): Promise<Ground> {
+  const { files } = await readTerrain(core, filesOfTerrain(core, terrain, []));
+  return core.terrain_preview(files, PREVIEW_SAMPLES);
 }
 
 export async function experimentFrom(core: Core, source: Source): Promise<Experiment> {
   if ('experiment' in source) return source.experiment;
   if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setup);
-  if ('files' in source) return fromFiles(core, source.files, source.setup);
+  if ('files' in source) return fromFiles(core, source.files, source.holes, source.setup);
   const { scenario, setup, seed } = source;
   const { read, terrain } = TASK.test(scenario) ? await task(core, scenario) : catalogued(core, scenario);
   return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setup);
@@ -108,7 +128,7 @@ function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, setup:
 }
 
 /** A scenario with the terrain it names, a terrain by itself, or a saved experiment, each also within an archive. */
-function fromFiles(core: Core, given: readonly NamedFile[], setup: Setup): Experiment {
+async function fromFiles(core: Core, given: readonly NamedFile[], holes: Holes, setup: Setup): Promise<Experiment> {
   const archive = given.find(({ name }) => ARCHIVE.test(name));
   const files = given.flatMap((file) => {
     if (!ARCHIVE.test(file.name)) return [file];
@@ -125,11 +145,11 @@ function fromFiles(core: Core, given: readonly NamedFile[], setup: Setup): Exper
   const recipe = texts.find((file) => file !== scenario);
   if (scenario) {
     const read = core.read_scenario(scenario.name, scenario.text);
-    const own = terrainOf(recipe, grid);
+    const own = terrainOf(recipe, grid, holes);
     const terrain = own ?? cataloguedTerrain(scenario.name, read.terrain);
     return fromScenario(read, shortName((archive ?? scenario).name), terrain, { ...setup, overrides: {} });
   }
-  const terrain = terrainOf(recipe, grid);
+  const terrain = terrainOf(recipe, grid, holes);
   const [first] = given;
   if (!terrain || !first) {
     const expected =
@@ -146,13 +166,15 @@ function limit({ name, bytes }: NamedFile, most: number): void {
 function terrainOf(
   recipe: { name: string; text: string } | undefined,
   grid: NamedFile | undefined,
+  holes: Holes,
 ): Terrain | undefined {
   if (!grid) return recipe ? { recipe: recipe.text } : undefined;
   const name = `terrain${(GRIDS.exec(grid.name)?.[0] ?? '').toLowerCase()}`;
   const imported = { name, base64: base64(grid.bytes) };
   // A recipe says how its grid is to be read, but by the file's own name.
   if (recipe) return { recipe: recipe.text.replace(/^(\s*file\s*=\s*).*$/m, `$1"${name}"`), imported };
-  return { recipe: `name = ${JSON.stringify(shortName(grid.name))}\n\n[import]\nfile = "${name}"\n`, imported };
+  const more = holes === 'refuse' ? '' : `holes = "${holes}"\n`;
+  return { recipe: `name = ${JSON.stringify(shortName(grid.name))}\n\n[import]\nfile = "${name}"\n${more}`, imported };
 }
 
 /** A terrain of the catalogue that a scenario names without its file being there. */
@@ -167,8 +189,9 @@ function cataloguedTerrain(scenario: string, path: string): Terrain {
 }
 
 /** A terrain by itself: start and goal where it is level. */
-function onLevelPlaces(core: Core, terrain: Terrain, name: string, setup: Setup): Experiment {
-  const { start, goal } = core.level_places(terrainFiles(filesOfTerrain(core, terrain, [])));
+async function onLevelPlaces(core: Core, terrain: Terrain, name: string, setup: Setup): Promise<Experiment> {
+  const { files } = await readTerrain(core, filesOfTerrain(core, terrain, []));
+  const { start, goal } = core.level_places(files);
   const heading_rad = Math.round(1000 * Math.atan2(goal.y - start.y, goal.x - start.x)) / 1000;
   const read = { terrain: '', start: { ...start, heading_rad }, waypoints: [], goal, seed: 1, overrides: {} };
   return fromScenario(read, name, terrain, setup);

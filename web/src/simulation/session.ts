@@ -7,7 +7,7 @@ import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setting } from '../experiment/setting.ts';
 import type { Frame, FrameBuffers, Ground, GroundPatch, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Session as CoreSession, Standing, Stroke, Tick } from '../wasm/mapless_wasm.js';
-import { filesOf, terrainFiles } from './opening.ts';
+import { filesOf, readTerrain } from './opening.ts';
 
 /** All beams of a full scan: 16 rings × 1800 azimuths. */
 const MAX_RETURNS = 28_800;
@@ -33,19 +33,21 @@ export class Session {
     this.#standing = core.standing();
   }
 
-  static open(core: Core, experiment: Experiment): Session {
+  /** A session, and what is to be said of the file of heights that it stands on. */
+  static async open(core: Core, experiment: Experiment): Promise<{ session: Session; warnings: readonly string[] }> {
     const { preset, learning, overrides } = experiment;
     // Without the overrides, so that the core knows the defaults, too.
     const [scenario, ...terrain] = filesOf(core, { ...experiment, overrides: {} });
     const text = new TextDecoder().decode(scenario.bytes);
+    const { files, warnings } = await readTerrain(core, terrain);
     const options = {
       scenario: { name: scenario.name, text },
-      terrain: terrainFiles(terrain),
+      terrain: files,
       preset,
       learning,
       overrides,
     };
-    return new Session(new core.Session(options), experiment);
+    return { session: new Session(new core.Session(options), experiment), warnings };
   }
 
   free(): void {

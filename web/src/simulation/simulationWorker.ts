@@ -199,12 +199,13 @@ async function load(source: Source, play: boolean, id: number): Promise<void> {
   const core = await loading;
   post({ type: 'opening', id });
   const experiment = await experimentFrom(core, source);
-  const opened = Session.open(core, experiment);
+  const opened = await Session.open(core, experiment);
   session?.free();
-  session = opened;
+  session = opened.session;
   playing ||= play;
   const ground = session.ground();
-  const loaded = { ground, experiment, scenario: scenarioOf(core, source, experiment) };
+  const scenario = scenarioOf(core, source, experiment);
+  const loaded = { ground, experiment, scenario, warnings: opened.warnings };
   post({ type: 'session', info: session.info, loaded }, [ground.heights_m.buffer]);
   openFromStart();
 }

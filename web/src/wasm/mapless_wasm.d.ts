@@ -125,9 +125,9 @@ export interface TerrainFiles {
     name: string;
     bytes: Uint8Array;
     /**
-     * The file that the recipe imports, where it imports one.
+     * The heights of the file that the recipe imports, where it imports one: read as `import_of` says.
      */
-    imported?: Uint8Array;
+    imported?: Ground;
 }
 
 /**
@@ -299,6 +299,26 @@ export interface ParameterGroup {
     table: string;
     title: string;
     parameters: Parameter[];
+}
+
+/**
+ * The file that a recipe imports, and how to read it.
+ */
+export interface ImportRequest {
+    file: string;
+    /**
+     * In place of the file's own.
+     */
+    cell_m?: number;
+    /**
+     * Of black and white.
+     */
+    height_min_m?: number;
+    height_max_m?: number;
+    /**
+     * `refuse`, `fill` or `crop`.
+     */
+    holes: string;
 }
 
 /**
@@ -736,6 +756,14 @@ export class Session {
 export function generated_recipe(difficulty: string, seed: number): string;
 
 /**
+ * What a recipe imports; nothing where it imports nothing.
+ *
+ * # Errors
+ * A fault of the recipe, with place, value and expectation.
+ */
+export function import_of(file: string, recipe: string): ImportRequest | undefined;
+
+/**
  * Two level places of a terrain far from each other, for a start and a goal.
  *
  * # Errors
@@ -770,6 +798,7 @@ export interface InitOutput {
     readonly memory: WebAssembly.Memory;
     readonly __wbg_session_free: (a: number, b: number) => void;
     readonly generated_recipe: (a: number, b: number, c: number) => [number, number, number, number];
+    readonly import_of: (a: number, b: number, c: number, d: number) => [number, number, number];
     readonly level_places: (a: any) => [number, number, number];
     readonly read_scenario: (a: number, b: number, c: number, d: number) => [number, number, number];
     readonly session_digest: (a: number) => [number, number];

@@ -1,11 +1,15 @@
 use super::*;
-use crate::load_terrain_bytes;
+use crate::{Fault, Grid, Import, load_recipe};
 use mapless_world::{HeightField, SlopeDistribution};
 use proptest::prelude::*;
 
+fn no_import(_: &str, _: &Import) -> Result<Grid, Fault> {
+    Err(Fault::Read { reason: "no imports".to_owned() })
+}
+
 fn field(difficulty: Difficulty, seed: u64) -> HeightField {
     let recipe = terrain_recipe("x", difficulty, seed);
-    let terrain = load_terrain_bytes("x.toml", recipe.as_bytes(), &mut |_| Err("no imports".to_owned()));
+    let terrain = load_recipe("x.toml", recipe.as_bytes(), &mut no_import);
     terrain.unwrap_or_else(|error| panic!("{error}\n{recipe}")).field
 }
 
@@ -32,7 +36,7 @@ fn a_seed_repeats_and_differs_from_others() {
 #[test]
 fn names_are_quoted_and_read_back() {
     let recipe = terrain_recipe("a \"b\"", Difficulty::Easy, 1);
-    let terrain = load_terrain_bytes("x.toml", recipe.as_bytes(), &mut |_| Err(String::new())).unwrap();
+    let terrain = load_recipe("x.toml", recipe.as_bytes(), &mut no_import).unwrap();
     assert_eq!(terrain.name, "a \"b\"");
     for difficulty in Difficulty::ALL {
         assert_eq!(difficulty.name().parse(), Ok(difficulty));

@@ -63,6 +63,8 @@
 //! [import]
 //! file = "island.png"            # .png, .asc, .tif or .tiff, relative to the recipe
 //! cell_m = 0.2                   # in place of the file's own spacing
+//! holes = "fill"                 # from the heights around, or "crop" to the largest part without; default
+//!                                # "refuse"
 //! height_min_m = -2.0            # of black, and of white; PNG only, both or neither
 //! height_max_m = 8.0
 //! ```
@@ -75,12 +77,12 @@ mod features;
 mod line;
 mod trail;
 
-use crate::import::{self, Scale, split_name};
 use crate::stroke::{Stroke, StrokeTable};
-use crate::terrain::{Terrain, TerrainError, TerrainFault};
+use crate::terrain::{Terrain, TerrainError, TerrainFault, ground};
 use canvas::{Canvas, Effort};
 use check::Table;
 use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
+use mapless_heights::{Fault, Grid, Holes, split_name};
 use mapless_toml::Located;
 use mapless_world::{HeightField, check_grid};
 use serde::Deserialize;
@@ -126,17 +128,38 @@ struct Import {
     cell_m: Option<f64>,
     height_min_m: Option<f64>,
     height_max_m: Option<f64>,
+    holes: Option<String>,
 }
 
+/// The file that a recipe imports.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Imported {
+    /// Its path relative to the recipe.
+    pub file: String,
+    /// How to read it.
+    pub import: mapless_heights::Import,
+}
+
+/// What a recipe imports, if it does.
+///
+/// # Errors
+/// [`TerrainError`] names the place in the recipe, the value and what was expected.
+pub fn import_of(file: &str, text: &str) -> Result<Option<Imported>, TerrainError> {
+    let Some(import) = parse(file, text)?.import else { return Ok(None) };
+    import.checked().map(Some).map_err(|fault| fault.of(file))
+}
+
+fn parse(file: &str, text: &str) -> Result<Recipe, TerrainError> {
+    mapless_toml::from_str(text).map_err(|error| TerrainFault::damaged("recipe", error).of(file))
+}
+
+/// Reads a file, given its path relative to the recipe and how to read it.
+type Read<'a> = &'a mut dyn FnMut(&str, &mapless_heights::Import) -> Result<Grid, Fault>;
+
 /// Builds the terrain of a recipe.
-pub(crate) fn load(
-    file: &str,
-    text: &str,
-    resolve: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
-) -> Result<Terrain, TerrainError> {
-    let recipe: Recipe =
-        mapless_toml::from_str(text).map_err(|error| TerrainFault::damaged("recipe", error).of(file))?;
-    let mut canvas = recipe.ground(file, resolve)?;
+pub(crate) fn load(file: &str, text: &str, read: Read<'_>) -> Result<Terrain, TerrainError> {
+    let recipe = parse(file, text)?;
+    let (mut canvas, warnings) = recipe.ground(file, read)?;
     let field = recipe.shape(text, &mut canvas).and_then(|()| {
         let heights_m = canvas.heights_m.iter().map(|&height| height as f32).collect();
         let mut field = HeightField::new(canvas.columns, canvas.rows, canvas.cell_m, heights_m)?;
@@ -144,26 +167,23 @@ pub(crate) fn load(
         Ok(field)
     });
     let field = field.map_err(|fault| fault.of(file))?;
-    Ok(Terrain { name: recipe.name, description: recipe.description, field })
+    Ok(Terrain { name: recipe.name, description: recipe.description, field, warnings })
 }
 
 impl Recipe {
-    /// The ground before any feature.
-    fn ground(
-        &self,
-        file: &str,
-        resolve: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
-    ) -> Result<Canvas, TerrainError> {
+    /// The ground before any feature, and what is to be said of it.
+    fn ground(&self, file: &str, read: Read<'_>) -> Result<(Canvas, Vec<String>), TerrainError> {
         let Some(import) = &self.import else {
-            return self.level_ground().map_err(|fault| fault.of(file));
+            return self.level_ground().map(|canvas| (canvas, Vec::new())).map_err(|fault| fault.of(file));
         };
         if self.size_m.is_some() || self.cell_m.is_some() {
             let expected = "none of them beside [import], whose file has its own size";
             return Err(TerrainFault::value("size_m, cell_m", "present", expected).of(file));
         }
-        let scale = import.scale().map_err(|fault| fault.of(file))?;
-        let bytes = resolve(&import.file).map_err(|reason| TerrainFault::Read { reason }.of(&import.file))?;
-        Ok(Canvas::from_field(&import::read(&import.file, &bytes, &scale)?))
+        let Imported { file: wanted, import } = import.checked().map_err(|fault| fault.of(file))?;
+        let grid = read(&wanted, &import).map_err(|fault| TerrainFault::from(fault).of(&wanted))?;
+        let (field, warnings) = ground(&wanted, grid)?;
+        Ok((Canvas::from_field(&field), warnings))
     }
 
     fn level_ground(&self) -> Result<Canvas, TerrainFault> {
@@ -235,7 +255,7 @@ fn add<F: Feature>(
 }
 
 impl Import {
-    fn scale(&self) -> Result<Scale, TerrainFault> {
+    fn checked(&self) -> Result<Imported, TerrainFault> {
         let is_absolute = self.file.starts_with(['/', '\\']) || self.file.contains(':');
         if is_absolute || split_name(&self.file).1 == "toml" {
             let expected = "an image or grid, by its path relative to the recipe";
@@ -256,9 +276,15 @@ impl Import {
             let expected = "no heights beside a grid that has its own";
             return Err(TerrainFault::value("import.height_min_m, height_max_m", "present", expected));
         }
-        Ok(Scale { cell_m: self.cell_m, range_m })
+        let holes = self.holes.as_ref().map_or(Ok(Holes::default()), |holes| holes.parse())?;
+        let import = mapless_heights::Import { cell_m: self.cell_m, range_m, holes };
+        Ok(Imported { file: self.file.clone(), import })
     }
 }
+
+// What a file may hold, a field may hold.
+const _: () = assert!(mapless_heights::MAX_SAMPLES == mapless_world::MAX_SAMPLES);
+const _: () = assert!(mapless_heights::MIN_CELL_M == mapless_world::MIN_CELL_M);
 
 #[cfg(test)]
 mod tests;

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 const LEVEL: &str = "name = \"test\"\nsize_m = [20.0, 10]\ncell_m = 0.25\n";
 
 fn build(text: &str) -> Result<Terrain, TerrainError> {
-    load("test.toml", text, &mut |_| Err("no such file".to_owned()))
+    load("test.toml", text, &mut |_, _| Err(Fault::Read { reason: "no such file".to_owned() }))
 }
 
 fn field(features: &str) -> HeightField {
@@ -209,9 +209,9 @@ fn an_imported_grid_is_the_ground_for_features() {
     let asc = b"ncols 3\nnrows 3\ncellsize 2\n1 1 1\n1 1 1\n1 1 1\n";
     let text = "name = \"i\"\nbase_m = 4\n[import]\nfile = \"g.asc\"\ncell_m = 0.5\n[[hill]]\ncentre = [0.5, 0.5]\nheight_m = 1\nradius_m = 0.1\n";
     let mut asked = String::new();
-    let terrain = load("dir/test.toml", text, &mut |file| {
+    let terrain = load("dir/test.toml", text, &mut |file, import| {
         asked = file.to_owned();
-        Ok(asc.to_vec())
+        mapless_heights::read(file, asc, import)
     })
     .unwrap();
     assert_eq!(asked, "g.asc");
@@ -232,9 +232,43 @@ fn import_faults() {
     assert!(
         import("file = \"g.asc\"\nheight_min_m = 1\nheight_max_m = 2\n").contains("a grid that has its own")
     );
-    let damaged =
-        load("t.toml", "name = \"i\"\n[import]\nfile = \"g.asc\"\n", &mut |_| Ok(b"ncols 1".to_vec()));
+    assert!(
+        import("file = \"g.asc\"\nholes = \"dig\"\n").contains("import.holes = \"dig\": expected \"refuse\"")
+    );
+    let damaged = load("t.toml", "name = \"i\"\n[import]\nfile = \"g.asc\"\n", &mut |file, import| {
+        mapless_heights::read(file, b"ncols 1", import)
+    });
     assert!(damaged.unwrap_err().to_string().starts_with("g.asc: not a valid ESRI ASCII grid file"));
+}
+
+#[test]
+fn holes_become_what_the_recipe_says() {
+    let asc = b"ncols 3\nnrows 3\ncellsize 2\n-9999 1 1\n1 1 1\n1 1 1\n";
+    let with = |lines: &str| {
+        let text = format!("name = \"i\"\nbase_m = 4\n[import]\nfile = \"g.asc\"\n{lines}");
+        load("t.toml", &text, &mut |file, import| mapless_heights::read(file, asc, import))
+    };
+    let refused =
+        "g.asc: line 4, row 1, column 1 = -9999: expected a height in metres; 1 of 9 samples is a hole";
+    for lines in ["", "holes = \"refuse\"\n"] {
+        let message = with(lines).unwrap_err().to_string();
+        assert!(message.starts_with(refused), "{message}");
+    }
+    let filled = with("holes = \"fill\"\n").unwrap();
+    assert_eq!(filled.field.heights_m(), [5.0; 9]);
+    assert_eq!(filled.warnings, ["g.asc: 1 of 9 samples was a hole: filled from the heights around"]);
+    let cropped = with("holes = \"crop\"\n").unwrap();
+    assert_eq!((cropped.field.columns(), cropped.field.rows()), (2, 3));
+}
+
+#[test]
+fn a_recipe_says_what_it_imports_without_the_file() {
+    assert_eq!(import_of("t.toml", LEVEL), Ok(None));
+    let text = "name = \"i\"\n[import]\nfile = \"g.png\"\ncell_m = 2\nheight_min_m = 1\nheight_max_m = 3\nholes = \"crop\"\n";
+    let import = mapless_heights::Import { cell_m: Some(2.0), range_m: Some((1.0, 3.0)), holes: Holes::Crop };
+    assert_eq!(import_of("t.toml", text), Ok(Some(Imported { file: "g.png".to_owned(), import })));
+    let fault = import_of("t.toml", "name = \"i\"\n[import]\nfile = \"/g.png\"\n").unwrap_err();
+    assert!(fault.to_string().starts_with("t.toml: import.file = \"/g.png\""), "{fault}");
 }
 
 proptest! {
@@ -258,7 +292,7 @@ proptest! {
 fn strokes_repeat_what_was_done_by_hand() {
     let recipe = "name = \"a\"\nsize_m = [20.0, 10.0]\ncell_m = 0.25\n\n[[hill]]\ncentre = [9.0, 5.0]\nheight_m = 2.0\nradius_m = 2.0\n";
     let keys = "kind = \"raise\"\nradius_m = 2.0\nstrength_m = 0.3\npoints = [[5.0, 5.0], [5.5, 5.25]]\n";
-    let load = |text: &str| load("a.toml", text, &mut |_| Err("none".to_owned()));
+    let load = |text: &str| load("a.toml", text, &mut |_, _| Err(Fault::Read { reason: "none".to_owned() }));
     let mut by_hand = load(recipe).unwrap().field;
     for brush in Stroke::parse(keys).unwrap().brushes() {
         by_hand.sculpt(brush).unwrap();
@@ -308,7 +342,8 @@ fn lines_without_end_are_refused() {
 fn shipped_and_generated_terrains_touch_few_samples() {
     let effort = |text: &str| {
         let recipe: Recipe = mapless_toml::from_str(text).unwrap();
-        let mut canvas = recipe.ground("", &mut |_| Err("none".to_owned())).unwrap();
+        let mut canvas =
+            recipe.ground("", &mut |_, _| Err(Fault::Read { reason: "none".to_owned() })).unwrap().0;
         recipe.shape(text, &mut canvas).unwrap();
         canvas.effort.samples
     };
