@@ -1,7 +1,7 @@
 //! Reading recorded LiDAR scans.
 //!
-//! [`read_scan`] gives the returns of one scan, and what the reader left out, in the project's sensor frame: x forward, y left, z up,
-//! metres. The extension of the file says its format:
+//! [`read_scan`] gives the returns of one scan, and what the reader left out, in the project's sensor
+//! frame: x forward, y left, z up, metres. The extension of the file says its format:
 //!
 //! - `.pcd`: a point cloud of the Point Cloud Library, `ascii`, `binary` or `binary_compressed`. A viewpoint
 //!   is the sensor's pose: the points come out in a level frame at the sensor that faces where it faces.
