@@ -215,14 +215,19 @@ fn the_same_points_give_the_same_result_from_every_format() {
 }
 
 #[test]
-fn a_scan_without_returns_has_a_named_result() {
+fn a_scan_without_returns_or_none_within_reach_has_a_named_result() {
     let folder = Folder::new();
     folder.write("empty.csv", "x,y,z\n");
-    folder.write("high.csv", scan(|_, elevation| (elevation > 0.2).then_some(5.0).or(Some(30.0))));
+    folder.write("far.csv", scan(|_, _| Some(30.0)));
     let empty = folder.json("empty.csv", &["--out", "pictures"]);
     assert_eq!(empty["status"], "stopped");
     assert_eq!(empty["reason"], "the scan has no returns");
-    let far = folder.json("high.csv", &[]);
+    let output = folder.perceive("far.csv", &["--json"]);
+    let said = "no return within 7 m, the nearest is 30.0 m away: are the points in millimetres, or in another \
+                frame than the sensor's?";
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), format!("warning: far.csv: {said}\n"));
+    let far: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(far["warnings"][0], said);
     assert_eq!((far["status"].as_str(), far["occupied_cells"].as_u64()), (Some("searching"), Some(0)));
     for result in [&empty, &far] {
         let profile = result["profile"].as_array().unwrap();
@@ -232,19 +237,6 @@ fn a_scan_without_returns_has_a_named_result() {
     let table = String::from_utf8(folder.perceive("empty.csv", &[]).stdout).unwrap();
     assert!(table.contains("stopped: the scan has no returns"), "{table}");
     assert!(fs::read_to_string(folder.path("pictures/variance_image.svg")).unwrap().ends_with("</svg>\n"));
-}
-
-#[test]
-fn a_scan_out_of_reach_gets_a_word() {
-    let folder = Folder::new();
-    folder.write("far.csv", scan(|_, _| Some(30.0)));
-    let output = folder.perceive("far.csv", &["--json"]);
-    let said = "no return within 7 m, the nearest is 30.0 m away: are the points in millimetres, or in another \
-                frame than the sensor's?";
-    assert_eq!(String::from_utf8(output.stderr).unwrap(), format!("warning: far.csv: {said}\n"));
-    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(result["warnings"][0], said);
-    assert_eq!((result["status"].as_str(), result["occupied_cells"].as_u64()), (Some("searching"), Some(0)));
 }
 
 #[test]
