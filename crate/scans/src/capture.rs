@@ -53,26 +53,27 @@ fn sensors<'a>(frames: &[Frame<'a>], warnings: &mut Vec<ScanWarning>) -> Result<
     for frame in frames {
         let arrival = match content(frame.link, frame.bytes) {
             Content::Packet(sliced) => datagrams.take(frame.number, &sliced),
-            Content::Nothing if frame.bytes.len() < frame.wire_bytes => {
-                cut += 1;
-                longest_cut = longest_cut.max((frame.wire_bytes, frame.bytes.len()));
-                continue;
-            }
             Content::Nothing => Arrival::Other,
             Content::UnknownLink => {
                 *links.entry(frame.link).or_default() += 1;
                 continue;
             }
         };
-        match arrival {
+        let is_known = match arrival {
             Arrival::Datagram { source, payload } => {
-                let is_position = payload.len() == POSITION_BYTES;
-                if !sensors.keep(frame.number, source, payload) && !is_position {
-                    others += 1;
-                }
+                payload.len() == POSITION_BYTES || sensors.keep(frame.number, source, payload)
             }
-            Arrival::Fragment => {}
-            Arrival::Other => others += 1,
+            Arrival::Fragment => true,
+            Arrival::Other => false,
+        };
+        if is_known {
+            continue;
+        }
+        if frame.bytes.len() < frame.wire_bytes {
+            cut += 1;
+            longest_cut = longest_cut.max((frame.wire_bytes, frame.bytes.len()));
+        } else {
+            others += 1;
         }
     }
     if sensors.is_empty()
