@@ -122,7 +122,7 @@ mod tests {
         assert_eq!(read("a.XYZ", b"1 2 3", 0), Ok(vec![Vec3::new(1.0, 2.0, 3.0)].into()));
         assert_eq!(
             read("a.las", b"1 2 3", 0).unwrap_err(),
-            "a.las: extension \"las\": expected .pcd, .csv, .txt, .xyz or .pcap"
+            "a.las: extension \"las\": expected .pcd, .csv, .txt, .xyz, .pcap or .pcapng"
         );
         assert!(read("scan", b"1 2 3", 0).unwrap_err().contains("extension \"\""));
         assert!(read("a.pcd", b"1 2 3", 0).unwrap_err().starts_with("a.pcd: not a valid PCD file: "));
