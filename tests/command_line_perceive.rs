@@ -7,8 +7,9 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::time::Duration;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// A folder with scans.
@@ -295,6 +296,74 @@ fn what_cannot_be_read_is_refused_by_file_and_place() {
     folder.refuses("good.csv", &["--revolution", "-1"], "unexpected argument");
     folder.refuses("good.csv", &["--planner", "best"], "invalid value 'best'");
     folder.refuses("good.csv", &["--out", "good.csv/below"], "--out: good.csv/below: ");
+}
+
+/// 116 packets of a VLP-16 on level ground, from each of the addresses in turn.
+fn capture(addresses: &[[u8; 4]]) -> Vec<u8> {
+    let mut writer = pcap_file::pcap::PcapWriter::new(Vec::new()).unwrap();
+    for number in 0..116_u32 {
+        let mut packet = Vec::new();
+        for block in 0..12 {
+            let azimuth = (480 * number + 40 * block) % 36_000;
+            packet.extend([0xff, 0xee]);
+            packet.extend((azimuth as u16).to_le_bytes());
+            for laser in (0..16).chain(0..16) {
+                // The even lasers look down from -15°, in steps of 2°; units are 2 mm.
+                let elevation = (-15.0 + f64::from(laser)).to_radians();
+                let down = laser % 2 == 0 && laser < 14;
+                let distance = if down { 0.8 / -libm::sin(elevation) / 0.002 } else { 0.0 };
+                packet.extend((distance as u16).to_le_bytes());
+                packet.push(9);
+            }
+        }
+        packet.extend((1327 * number).to_le_bytes());
+        packet.extend([0x37, 0x22]);
+        for address in addresses {
+            let mut frame = Vec::new();
+            let builder = etherparse::PacketBuilder::ethernet2([1; 6], [2; 6]).ipv4(*address, [255; 4], 64);
+            builder.udp(2368, 2368).write(&mut frame, &packet).unwrap();
+            let packet = pcap_file::pcap::PcapPacket::new(Duration::ZERO, frame.len() as u32, &frame);
+            writer.write_packet(&packet).unwrap();
+        }
+    }
+    writer.into_writer()
+}
+
+#[test]
+fn what_a_reader_leaves_out_is_told_on_stderr_and_in_json() {
+    let folder = Folder::new();
+    let whole = capture(&[[10, 0, 0, 7]]);
+    folder.write("whole.pcap", &whole);
+    folder.write("cut.pcap", &whole[..whole.len() - 1]);
+    let expected = folder.json("whole.pcap", &[]);
+    assert_eq!((&expected["warnings"], &expected["returns"]), (&json!([]), &json!(1800 * 7)));
+    let output = folder.perceive("cut.pcap", &["--json"]);
+    let mut result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let warning = "the capture ends inside packet 116; what comes before is read";
+    assert_eq!(result["warnings"], json!([warning]));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), format!("warning: cut.pcap: {warning}\n"));
+    result["warnings"] = json!([]);
+    assert_eq!(result, expected);
+    let table = folder.perceive("cut.pcap", &[]);
+    assert_eq!(String::from_utf8_lossy(&table.stderr), format!("warning: cut.pcap: {warning}\n"));
+    assert!(String::from_utf8_lossy(&table.stdout).starts_with("cut.pcap, revolution 0, planner default\n"));
+}
+
+#[test]
+fn source_chooses_one_of_several_sensors() {
+    let folder = Folder::new();
+    folder.write("one.pcap", capture(&[[10, 0, 0, 7]]));
+    folder.write("two.pcap", capture(&[[10, 0, 0, 7], [10, 0, 0, 8]]));
+    let both = "10.0.0.7:2368 (VLP-16, 116 packets), 10.0.0.8:2368 (VLP-16, 116 packets)";
+    let named =
+        |source: &str| format!("two.pcap: source = {source}: expected one of the capture's sensors: {both}");
+    folder.refuses("two.pcap", &[], &named("none"));
+    folder.refuses("two.pcap", &["--source", "10.0.0.9"], &named("10.0.0.9"));
+    folder.refuses("two.pcap", &["--source", "sensor"], "invalid value 'sensor' for '--source <ADDRESS>'");
+    let output = folder.perceive("two.pcap", &["--json", "--source", "10.0.0.8:2368"]);
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(result["profile"], folder.json("one.pcap", &[])["profile"]);
+    assert_eq!(result["warnings"], json!(["116 data packets left out: from 10.0.0.7:2368, product 0x22"]));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The reader of `pcap` scans.
+//! The reader of captures, pcap and pcapng: the first bytes say which.
 
 #![no_main]
 

@@ -6,7 +6,7 @@ use std::net::{IpAddr, SocketAddr};
 
 use etherparse::defrag::IpDefragBuf;
 use etherparse::{
-    IpFragOffset, IpNumber, Ipv6ExtensionSlice, NetSlice, SlicedPacket, TransportSlice, UdpSlice,
+    IpFragOffset, IpNumber, Ipv6ExtensionSlice, LaxNetSlice, LaxSlicedPacket, TransportSlice, UdpSlice,
 };
 
 /// Datagrams of which a part is still missing; the oldest is given up for one more.
@@ -58,7 +58,7 @@ pub(crate) struct Datagrams {
 
 impl Datagrams {
     /// Takes packet `number` of the capture.
-    pub(crate) fn take<'a>(&mut self, number: usize, packet: &SlicedPacket<'a>) -> Arrival<'a> {
+    pub(crate) fn take<'a>(&mut self, number: usize, packet: &LaxSlicedPacket<'a>) -> Arrival<'a> {
         let Some((address, payload)) = packet.net.as_ref().and_then(udp_payload) else {
             return Arrival::Other;
         };
@@ -119,20 +119,21 @@ impl Datagrams {
     }
 }
 
-/// The sender of an IP packet with UDP or a fragment of it, and what IP carries.
-fn udp_payload<'a>(net: &NetSlice<'a>) -> Option<(IpAddr, &'a [u8])> {
+/// The sender of an IP packet with UDP or a whole fragment of it, and what IP carries.
+fn udp_payload<'a>(net: &LaxNetSlice<'a>) -> Option<(IpAddr, &'a [u8])> {
     let (source, payload) = match net {
-        NetSlice::Ipv4(ip) => (ip.header().source_addr().into(), ip.payload()),
-        NetSlice::Ipv6(ip) => (ip.header().source_addr().into(), ip.payload()),
-        NetSlice::Arp(_) => return None,
+        LaxNetSlice::Ipv4(ip) => (ip.header().source_addr().into(), ip.payload()),
+        LaxNetSlice::Ipv6(ip) => (ip.header().source_addr().into(), ip.payload()),
+        LaxNetSlice::Arp(_) => return None,
     };
-    (payload.ip_number == IpNumber::UDP).then_some((source, payload.payload))
+    let is_whole = payload.ip_number == IpNumber::UDP && !(payload.fragmented && payload.incomplete);
+    is_whole.then_some((source, payload.payload))
 }
 
 /// The packet as a fragment, if it is one.
-fn fragment<'a>(net: &NetSlice<'a>, payload: &'a [u8]) -> Option<Fragment<'a>> {
+fn fragment<'a>(net: &LaxNetSlice<'a>, payload: &'a [u8]) -> Option<Fragment<'a>> {
     match net {
-        NetSlice::Ipv4(ip) => {
+        LaxNetSlice::Ipv4(ip) => {
             let header = ip.header();
             header.is_fragmenting_payload().then(|| Fragment {
                 identity: Identity {
@@ -145,7 +146,7 @@ fn fragment<'a>(net: &NetSlice<'a>, payload: &'a [u8]) -> Option<Fragment<'a>> {
                 payload,
             })
         }
-        NetSlice::Ipv6(ip) => {
+        LaxNetSlice::Ipv6(ip) => {
             let header = ip.header();
             let part = ip.extensions().clone().into_iter().find_map(|extension| match extension {
                 Ipv6ExtensionSlice::Fragment(part) if part.is_fragmenting_payload() => Some(part),
@@ -162,6 +163,6 @@ fn fragment<'a>(net: &NetSlice<'a>, payload: &'a [u8]) -> Option<Fragment<'a>> {
                 payload,
             })
         }
-        NetSlice::Arp(_) => None,
+        LaxNetSlice::Arp(_) => None,
     }
 }

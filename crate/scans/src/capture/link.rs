@@ -1,6 +1,8 @@
 //! From the frame of a link to the IP packet in it.
+//!
+//! Lengths in headers are not trusted: the VLP-16's position packets name a wrong one.
 
-use etherparse::{EtherType, SlicedPacket};
+use etherparse::{EtherType, LaxSlicedPacket};
 
 /// The link types that are read, for messages; the numbers are tcpdump's.
 pub(crate) const SUPPORTED: &str = "1 (Ethernet), 101, 12, 14, 228 or 229 (raw IP), 113 or 276 (Linux \
@@ -13,8 +15,8 @@ const NFLOG_PAYLOAD: u16 = 9;
 
 /// What a frame holds.
 pub(crate) enum Content<'a> {
-    Packet(Box<SlicedPacket<'a>>),
-    /// The frame is damaged or cut, or holds no IP.
+    Packet(Box<LaxSlicedPacket<'a>>),
+    /// The frame is damaged or holds no IP.
     Nothing,
     /// The link type is not supported.
     UnknownLink,
@@ -24,7 +26,7 @@ pub(crate) enum Content<'a> {
 pub(crate) fn content(link: u32, frame: &[u8]) -> Content<'_> {
     let sliced = match link {
         0 | 108 => ip_after(frame, 4),
-        1 => SlicedPacket::from_ethernet(frame).ok(),
+        1 => LaxSlicedPacket::from_ethernet(frame).ok(),
         9 | 50 => ppp(frame),
         12 | 14 | 101 | 228 | 229 => ip_after(frame, 0),
         51 => frame.get(6..).and_then(ppp),
@@ -38,24 +40,24 @@ pub(crate) fn content(link: u32, frame: &[u8]) -> Content<'_> {
     sliced.map_or(Content::Nothing, |sliced| Content::Packet(Box::new(sliced)))
 }
 
-fn ip_after(frame: &[u8], header_bytes: usize) -> Option<SlicedPacket<'_>> {
-    SlicedPacket::from_ip(frame.get(header_bytes..)?).ok()
+fn ip_after(frame: &[u8], header_bytes: usize) -> Option<LaxSlicedPacket<'_>> {
+    LaxSlicedPacket::from_ip(frame.get(header_bytes..)?).ok()
 }
 
 /// A header with the type of Ethernet at `at`, and what it names after the header.
-fn ether_type(frame: &[u8], at: usize, header_bytes: usize) -> Option<SlicedPacket<'_>> {
+fn ether_type(frame: &[u8], at: usize, header_bytes: usize) -> Option<LaxSlicedPacket<'_>> {
     let kind = EtherType(big_endian(frame, at)?);
-    SlicedPacket::from_ether_type(kind, frame.get(header_bytes..)?).ok()
+    Some(LaxSlicedPacket::from_ether_type(kind, frame.get(header_bytes..)?))
 }
 
-fn ppp(frame: &[u8]) -> Option<SlicedPacket<'_>> {
+fn ppp(frame: &[u8]) -> Option<LaxSlicedPacket<'_>> {
     let frame = frame.strip_prefix(&[0xff, 0x03]).unwrap_or(frame);
     matches!(big_endian(frame, 0)?, PPP_IPV4 | PPP_IPV6).then(|| ip_after(frame, 2)).flatten()
 }
 
 /// The messages of Linux's firewall: a header of four bytes, then parts with length and type in the order of
 /// the machine's bytes, of which nearly all are little-endian.
-fn nflog(frame: &[u8]) -> Option<SlicedPacket<'_>> {
+fn nflog(frame: &[u8]) -> Option<LaxSlicedPacket<'_>> {
     let mut parts = frame.get(4..)?;
     loop {
         let [a, b, c, d] = *parts.first_chunk()?;

@@ -198,6 +198,7 @@ fn distances(packet: &Packet, block: usize, first: usize, model: &Model) -> [u16
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::capture::model::MODELS;
     use proptest::prelude::*;
 
     /// A packet whose first block looks to `azimuth`, each next one 0.4° further, with `distance` in every
@@ -214,13 +215,17 @@ pub(crate) mod tests {
             packet[head..head + 2].copy_from_slice(&BLOCK_FLAG);
             let azimuth = (azimuth + 40 * (block / returns) as u16) % 36_000;
             packet[head + 2..head + 4].copy_from_slice(&azimuth.to_le_bytes());
-            for beam in 0..2 * LASERS {
+            for beam in 0..RETURNS {
                 let at = head + 4 + beam * RETURN_BYTES;
                 packet[at..at + 2].copy_from_slice(&distance(block, beam).to_le_bytes());
             }
         }
-        packet[PACKET_BYTES - 2..].copy_from_slice(&[mode, VLP16]);
+        packet[PACKET_BYTES - 2..].copy_from_slice(&[mode, MODELS[0].product]);
         packet
+    }
+
+    fn firings(packet: &Packet) -> Vec<Firing> {
+        sweep(packet, &MODELS[0], 1).unwrap().firings
     }
 
     #[test]
@@ -230,7 +235,7 @@ pub(crate) mod tests {
         {
             let packet =
                 packet(azimuth, STRONGEST, |block, beam| if (block, beam) == (0, 0) { 1000 } else { 0 });
-            let points: Vec<Vec3> = firings(&packet, 1).unwrap().iter().flat_map(Firing::points_m).collect();
+            let points: Vec<Vec3> = firings(&packet).iter().flat_map(Firing::points_m).collect();
             let (sin, cos) = libm::sincos((-15_f64).to_radians());
             let expected = Vec3::new(
                 (2.0 * cos * forward) as f32,
@@ -244,12 +249,12 @@ pub(crate) mod tests {
 
     #[test]
     fn azimuths_are_interpolated_between_blocks_and_past_the_last() {
-        let firings = firings(&packet(35_980, STRONGEST, |_, _| 500), 1).unwrap();
+        let firings = firings(&packet(35_980, STRONGEST, |_, _| 500));
         assert_eq!(firings.len(), 24);
         for (index, firing) in firings.iter().enumerate() {
             let expected = (35_980.0 + 20.0 * index as f64).rem_euclid(TURN);
             assert!((firing.azimuth - expected).abs() < 1e-9, "{index}: {} {expected}", firing.azimuth);
-            assert_eq!(firing.points_m().count(), LASERS);
+            assert_eq!(firing.points_m().count(), 16);
         }
         // The last laser of a sequence fires 34.56 µs after the first, in 110.592 µs for 0.4°.
         let last = firings[2].points_m().last().unwrap();
@@ -261,8 +266,8 @@ pub(crate) mod tests {
     fn two_returns_are_told_apart_and_a_single_one_counts_once() {
         // Blocks in pairs: the last return at 3 m, and from laser 8 on the strongest at 2 m.
         let packet =
-            packet(0, DUAL, |block, beam| if block % 2 == 1 && beam % LASERS >= 8 { 1000 } else { 1500 });
-        let firings = firings(&packet, 1).unwrap();
+            packet(0, DUAL, |block, beam| if block % 2 == 1 && beam % 16 >= 8 { 1000 } else { 1500 });
+        let firings = firings(&packet);
         assert_eq!(firings.len(), 24);
         let azimuths: Vec<f64> = firings.iter().map(|firing| firing.azimuth).collect();
         assert_eq!(azimuths[..6], [0.0, 0.0, 20.0, 20.0, 40.0, 40.0]);
@@ -272,34 +277,91 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn faults_name_packet_and_block() {
-        let fault = |at: usize, byte: u8| {
+    fn a_bad_block_is_left_out_and_the_others_turn_as_far_as_they_did() {
+        let whole = packet(35_900, STRONGEST, |block, _| 500 + block as u16);
+        for block in 0..BLOCKS {
+            let mut bent = whole;
+            bent[block * BLOCK_BYTES] = 0;
+            let bent = sweep(&bent, &MODELS[0], 7).unwrap();
+            let expected = format!("packet 7, block {}, flag = 0x00ee: expected 0xffee", block + 1);
+            assert_eq!(bent.bad_blocks.iter().map(ToString::to_string).collect::<Vec<_>>(), [expected]);
+            let mut rest = firings(&whole);
+            rest.drain(2 * block..2 * block + 2);
+            let azimuths =
+                |firings: &[Firing]| -> Vec<f64> { firings.iter().map(|firing| firing.azimuth).collect() };
+            let differences = azimuths(&rest).into_iter().zip(azimuths(&bent.firings));
+            assert_eq!(bent.firings.len(), 22);
+            assert!(differences.into_iter().all(|(a, b)| (a - b).abs() < 1e-9), "{block}");
+            assert_eq!((bent.begin.rem_euclid(TURN), bent.turned), (35_900.0, 480.0));
+        }
+    }
+
+    #[test]
+    fn of_two_returns_the_good_block_counts() {
+        let mut packet = packet(0, DUAL, |block, _| if block % 2 == 1 { 1000 } else { 1500 });
+        packet[2 * BLOCK_BYTES] = 0;
+        packet[5 * BLOCK_BYTES + 3] = 0xff;
+        let sweep = sweep(&packet, &MODELS[0], 1).unwrap();
+        assert_eq!((sweep.firings.len(), sweep.bad_blocks.len()), (20, 2));
+        let distances: Vec<u16> = sweep.firings.iter().map(|firing| firing.distances[0]).collect();
+        assert_eq!(distances[..8], [1500, 1000, 1500, 1000, 1000, 1000, 1500, 1500]);
+    }
+
+    #[test]
+    fn faults_name_packet_and_place() {
+        let fault = |mode: u8, good: usize| {
             let mut packet = packet(0, STRONGEST, |_, _| 500);
-            packet[at] = byte;
-            firings(&packet, 7).err().unwrap().to_string()
+            packet[PACKET_BYTES - 2] = mode;
+            for block in good..BLOCKS {
+                packet[block * BLOCK_BYTES + 3] = 0xff;
+            }
+            sweep(&packet, &MODELS[0], 7).err().unwrap().to_string()
         };
-        assert_eq!(fault(1205, 0x24), "packet 7, product = 0x24: expected 0x22, a VLP-16");
-        assert!(fault(1204, 0).starts_with("packet 7, return mode = 0x00: expected 0x37 (strongest)"));
-        assert_eq!(fault(201, 0), "packet 7, block 3, flag = 0xff00: expected 0xffee");
-        assert!(fault(103, 0xff).starts_with("packet 7, block 2, azimuth = 65320: expected"));
+        assert!(fault(0, 12).starts_with("packet 7, return mode = 0x00: expected 0x37 (strongest)"));
+        assert!(fault(LAST, 1).starts_with("packet 7, good blocks = 1: expected at least two"));
+    }
+
+    /// Points as velodyne-decoder 3.0.0 (PyPI) gives them, for lasers that all measure 10 m.
+    #[test]
+    fn the_other_models_have_their_own_angles() {
+        let firing = |product: u8, distance: u16| {
+            let model = MODELS.iter().find(|model| model.product == product).unwrap();
+            let firings = sweep(&packet(0, STRONGEST, |_, _| distance), model, 1).unwrap().firings;
+            (firings.len(), firings[0].points_m().collect::<Vec<Vec3>>())
+        };
+        let (count, hi_res) = firing(0x24, 5000);
+        assert_eq!((count, hi_res.len()), (24, 16));
+        let elevation = |point: &Vec3| libm::atan2(f64::from(point.z), f64::from(point.x)).to_degrees();
+        assert!((elevation(&hi_res[0]) + 10.0).abs() < 0.05 && (elevation(&hi_res[15]) - 10.0).abs() < 0.05);
+        let (count, wide) = firing(0x28, 2500);
+        assert_eq!((count, wide.len()), (12, 32));
+        let azimuth = |point: &Vec3| libm::atan2(f64::from(-point.y), f64::from(point.x)).to_degrees();
+        for (laser, azimuth_deg, elevation_deg) in [(0, 1.4, -25.0), (1, -4.2, -1.0), (29, -1.4, 15.0)] {
+            // All fire within 0.4°.
+            let turned = azimuth(&wide[laser]) - azimuth_deg;
+            assert!((0.0..0.4).contains(&(turned + 1e-4)), "{laser}: {turned}");
+            let climb = libm::asin(f64::from(wide[laser].z / wide[laser].length())).to_degrees();
+            assert!((climb - elevation_deg).abs() < 1e-3, "{laser}: {climb}");
+        }
     }
 
     proptest! {
         #[test]
         fn any_packet_gives_finite_points_or_a_fault(
             bytes in prop::collection::vec(any::<u8>(), PACKET_BYTES), mode in STRONGEST..=DUAL, valid in any::<bool>(),
+            model in 0..MODELS.len(),
         ) {
-            let mut packet: [u8; PACKET_BYTES] = bytes.try_into().unwrap();
+            let mut packet: Packet = bytes.try_into().unwrap();
             if valid {
                 for block in 0..BLOCKS {
                     packet[block * BLOCK_BYTES..][..2].copy_from_slice(&BLOCK_FLAG);
                     packet[block * BLOCK_BYTES + 3] %= 140;
                 }
-                packet[PACKET_BYTES - 2..].copy_from_slice(&[mode, VLP16]);
+                packet[PACKET_BYTES - 2] = mode;
             }
-            match firings(&packet, 1) {
-                Ok(firings) => for point in firings.iter().flat_map(Firing::points_m) {
-                    prop_assert!(point.is_finite() && point.length() < 132.0);
+            match sweep(&packet, &MODELS[model], 1) {
+                Ok(sweep) => for point in sweep.firings.iter().flat_map(Firing::points_m) {
+                    prop_assert!(point.is_finite() && point.length() < 264.0);
                 },
                 Err(fault) => prop_assert!(!valid, "{}", fault),
             }
