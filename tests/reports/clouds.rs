@@ -34,8 +34,8 @@ fn kinds(answer: &Answer) -> Vec<&str> {
     profile.iter().filter_map(|column| column["kind"].as_str()).collect()
 }
 
-/// About the reference's profile: no walls, and nothing known of what lies behind, where the sensor looks over
-/// the ground.
+/// About the reference's profile: no walls, and nothing known of what lies behind, where the sensor looks
+/// over the ground.
 fn tilted(report: &Report) -> Result<(), String> {
     let (answer, good) = (report.perceive("scan.pcd", &[]), report.perceive_good("hilly.csv"));
     let about = |(found, good): (&&str, &&str)| found == good || *found == "unknown";

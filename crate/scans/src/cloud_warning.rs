@@ -63,8 +63,8 @@ impl fmt::Display for CloudWarning {
 }
 
 impl Scan {
-    /// A word when no return is within `reach_m` of the sensor, the distance in which the planner looks at the
-    /// ground. Returns nearer than `min_range_m`, the least range of the sensor, are none.
+    /// A word when no return is within `reach_m` of the sensor, the distance in which the planner looks at
+    /// the ground. Returns nearer than `min_range_m`, the least range of the sensor, are none.
     pub fn out_of_reach(&self, min_range_m: f64, reach_m: f64) -> Option<ScanWarning> {
         let ranges_m = self.points_m.iter().map(|point: &Vec3| point.as_dvec3().length());
         let nearest_m = ranges_m.filter(|range_m| *range_m >= min_range_m).reduce(f64::min)?;

@@ -1,4 +1,4 @@
-//! Scans of the KITTI data set: x, y, z and intensity of each point as little-endian floats, without a header.
+//! Scans of the KITTI data set: x, y, z and intensity of each point as little-endian floats, no header.
 
 use glam::DVec3;
 

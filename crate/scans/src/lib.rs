@@ -5,8 +5,8 @@
 //!
 //! - `.pcd`: a point cloud of the Point Cloud Library, `ascii`, `binary` or `binary_compressed`. A viewpoint
 //!   is the sensor's pose: the points come out in a level frame at the sensor that faces where it faces.
-//! - `.csv`, `.txt`, `.xyz`, `.asc` or `.pts`: text with one point a line, x y z first or where a header names
-//!   them. VeloView's columns are turned as a capture's.
+//! - `.csv`, `.txt`, `.xyz`, `.asc` or `.pts`: text with one point a line, x y z first or where a header
+//!   names them. VeloView's columns are turned as a capture's.
 //! - `.ply`: the element `vertex` of a polygon file, ascii or binary.
 //! - `.bin`: a scan of KITTI, four floats a point.
 //! - `.pcap`, `.pcapng` or `.cap`: a capture of a Velodyne VLP-16, Puck Hi-Res or VLP-32C, with one or two

@@ -359,7 +359,7 @@ mod tests {
         assert_eq!(fault("1 2 3\n4 5 6 7"), "line 2 = 4 5 6 7: expected 3 values, as in line 1");
         assert_eq!(fault("x,y,z,i\n4,5,6"), "line 2 = 4,5,6: expected 4 values, as in line 1");
         assert!(fault("ncols 3\nnrows 3\n").contains("a terrain and no scan"));
-        assert!(fault("1\02\0").contains("byte 1 is 0"));
+        assert!(fault("1\u{0}2\u{0}").contains("byte 1 is 0"));
         assert!(fault(&"é".repeat(500)).len() < 200);
         let binary = read(&[b'1', b' ', 0xff]).unwrap_err().to_string();
         assert!(binary.starts_with("line 1 = 1 \u{fffd}: "), "{binary}");

@@ -108,8 +108,8 @@ fn heading(turn: DQuat) -> DMat3 {
     DMat3::from_cols(ahead, DVec3::new(-ahead.y, ahead.x, 0.0), DVec3::Z)
 }
 
-/// The chance that two points have the same elevation, to a bin; 0 if there are too few points, or if they are
-/// far from the origin, from where all elevations look alike.
+/// The chance that two points have the same elevation, to a bin; 0 if there are too few points, or if they
+/// are far from the origin, from where all elevations look alike.
 fn crowding(points_m: impl Iterator<Item = DVec3>) -> f64 {
     let (mut sines, mut sum_m, mut square_sum) = (Vec::new(), DVec3::ZERO, 0.0);
     for point in points_m {
@@ -135,7 +135,8 @@ fn crowding(points_m: impl Iterator<Item = DVec3>) -> f64 {
         let bin = (sine - low) / (high - low) * BINS as f64;
         bins[(bin as usize).min(BINS - 1)] += 1;
     }
-    bins.into_iter().map(|count| (f64::from(count) / sines.len() as f64).powi(2)).sum()
+    let chances = bins.into_iter().map(|count| f64::from(count) / sines.len() as f64);
+    chances.map(|chance| chance * chance).sum()
 }
 
 #[cfg(test)]
@@ -150,14 +151,14 @@ mod tests {
         let beams =
             (0..1600).map(|beam| (f64::from(beam / 16) / 100.0 * TAU, f64::from(beam % 16) * 2.0 - 15.0));
         let directions = beams.map(|(azimuth, degrees)| {
-            let (sin, cos) = azimuth.sin_cos();
-            let (up, level) = degrees.to_radians().sin_cos();
+            let (sin, cos) = libm::sincos(azimuth);
+            let (up, level) = libm::sincos(degrees.to_radians());
             DVec3::new(level * cos, level * sin, up)
         });
         let ranges = directions.map(|direction| {
             let level = tilt * direction;
             let floor_m = if level.z < 0.0 { -0.8 / level.z } else { 30.0 };
-            direction * floor_m.min(4.0 + 3.0 * (7.0 * level.x).sin().abs())
+            direction * floor_m.min(4.0 + 3.0 * libm::sin(7.0 * level.x).abs())
         });
         ranges.collect()
     }
