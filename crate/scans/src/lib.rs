@@ -11,9 +11,9 @@
 //! - `.bin`: a scan of KITTI, four floats a point.
 //! - `.pcap`, `.pcapng` or `.cap`: a capture of a Velodyne VLP-16, Puck Hi-Res or VLP-32C, with one or two
 //!   returns a beam. Its azimuth turns clockwise as seen from above, from the sensor's y axis, which looks
-//!   forward: forward is Velodyne's y and left its -x. A revolution goes from behind the sensor round to behind
-//!   it again, so that what lies ahead is seen in one sweep. What stands before the first whole revolution and
-//!   after the last one is left out, and so is a revolution of which a packet was lost.
+//!   forward: forward is Velodyne's y and left its -x. A revolution goes from behind the sensor round to
+//!   behind it again, so that what lies ahead is seen in one sweep. What stands before the first whole
+//!   revolution and after the last one is left out, and so is a revolution of which a packet was lost.
 
 mod capture;
 mod cloud_warning;

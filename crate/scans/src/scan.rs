@@ -17,6 +17,19 @@ pub struct Scan {
     pub warnings: Vec<ScanWarning>,
 }
 
+impl Scan {
+    /// A word when no return is within `reach_m` of the sensor, the distance in which the planner looks at
+    /// the ground. Returns nearer than `min_range_m`, the least range of the sensor, are none.
+    pub fn out_of_reach(&self, min_range_m: f64, reach_m: f64) -> Option<ScanWarning> {
+        let ranges_m = self.points_m.iter().map(|point: &Vec3| point.as_dvec3().length());
+        let nearest_m = ranges_m.filter(|range_m| *range_m >= min_range_m).reduce(f64::min)?;
+        (nearest_m > reach_m).then(|| {
+            let (reach, nearest) = (reach_m.to_string(), format!("{nearest_m:.1}"));
+            ScanWarning::Cloud(CloudWarning::OutOfReach { reach, nearest })
+        })
+    }
+}
+
 /// A scan without warnings.
 impl From<Vec<Vec3>> for Scan {
     fn from(points_m: Vec<Vec3>) -> Self {
@@ -181,4 +194,24 @@ impl fmt::Display for ScanWarning {
 fn count(number: usize, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{number} {thing}{plural}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_is_said_when_nothing_is_within_reach() {
+        let word = |points_m: &[Vec3]| {
+            let scan = Scan::from(points_m.to_vec());
+            scan.out_of_reach(0.5, 7.0).map(|warning| warning.to_string())
+        };
+        let far = [Vec3::new(1700.0, 0.0, -700.0), Vec3::new(0.0, 3000.0, -700.0)];
+        let said = word(&far).unwrap();
+        assert!(said.starts_with("no return within 7 m, the nearest is 1838.5 m away: "), "{said}");
+        assert_eq!(word(&[far[0], Vec3::ZERO, Vec3::X * 0.4]), Some(said), "too near to be returns");
+        assert_eq!(word(&[far[0], Vec3::X * 6.9]), None);
+        assert_eq!(word(&[Vec3::ZERO]), None, "an empty scan is another matter");
+        assert_eq!(word(&[]), None);
+    }
 }

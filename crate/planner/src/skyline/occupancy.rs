@@ -72,7 +72,8 @@ impl OccupancySurface {
         self.collect();
     }
 
-    /// Projects returns whose cell, column × rings + ring, and range are known. Those beyond r_oc are skipped.
+    /// Projects returns whose cell, column × rings + ring, and range are known. Those beyond r_oc are
+    /// skipped.
     pub(crate) fn project_cells(&mut self, returns: impl Iterator<Item = (usize, f64)>) {
         self.clear();
         for (cell, range_m) in returns {

@@ -153,8 +153,8 @@ impl ElevationWindow {
         }
     }
 
-    /// Forgets the cells whose ground a scan refutes, and returns where they were. Each scan looks at a part of
-    /// the cells, in turn.
+    /// Forgets the cells whose ground a scan refutes, and returns where they were. Each scan looks at a part
+    /// of the cells, in turn.
     pub(crate) fn forget_where(&mut self, is_refuted: impl Fn(DVec3) -> bool) -> &[DVec2] {
         let (cells, refuted_m) = (&mut self.cells, &mut self.refuted_m);
         refuted_m.clear();

@@ -72,6 +72,9 @@ fn every_container_holds_the_same_points() {
     assert_eq!(points(&mixed.concat(), 0), expected);
 }
 
+/// Puts a link layer around an IP datagram.
+type Wrapper<'a> = &'a dyn Fn(&[u8]) -> Vec<u8>;
+
 #[test]
 fn every_link_type_holds_the_same_points() {
     let frames = frames(&packets(COUNT));
@@ -87,7 +90,7 @@ fn every_link_type_holds_the_same_points() {
         [&[2, 0, 0, 0, 5, 0, 10, 0, 1, 0, 0, 0, length[0], length[1], 9, 0], ip(frame)].concat()
     };
     let pppoe = [0x11, 0, 0, 1, 0, 0, 0, 0x21];
-    let wrap: &[(u32, &dyn Fn(&[u8]) -> Vec<u8>)] = &[
+    let wrap: &[(u32, Wrapper<'_>)] = &[
         (1, &|frame| tag(&[0x81, 0, 0, 5], frame)),
         (1, &|frame| tag(&[0x88, 0xa8, 0, 7, 0x81, 0, 0, 5], frame)),
         // Packets end with a check sum of four bytes.

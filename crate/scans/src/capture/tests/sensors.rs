@@ -83,7 +83,7 @@ fn two_returns_of_a_puck_hi_res_and_a_vlp_32c_are_read() {
     for (product, lasers, returns) in [(0x24_u8, 16, 1), (0x28, 32, 1), (0x24, 16, 2), (0x28, 32, 2)] {
         let mode = [0x37, 0x39][returns - 1];
         // A packet of the VLP-32C takes half the time.
-        let packet_us = 663.552 * (32 / lasers) as f64 / returns as f64;
+        let packet_us = 663.552 * f64::from(32 / lasers) / returns as f64;
         let packet = |number: usize| {
             let azimuth = 480 / returns * number % 36_000;
             let distance = |block: usize, _| 1000 + (block % returns) as u16;
