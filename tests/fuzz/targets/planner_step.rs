@@ -8,7 +8,7 @@ use core::time::Duration;
 
 use glam::{DVec2, DVec3, Vec3};
 use libfuzzer_sys::fuzz_target;
-use mapless::pose::Pose;
+use mapless::Pose;
 use mapless::{Command, Planner, PlannerConfig, Status};
 
 #[derive(Arbitrary, Debug)]
@@ -55,7 +55,7 @@ fuzz_target!(|input: Input| {
     let config = if input.paper { PlannerConfig::paper() } else { PlannerConfig::default() };
     let limits = config.controller;
     let mut planner = Planner::new(config).expect("presets are valid");
-    let mut pose = Pose { position_m: DVec3::ZERO, roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 0.0 };
+    let mut pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, 0.0, 0.0);
     let mut goal_m = DVec2::new(20.0, 0.0);
     for step in input.steps.iter().take(STEPS) {
         match step.place {
