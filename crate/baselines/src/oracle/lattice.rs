@@ -1,10 +1,11 @@
 //! The graph that the oracle searches.
 
-use super::motions::{HEADINGS, Motion, drives, heading_rad};
+use super::motions::{Motion, drives, heading_rad};
 use super::safe_poses::SafePoses;
 use super::{OracleError, PlanPose};
 use glam::DVec2;
 use mapless::math::angle::difference_rad;
+use mapless::terrain::headings::HEADINGS;
 
 /// Attitudes are checked at this spacing along a motion.
 const CHECK_M: f64 = 0.125;
@@ -25,7 +26,7 @@ pub(super) struct Node {
 }
 
 /// The robot's own heading at the start.
-const AS_PUT: u8 = HEADINGS.len() as u8;
+const AS_PUT: u8 = HEADINGS as u8;
 
 impl Node {
     pub(super) const START: Self = Self { column: 0, row: 0, heading: AS_PUT };
@@ -114,7 +115,7 @@ impl<'a> Lattice<'a> {
             drives,
             first: (low.x as i32, low.y as i32),
             size,
-            verdicts: vec![Verdict::Unknown; size.0 * size.1 * HEADINGS.len()],
+            verdicts: vec![Verdict::Unknown; size.0 * size.1 * HEADINGS],
         })
     }
 
@@ -124,8 +125,8 @@ impl<'a> Lattice<'a> {
 
     /// The successors of a node by one safe motion, and their costs.
     pub(super) fn successors(&mut self, node: Node) -> Vec<(Node, u64)> {
-        let mut found = Vec::with_capacity(HEADINGS.len());
-        let count = HEADINGS.len() as u8;
+        let mut found = Vec::with_capacity(HEADINGS);
+        let count = HEADINGS as u8;
         if node.heading == AS_PUT {
             found.extend((0..count).filter_map(|heading| self.turn(node, heading)));
             return found;
@@ -140,7 +141,7 @@ impl<'a> Lattice<'a> {
     fn drive(&mut self, node: Node, index: usize) -> Option<(Node, u64)> {
         let from = usize::from(node.heading);
         let motion = &self.drives[from][index];
-        let (columns, rows) = motion.step;
+        let [columns, rows] = motion.step.to_array();
         let end = Node { column: node.column + columns, row: node.row + rows, heading: motion.heading };
         // Most unsafe motions end on ground that is already known to be unsafe.
         if !self.is_safe(end) {
@@ -160,7 +161,7 @@ impl<'a> Lattice<'a> {
         let safe = self.is_safe(end)
             && self.turn_rad(node, end).all(|yaw_rad| self.safe_poses.is_safe(position_m, yaw_rad));
         let angle_rad = difference_rad(self.yaw_rad(end), self.yaw_rad(node)).abs();
-        let share = angle_rad * HEADINGS.len() as f64 / std::f64::consts::TAU;
+        let share = angle_rad * HEADINGS as f64 / std::f64::consts::TAU;
         safe.then_some((end, (TURN_COST_M * share * MICROMETRES).ceil() as u64))
     }
 
@@ -177,7 +178,7 @@ impl<'a> Lattice<'a> {
         let column = usize::try_from(node.column - self.first.0).ok().filter(|&column| column < columns);
         let row = usize::try_from(node.row - self.first.1).ok().filter(|&row| row < rows);
         let (Some(column), Some(row)) = (column, row) else { return false };
-        let index = (row * columns + column) * HEADINGS.len() + usize::from(node.heading);
+        let index = (row * columns + column) * HEADINGS + usize::from(node.heading);
         match self.verdicts[index] {
             Verdict::Safe => true,
             Verdict::Unsafe => false,
@@ -208,9 +209,10 @@ impl<'a> Lattice<'a> {
                 poses.extend(turned.map(|yaw_rad| PlanPose { position_m: origin_m, yaw_rad }));
                 continue;
             }
-            let step = (to.column - from.column, to.row - from.row);
+            let step = [to.column - from.column, to.row - from.row];
             let motions = &self.drives[usize::from(from.heading)];
-            let motion = motions.iter().find(|motion| motion.step == step && motion.heading == to.heading);
+            let motion =
+                motions.iter().find(|motion| motion.step.to_array() == step && motion.heading == to.heading);
             poses.extend(motion.iter().flat_map(|motion| &motion.poses).map(|&(offset, yaw_rad)| PlanPose {
                 position_m: origin_m + self.cell.rotate(offset),
                 yaw_rad: self.axis_rad + yaw_rad,

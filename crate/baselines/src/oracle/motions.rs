@@ -1,31 +1,12 @@
 //! The motions from a place of the lattice to another, in units of its cells.
 
-use glam::DVec2;
-
-/// Headings of the lattice, in order: those of a king's and a knight's moves.
-pub(super) const HEADINGS: [(i32, i32); 16] = [
-    (1, 0),
-    (2, 1),
-    (1, 1),
-    (1, 2),
-    (0, 1),
-    (-1, 2),
-    (-1, 1),
-    (-2, 1),
-    (-1, 0),
-    (-2, -1),
-    (-1, -1),
-    (-1, -2),
-    (0, -1),
-    (1, -2),
-    (1, -1),
-    (2, -1),
-];
+use glam::{DVec2, IVec2};
+use mapless::terrain::headings::{HEADINGS, STEPS};
 
 /// One motion from a place with a given heading.
 pub(super) struct Motion {
     /// Columns and rows to the place where it ends.
-    pub(super) step: (i32, i32),
+    pub(super) step: IVec2,
     /// Heading there.
     pub(super) heading: u8,
     /// Positions and headings along the motion, the last one at its end.
@@ -42,38 +23,36 @@ impl Motion {
 
 /// Angle of a heading, radians from the lattice's first axis.
 pub(super) fn heading_rad(heading: u8) -> f64 {
-    let (x, y) = HEADINGS[usize::from(heading)];
-    libm::atan2(f64::from(y), f64::from(x))
+    let along = STEPS[usize::from(heading)].as_dvec2();
+    libm::atan2(along.y, along.x)
 }
 
 /// The motions that drive, for each heading: straight, and bends into the next two headings to either side.
 ///
 /// Poses are at most `step` cells apart.
 pub(super) fn drives(step: f64) -> Vec<Vec<Motion>> {
-    let count = HEADINGS.len();
-    (0..count)
+    (0..HEADINGS)
         .map(|from| {
-            [0, 1, count - 1, 2, count - 2].map(|turn| drive(from, (from + turn) % count, step)).into()
+            let turns = [0, 1, HEADINGS - 1, 2, HEADINGS - 2];
+            turns.map(|turn| drive(from, (from + turn) % HEADINGS, step)).into()
         })
         .collect()
 }
 
 fn drive(from: usize, to: usize, step: f64) -> Motion {
-    let vector = |(x, y): (i32, i32)| DVec2::new(f64::from(x), f64::from(y));
-    let (begin, end) = (vector(HEADINGS[from]), vector(HEADINGS[to]));
+    let (begin, end) = (STEPS[from].as_dvec2(), STEPS[to].as_dvec2());
     let angle = |direction: DVec2| libm::atan2(direction.y, direction.x);
     let shares = |pieces: f64| (1..=pieces.ceil() as u32).map(move |i| f64::from(i) / pieces.ceil());
     if from == to {
         let poses = shares(begin.length() / step).map(|share| (begin * share, angle(begin))).collect();
-        return Motion { step: HEADINGS[from], heading: to as u8, poses };
+        return Motion { step: STEPS[from], heading: to as u8, poses };
     }
     // The parabola that leaves along the first heading and arrives along the second; its speed never exceeds
     // twice the longer of both.
     let poses = shares(2.0 * begin.length().max(end.length()) / step)
         .map(|t| (begin * (2.0 * t - t * t) + end * (t * t), angle(begin * (1.0 - t) + end * t)))
         .collect();
-    let (east, north) = (HEADINGS[from].0 + HEADINGS[to].0, HEADINGS[from].1 + HEADINGS[to].1);
-    Motion { step: (east, north), heading: to as u8, poses }
+    Motion { step: STEPS[from] + STEPS[to], heading: to as u8, poses }
 }
 
 #[cfg(test)]
@@ -95,7 +74,7 @@ mod tests {
                     assert!(turn(libm::atan2(path.y, path.x), yaw_rad) < 0.2, "drives where it looks");
                     last = (place, yaw_rad);
                 }
-                let end = DVec2::new(f64::from(motion.step.0), f64::from(motion.step.1));
+                let end = motion.step.as_dvec2();
                 assert!(last.0.distance(end) < 1e-12);
                 assert!((last.1 - heading_rad(motion.heading)).abs() < 1e-12);
             }

@@ -7,7 +7,7 @@ use mapless_world::{HeightField, RobotConfig, attitude_on};
 use std::f64::consts::TAU;
 
 /// Headings checked before a place counts as too steep, or as safe with every heading.
-const HEADINGS: u32 = 16;
+const CHECKED_HEADINGS: u32 = 16;
 /// Attitudes are checked at this spacing along the straight line, metres.
 const STRAIGHT_STEP_M: f64 = 0.125;
 
@@ -109,7 +109,7 @@ impl<'a> SafePoses<'a> {
 }
 
 fn headings_rad() -> impl Iterator<Item = f64> {
-    (0..HEADINGS).map(|index| f64::from(index) * (TAU / f64::from(HEADINGS)))
+    (0..CHECKED_HEADINGS).map(|index| f64::from(index) * (TAU / f64::from(CHECKED_HEADINGS)))
 }
 
 /// A gradient g such that a robot on ground nowhere steeper stays within the limits with every heading.

@@ -1,14 +1,15 @@
-//! The sixteen headings of the state lattice.
+//! The sixteen headings of the state lattice, those of a king's and a knight's moves. The oracle's lattice shares
+//! them.
 
 use core::f64::consts::FRAC_1_SQRT_2;
 
 use glam::{DVec2, IVec2};
 
 /// Headings, anticlockwise from east.
-pub(crate) const HEADINGS: usize = 16;
+pub const HEADINGS: usize = 16;
 
 /// One drive along each heading, in places.
-pub(crate) const STEPS: [IVec2; HEADINGS] = [
+pub const STEPS: [IVec2; HEADINGS] = [
     IVec2::new(1, 0),
     IVec2::new(2, 1),
     IVec2::new(1, 1),

@@ -2,7 +2,7 @@
 
 pub(crate) mod attitude;
 pub(crate) mod elevation_window;
-pub(crate) mod headings;
+pub mod headings;
 pub mod mount_misfit;
 pub mod plane;
 pub(crate) mod rolling_grid;
