@@ -28,6 +28,9 @@ pub(crate) enum Part {
     Wasm,
     /// Unit and browser tests of the page.
     Page,
+    /// The answers to inputs that people have, from the data that `MAPLESS_DATA` names or ../shared; the native
+    /// tests have them, too.
+    Reports,
     /// Campaigns on a local Ray cluster; only on request, as it needs Python 3.10 or newer and installs Ray
     /// under target/.
     Ray,
@@ -50,7 +53,10 @@ struct Stage {
 impl Stage {
     /// Whether it belongs to a part, or to all of them: those that need no more than Rust and Node.
     fn belongs_to(&self, part: Option<Part>) -> bool {
-        part.map_or(self.parts != [Part::Ray], |part| self.parts.contains(&part))
+        let on_request = [Part::Ray, Part::Reports];
+        part.map_or(!self.parts.iter().all(|part| on_request.contains(part)), |part| {
+            self.parts.contains(&part)
+        })
     }
 }
 
@@ -64,6 +70,7 @@ const STAGES: &[Stage] = &[
     Stage { title: "build of the page", parts: &[Part::Lint, Part::Page], run: build_page },
     Stage { title: "lint and types of the page", parts: &[Part::Lint], run: check_page },
     Stage { title: "native tests", parts: &[Part::Native], run: test_native },
+    Stage { title: "reports", parts: &[Part::Reports], run: test_reports },
     Stage { title: "wasm tests", parts: &[Part::Wasm], run: test_wasm },
     Stage { title: "unit tests of the page", parts: &[Part::Page], run: test_page_units },
     // The browser tests compare the page with the command line; those on Ray run it.
@@ -198,6 +205,12 @@ fn test_native(sh: &Shell) -> anyhow::Result<Count> {
     count(test, Runner::Cargo)
 }
 
+fn test_reports(sh: &Shell) -> anyhow::Result<Count> {
+    let data = data(sh).context("no data: expected the folder that MAPLESS_DATA names, or ../shared")?;
+    let test = cmd!(sh, "cargo test --package mapless-cli --test reports -- --include-ignored");
+    count(test.env("MAPLESS_DATA", data), Runner::Cargo)
+}
+
 /// Recorded scans, elevation models and gpflow's values that are not in the repository; without them the
 /// tests that read them count as skipped.
 fn data(sh: &Shell) -> Option<PathBuf> {
@@ -315,13 +328,15 @@ mod tests {
     }
 
     #[test]
-    fn a_stage_of_two_parts_runs_with_either_and_those_on_ray_only_when_asked_for() {
+    fn a_stage_of_two_parts_runs_with_either_and_those_on_request_only_when_asked_for() {
         let titles = |part| -> Vec<&str> {
             STAGES.iter().filter(|stage| stage.belongs_to(part)).map(|stage| stage.title).collect()
         };
         assert!(titles(Some(Part::Lint)).contains(&"build of the page"));
         assert!(titles(Some(Part::Page)).contains(&"build of the page"));
-        assert!(!titles(None).contains(&"campaigns on Ray"));
+        assert!(titles(None).contains(&"build of the command line"));
+        assert!(!titles(None).contains(&"campaigns on Ray") && !titles(None).contains(&"reports"));
+        assert_eq!(titles(Some(Part::Reports)), ["reports"]);
         assert!(titles(Some(Part::Ray)).contains(&"campaigns on Ray"));
     }
 }
