@@ -28,8 +28,8 @@ pub(crate) enum Part {
     Wasm,
     /// Unit and browser tests of the page.
     Page,
-    /// The answers to inputs that people have, from the data that `MAPLESS_DATA` names or ../shared; the native
-    /// tests have them, too.
+    /// The answers to inputs that people have, from the data that `MAPLESS_DATA` names or ../shared; the
+    /// native tests have them, too.
     Reports,
     /// Campaigns on a local Ray cluster; only on request, as it needs Python 3.10 or newer and installs Ray
     /// under target/.

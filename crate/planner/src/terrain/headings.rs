@@ -1,5 +1,5 @@
-//! The sixteen headings of the state lattice, those of a king's and a knight's moves. The oracle's lattice shares
-//! them.
+//! The sixteen headings of the state lattice, those of a king's and a knight's moves. The oracle's lattice
+//! shares them.
 
 use core::f64::consts::FRAC_1_SQRT_2;
 
