@@ -1,5 +1,7 @@
 import type { Page } from '@playwright/test';
-import { driveTo, expect, moved, state, still, test, until } from './page.ts';
+import type { MaplessState } from '../../web/src/app/windowApi.ts';
+import { wrap } from '../../web/src/base/format.ts';
+import { driveTo, expect, moved, shortCourse, state, still, test, until } from './page.ts';
 
 /** Of the ground above height zero, in cubic metres. */
 function volume(page: Page): Promise<number> {
@@ -100,10 +102,74 @@ test('a click sets the goal, and a drag the start with its heading', async ({ ma
   expect(now.tick).toBe(0);
 });
 
+test('a dragged goal has a final heading, which is shown, typed, cleared and undone', async ({ mapless: page }) => {
+  await still(page);
+  // From above, with east to the right of north: a drag along the screen is one over the ground.
+  await page.keyboard.press('o');
+  await page.keyboard.press('2');
+  await still(page);
+  const old = await state(page);
+  const field = page.getByRole('spinbutton', { name: 'Final heading' });
+  await expect(field).toHaveValue('');
+  const heading_rad = async () => (await state(page)).goal.heading_rad;
+  const box = await page.locator('#view').boundingBox();
+  if (!box) throw new Error('The view has no place.');
+  const [x, y] = [box.x + 0.5 * box.width, box.y + 0.5 * box.height];
+  const bare = await page.locator('#view').screenshot();
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 90, y, { steps: 4 });
+  await page.mouse.up();
+  await until(page, (now) => moved(now.goal, old.goal));
+  const { goal } = await state(page);
+  const degrees = Math.round(((goal.heading_rad ?? Number.NaN) * 180) / Math.PI);
+  await expect(field).toHaveValue(String((degrees + 360) % 360));
+
+  await field.fill('-90');
+  await field.press('Enter');
+  await expect.poll(heading_rad).toBeCloseTo(-Math.PI / 2, 3);
+  await expect(field).toHaveValue('270');
+  expect(await state(page)).toMatchObject({ goal: { x: goal.x, y: goal.y } });
+  await still(page);
+  const turned = await page.locator('#view').screenshot();
+  expect(turned.equals(bare)).toBe(false);
+  await field.fill('');
+  await field.press('Enter');
+  await expect.poll(heading_rad).toBeUndefined();
+  await still(page);
+  // The arrow is gone.
+  expect((await page.locator('#view').screenshot()).equals(turned)).toBe(false);
+  await page.locator('#undo').click();
+  await expect(field).toHaveValue('270');
+  await page.locator('#undo').click();
+  await until(page, (now) => now.goal.heading_rad === goal.heading_rad);
+
+  // A press is for any heading.
+  await page.mouse.click(x + 40, y);
+  await until(page, (now) => moved(now.goal, goal));
+  await expect(field).toHaveValue('');
+});
+
+test('the robot ends with the heading of its goal, and turns to another one there', async ({ mapless: page }) => {
+  await shortCourse(page, 3);
+  const { pose, goal } = await state(page);
+  const off = (now: MaplessState, to_rad: number) => Math.abs(wrap(now.pose.yaw - to_rad));
+  for (const turn of [2, -1]) {
+    const heading_rad = pose.yaw + turn;
+    await page.evaluate((place) => window.mapless?.setGoal(place), { x: goal.x, y: goal.y, heading_rad });
+    await page.evaluate(() => window.mapless?.play());
+    await until(page, (now) => now.outcome === 'reached' && off(now, heading_rad) < 0.1);
+  }
+});
+
 test('a goal off the terrain is refused in words', async ({ mapless: page }) => {
   const old = await state(page);
   const refusal = await page.evaluate(() => window.mapless?.setGoal({ x: -5, y: 3 }).catch((error) => error.message));
   expect(refusal).toContain('goal = (-5.000, 3.000)');
+  const nowhere = { ...old.goal, heading_rad: Number.NaN };
+  expect(await page.evaluate((to) => window.mapless?.setGoal(to).catch((error) => error.message), nowhere)).toContain(
+    'goal.heading_rad = NaN',
+  );
   expect((await state(page)).goal).toEqual(old.goal);
 });
 
@@ -119,5 +185,5 @@ test('a press beside the ground says so, and the next one on it works', async ({
   await expect(hint).toHaveText('There is no ground: press the terrain');
   await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
   await until(page, (now) => moved(now.goal, old.goal));
-  await expect(hint).toHaveText('Press the ground where the robot should go');
+  await expect(hint).toHaveText('Press for the goal, drag for a final heading');
 });

@@ -1,5 +1,5 @@
 import type { Page } from '@playwright/test';
-import { drawnIn, expect, loaded, moved, state, still, tapIn, test, until } from './page.ts';
+import { drag, drawnIn, expect, loaded, moved, state, still, tapIn, test, until, within } from './page.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
 
@@ -35,6 +35,20 @@ test('a tap with a tool in hand sets the goal', async ({ mapless: page }) => {
   await until(page, (now) => moved(now.goal, old.goal));
 });
 
+test('a finger drags out the final heading of a goal', async ({ mapless: page }) => {
+  await page.evaluate(() => window.mapless?.still());
+  await page.locator('label.tool', { hasText: 'Goal' }).tap();
+  const field = page.getByRole('spinbutton', { name: 'Final heading' });
+  await expect(field).toHaveValue('');
+  const view = page.locator('#view');
+  await drag(page, [await within(view, 0.5, 0.5), await within(view, 0.75, 0.5)]);
+  await expect(field).toHaveValue(/^\d+$/);
+  expect((await state(page)).goal.heading_rad).toBeDefined();
+  await field.fill('45');
+  await field.press('Enter');
+  await until(page, ({ goal }) => Math.abs((goal.heading_rad ?? 0) - Math.PI / 4) < 0.001);
+});
+
 test('a hill, a goal and a link by touch alone, each tool saying what to do', async ({ mapless: page, context }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   await page.evaluate(() => window.mapless?.still());
@@ -44,7 +58,7 @@ test('a hill, a goal and a link by touch alone, each tool saying what to do', as
   await tapIn(page.locator('#view'), 0.45, 0.5);
   await expect(page.locator('#undo')).toBeEnabled();
   await page.locator('label.tool', { hasText: 'Goal' }).tap();
-  await expect(caption).toContainText('Press the ground where the robot should go');
+  await expect(caption).toContainText('Press for the goal, drag for a final heading');
   const old = await state(page);
   await tapIn(page.locator('#view'), 0.45, 0.5);
   await until(page, (now) => moved(now.goal, old.goal));

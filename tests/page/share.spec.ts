@@ -7,7 +7,7 @@ import { unzipSync } from 'fflate';
 import { driven, said } from './commandLine.ts';
 import { expect, kept, loaded, state, test, until } from './page.ts';
 
-/** A boulder and a rough patch ahead of the start of `ht`, another goal behind a waypoint, and another parameter. */
+/** A boulder and a rough patch ahead of the start of `ht`, another goal with a heading behind a waypoint, and another parameter. */
 async function shape(page: Page): Promise<void> {
   await page.evaluate(async () => {
     const { mapless } = window;
@@ -18,7 +18,7 @@ async function shape(page: Page): Promise<void> {
     await mapless?.sculpt({ kind: 'boulder', radius_m: 1.5, strength_m: 0.8, points_cm: at(4, 3) });
     const rough = { kind: 'roughen' as const, radius_m: 3, strength_m: 0.05, seed: 9 };
     await mapless?.sculpt({ ...rough, points_cm: [...at(2, 2), ...at(3, 2)] });
-    await mapless?.setGoal({ x: x + 6, y: y + 6 }, [{ x: x + 4, y: y + 1 }]);
+    await mapless?.setGoal({ x: x + 6, y: y + 6, heading_rad: 2 }, [{ x: x + 4, y: y + 1 }]);
     await mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } });
     await mapless?.restart();
   });

@@ -17,6 +17,8 @@ test('a document is read as it was written', () => {
   assert.deepEqual(readExperiment(JSON.parse(JSON.stringify(EXPERIMENT))), EXPERIMENT);
   const imported = { recipe: 'name = "x"', imported: { name: 'terrain.png', base64: 'AAAA' } };
   assert.deepEqual(readExperiment(changed(['terrain'], imported)), { ...EXPERIMENT, terrain: imported });
+  const goal = { x: 14, y: 57, heading_rad: 2.5 };
+  assert.deepEqual(readExperiment(changed(['goal'], goal)), { ...EXPERIMENT, goal });
   const generated = { generated: { difficulty: 'hard', seed: 7 } };
   assert.deepEqual(readExperiment(changed(['terrain'], generated)), { ...EXPERIMENT, terrain: generated });
 });
@@ -27,6 +29,8 @@ const FAULTS: readonly (readonly [path: readonly (string | number)[], value: unk
   [['goal'], undefined, 'experiment.goal = absent: expected a value'],
   [['goal', 'heading_rad'], 'east', 'goal.heading_rad = "east": expected a number from -1000 to 1000'],
   [['goal', 'x'], Number.NaN, 'goal.x = NaN: expected a number from -1000000 to 1000000'],
+  [['goal', 'heading_rad'], null, 'goal.heading_rad = null: expected a number from -1000 to 1000'],
+  [['goal', 'heading'], 1, 'goal.heading = 1: expected one of the keys x, y, heading_rad'],
   [['start', 'heading_rad'], '1', 'start.heading_rad = "1": expected a number'],
   [['seed'], 1.5, 'seed = 1.5: expected a whole number'],
   [['seed'], -1, 'seed = -1: expected a number from 0'],
@@ -77,6 +81,8 @@ test('strokes and scenarios are written as the command line reads them', () => {
   const scenario = scenarioFile(EXPERIMENT, 'terrain.toml');
   assert.ok(scenario.includes('--planner default --learning fixed'));
   assert.ok(scenario.includes('\ngoal = [14, 57]\n'));
+  const turned = scenarioFile({ ...EXPERIMENT, goal: { x: 14, y: 57, heading_rad: 0 } }, 'terrain.toml');
+  assert.ok(turned.includes('\ngoal = [14, 57, 0]\n'));
   assert.ok(scenario.includes('\nwaypoints = [[20, 31.5]]\n'));
   const facing = { ...EXPERIMENT, goal: { ...EXPERIMENT.goal, heading_rad: -1.5 } };
   assert.deepEqual(readExperiment(JSON.parse(JSON.stringify(facing))), facing);

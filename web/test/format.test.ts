@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { clock, degrees, fixed, grouped, wrap } from '../src/base/format.ts';
+import { clock, degrees, fixed, grouped, radians, wholeDegrees, wrap } from '../src/base/format.ts';
 
 test('numbers have a real minus, no negative zero, and a dash for what is unknown', () => {
   assert.equal(fixed(-1.26, 1), '\u22121.3');
@@ -22,6 +22,10 @@ test('angles wrap to the half-open turn', () => {
     }
   }
   assert.equal(wrap(Math.PI), -Math.PI);
+});
+
+test('a field shows an angle in whole degrees of one turn', () => {
+  assert.deepEqual([0, 90, 359.6, -90, -0.2, 720].map(radians).map(wholeDegrees), [0, 90, 0, 270, 0, 0]);
 });
 
 test('large counts have commas', () => {

@@ -88,13 +88,17 @@ test('goal, start and strokes share one history', async () => {
   const core = await opened();
   await core.editor.setRoute(() => ({ waypoints: [], goal: { x: 8.123456, y: 2 } }));
   assert.deepEqual(core.editor.experiment?.goal, { x: 8.12, y: 2 });
+  await core.editor.setRoute(() => ({ waypoints: [], goal: { x: 8.12, y: 2, heading_rad: 0.12345 } }));
+  assert.deepEqual(core.editor.experiment?.goal, { x: 8.12, y: 2, heading_rad: 0.123 });
   await core.stroke(1);
   await core.editor.setStart({ x: 1, y: 1, heading_rad: 0.12345 });
   core.asked.length = 0;
   await core.editor.undo();
   await core.editor.undo();
   await core.editor.undo();
-  assert.deepEqual(core.asked, ['start', 'replace', 'goal']);
+  assert.deepEqual(core.editor.experiment?.goal, { x: 8.12, y: 2 });
+  await core.editor.undo();
+  assert.deepEqual(core.asked, ['start', 'replace', 'goal', 'goal']);
   assert.deepEqual(core.editor.experiment, SOURCE.experiment);
 });
 
@@ -106,6 +110,7 @@ test('another start, route or ground is not the scenario’s any more, until it 
     () => core.editor.setStart({ x: 12.01, y: 12, heading_rad: 1.5 }),
     () => core.editor.setRoute(() => ({ waypoints: [], goal: EXPERIMENT.goal })),
     () => core.editor.setRoute(() => ({ waypoints: EXPERIMENT.waypoints, goal: { x: 14, y: 57.01 } })),
+    () => core.editor.setRoute(() => ({ ...EXPERIMENT, goal: { ...EXPERIMENT.goal, heading_rad: 1 } })),
   ]) {
     await change();
     assert.equal(core.editor.asItComes, false);

@@ -29,6 +29,8 @@ test('a link gives the same experiment back', async () => {
   assert.ok(link.startsWith('https://example.org/mapless/#e='));
   assert.ok(carriesExperiment(hashOf(link)));
   assert.deepEqual(await experimentIn(hashOf(link)), EXPERIMENT);
+  const turned: Experiment = { ...EXPERIMENT, goal: { x: 14, y: 57, heading_rad: -1.571 } };
+  assert.deepEqual(await experimentIn(hashOf(await linkTo(ADDRESS, turned))), turned);
 });
 
 test('a recipe fits into a chat message, and so does an afternoon of sculpting', async () => {

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::marker::PhantomData;
 
-use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 
 /// The reader recognises a located value by this name.
 pub(crate) const NAME: &str = "$mapless_toml::Located";
@@ -32,10 +32,9 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Pair<T> {
         f.write_str("a value with its place")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut pair: A) -> Result<Self::Value, A::Error> {
-        let missing = |index| A::Error::invalid_length(index, &"a value with its place");
-        let begin = pair.next_element()?.ok_or_else(|| missing(0))?;
-        let value = pair.next_element()?.ok_or_else(|| missing(1))?;
+    fn visit_map<A: MapAccess<'de>>(self, mut pair: A) -> Result<Self::Value, A::Error> {
+        let entry = pair.next_entry()?;
+        let (begin, value) = entry.ok_or_else(|| A::Error::invalid_length(0, &self))?;
         Ok(Located { begin, value })
     }
 }

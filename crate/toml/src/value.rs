@@ -170,7 +170,7 @@ impl<'de> Deserializer<'de> for Value<'_> {
     ) -> Result<V::Value, Error> {
         if name == located::NAME {
             let begin = self.span.start;
-            return visitor.visit_seq(Pair { begin: Some(begin), value: Some(self) });
+            return visitor.visit_map(Pair { begin: Some(begin), value: Some(self) });
         }
         visitor.visit_newtype_struct(self)
     }
@@ -215,9 +215,14 @@ impl<'de> MapAccess<'de> for Entries<'_> {
     }
 
     fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
-        let value = self.value.take().ok_or_else(|| Error::custom("a value was read before its key"))?;
+        let value = self.value.take().ok_or_else(value_before_key)?;
         seed.deserialize(Value::new(value))
     }
+}
+
+#[cold]
+fn value_before_key() -> Error {
+    Error::custom("a value was read before its key")
 }
 
 /// The items of an array.
@@ -233,20 +238,23 @@ impl<'de> SeqAccess<'de> for Items<'_> {
     }
 }
 
-/// A value's place and the value.
+/// A value's place and the value, as an entry's key and value.
 struct Pair<'a> {
     begin: Option<usize>,
     value: Option<Value<'a>>,
 }
 
-impl<'de> SeqAccess<'de> for Pair<'_> {
+impl<'de> MapAccess<'de> for Pair<'_> {
     type Error = Error;
 
-    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Error> {
-        if let Some(begin) = self.begin.take() {
-            let place: UsizeDeserializer<Error> = begin.into_deserializer();
-            return seed.deserialize(place).map(Some);
-        }
-        self.value.take().map(|value| seed.deserialize(value)).transpose()
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Error> {
+        let Some(begin) = self.begin.take() else { return Ok(None) };
+        let place: UsizeDeserializer<Error> = begin.into_deserializer();
+        seed.deserialize(place).map(Some)
+    }
+
+    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
+        let value = self.value.take().ok_or_else(value_before_key)?;
+        seed.deserialize(value)
     }
 }

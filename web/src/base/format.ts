@@ -16,8 +16,7 @@ export function degrees(angle_rad: number, decimals = 0): string {
 
 /** As in a field: from 0 to 359. */
 export function wholeDegrees(angle_rad: number): number {
-  const angle_deg = Math.round((angle_rad * 180) / Math.PI) % 360;
-  return angle_deg < 0 ? angle_deg + 360 : angle_deg;
+  return ((Math.round((angle_rad * 180) / Math.PI) % 360) + 360) % 360;
 }
 
 export function radians(angle_deg: number): number {

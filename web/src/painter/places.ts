@@ -9,6 +9,9 @@ import {
   Mesh,
   MeshBasicMaterial,
   RingGeometry,
+  Shape,
+  ShapeGeometry,
+  Vector2,
 } from 'three';
 import type { Theme } from '../colours/theme.ts';
 import type { Goal, Heading } from '../experiment/place.ts';
@@ -54,9 +57,9 @@ export class Places {
       ),
     );
     this.#start.add(new Mesh(arrow, this.#startLook));
-    const tip = new BufferGeometry();
-    tip.setAttribute('position', new Float32BufferAttribute([1.7, 0, 0, 0.85, 0.5, 0, 0.85, -0.5, 0], 3));
-    this.#goalArrow = new Mesh(tip, this.#goalLook);
+    const outline = [0.6, 0.1, 1.5, 0.1, 1.5, 0.4, 2.3, 0, 1.5, -0.4, 1.5, -0.1, 0.6, -0.1];
+    const corners = Array.from({ length: 7 }, (_, corner) => new Vector2().fromArray(outline, 2 * corner));
+    this.#goalArrow = new Mesh(new ShapeGeometry(new Shape(corners)), this.#goalLook);
     // First over the slope, then to its heading.
     this.#goalArrow.rotation.order = 'ZYX';
     this.group.add(this.#goal, this.#goalArrow, this.#start);
