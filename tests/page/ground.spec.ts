@@ -102,54 +102,6 @@ test('a click sets the goal, and a drag the start with its heading', async ({ ma
   expect(now.tick).toBe(0);
 });
 
-test('a dragged goal has a final heading, which is shown, typed, cleared and undone', async ({ mapless: page }) => {
-  await still(page);
-  // The whole terrain: nothing moves the view, and every place that is pressed is on the ground.
-  await page.keyboard.press('o');
-  await page.keyboard.press('2');
-  await still(page);
-  const old = await state(page);
-  const field = page.getByRole('spinbutton', { name: 'Final heading' });
-  await expect(field).toHaveValue('');
-  const heading_rad = async () => (await state(page)).goal.heading_rad;
-  const box = await page.locator('#view').boundingBox();
-  if (!box) throw new Error('The view has no place.');
-  const [x, y] = [box.x + 0.5 * box.width, box.y + 0.5 * box.height];
-  // Without what stands over the view.
-  const picture = () => page.locator('#view').screenshot({ mask: [page.locator('.guide')] });
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(x + 90, y, { steps: 4 });
-  await page.mouse.up();
-  await until(page, (now) => moved(now.goal, old.goal));
-  const { goal } = await state(page);
-  const degrees = Math.round(((goal.heading_rad ?? Number.NaN) * 180) / Math.PI);
-  await expect(field).toHaveValue(String((degrees + 360) % 360));
-
-  await field.fill('-90');
-  await field.press('Enter');
-  await expect.poll(heading_rad).toBeCloseTo(-Math.PI / 2, 3);
-  await expect(field).toHaveValue('270');
-  expect(await state(page)).toMatchObject({ goal: { x: goal.x, y: goal.y } });
-  await still(page);
-  const turned = await picture();
-  await field.fill('');
-  await field.press('Enter');
-  await expect.poll(heading_rad).toBeUndefined();
-  await still(page);
-  // The arrow is gone.
-  expect((await picture()).equals(turned)).toBe(false);
-  await page.locator('#undo').click();
-  await expect(field).toHaveValue('270');
-  await page.locator('#undo').click();
-  await until(page, (now) => now.goal.heading_rad === goal.heading_rad);
-
-  // A press is for any heading.
-  await page.mouse.click(x + 40, y);
-  await until(page, (now) => moved(now.goal, goal));
-  await expect(field).toHaveValue('');
-});
-
 test('the robot ends with the heading of its goal, and turns to another one there', async ({ mapless: page }) => {
   await shortCourse(page, 3);
   const { pose, goal } = await state(page);
