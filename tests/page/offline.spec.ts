@@ -12,7 +12,7 @@ test('after the first visit the page opens and drives without a network', async 
   // What is loaded only when it is asked for is there, too.
   await page.evaluate(() => window.mapless?.loadScenario('vta'));
   expect((await state(page)).scenario).toBe('vta');
-  const heights = 'ncols 60\nnrows 60\ncellsize 0.5\n' + `${'0 '.repeat(60)}\n`.repeat(60);
+  const heights = `ncols 60\nnrows 60\ncellsize 0.5\n${`${'0 '.repeat(60)}\n`.repeat(60)}`;
   await page.locator('#files').setInputFiles([file('flat.asc', heights)]);
   await until(page, (now) => now.scenario === 'flat');
   const waiting = page.waitForEvent('download');

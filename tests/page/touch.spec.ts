@@ -83,7 +83,7 @@ test('a goal and a waypoint, set by taps, are driven to', async ({ mapless: page
   await tapIn(page.locator('#view'), 0.5, 0.4);
   await until(page, (now) => moved(now.goal, old));
   const { goal } = await state(page);
-  await press(page.locator('#route-tools label'));
+  await press(page.locator('label', { hasText: 'Add waypoints' }));
   await expect(page.locator('#tool-hint')).toContainText('each waypoint before the goal');
   await tapIn(page.locator('#view'), 0.5, 0.46);
   await until(page, (now) => now.waypoints.length === 1);

@@ -60,7 +60,6 @@ export class App {
   readonly #core: SimulationClient;
   #info: SessionInfo | undefined;
   /** Of what was loaded last. */
-  #warnings: readonly string[] = [];
   #frame: Frame | undefined;
   #field: HeightField | undefined;
   #playing = false;
@@ -413,10 +412,7 @@ export class App {
 
   #onSession(info: SessionInfo, loaded: Loaded | undefined): void {
     this.#info = info;
-    if (loaded) {
-      this.editor.loaded(loaded);
-      this.#warnings = loaded.warnings;
-    }
+    if (loaded) this.editor.loaded(loaded);
     const field = loaded && new HeightField(loaded.ground);
     this.#field = field ?? this.#field;
     this.#views.session(info, field);
@@ -424,7 +420,8 @@ export class App {
 
   /** In place of what was said before. */
   #showWarnings(): void {
-    if (this.#warnings.length > 0) this.#views.news(`${this.#warnings.join('. ')}.`);
+    const warnings = this.#info?.warnings ?? [];
+    if (warnings.length > 0) this.#views.news(`${warnings.join('. ')}.`);
     else this.#views.clearNotice();
   }
 

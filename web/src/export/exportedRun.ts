@@ -38,7 +38,7 @@ function decimals(value: number): string {
 }
 
 /** The result as `mapless run --json` prints it; the outcome of a run that has not ended is `running`. */
-export function runJson({ frame, record }: Run): string {
+export function runJson({ info, frame, record }: Run): string {
   const { outcome, stop_reason, metrics, tick, time_s, digest } = frame;
   const times_ms = Float64Array.from({ length: record.before(frame.tick) }, (_, row) =>
     record.get(row, 'planner_ms'),
@@ -51,6 +51,7 @@ export function runJson({ frame, record }: Run): string {
     sim_time_s: time_s,
     planner_ms: { p50: quantile(times_ms, 50), p99: quantile(times_ms, 99) },
     digest,
+    warnings: info.warnings,
   };
   return `${JSON.stringify(result, null, 2)}\n`;
 }

@@ -44,6 +44,8 @@ export interface SessionInfo extends Setting, Scene {
   /** Every parameter, with the value that holds unless it is overridden. */
   readonly parameters: readonly ParameterGroup[];
   readonly overrides: Overrides;
+  /** What was done to a file of heights that its owner should know. */
+  readonly warnings: readonly string[];
 }
 
 /** What `FrameBuffers.kinds` says of a column, by its number. */
@@ -146,8 +148,6 @@ export interface Loaded {
   readonly experiment: Experiment;
   /** The scenario that it is named after, as that comes; nothing where there is none. */
   readonly scenario: Experiment | undefined;
-  /** What was done to a file of heights that its owner should know. */
-  readonly warnings: readonly string[];
 }
 
 /** From the page. A request is answered by `done` or `failed` with its `id`; a frame's buffers come back for reuse. */

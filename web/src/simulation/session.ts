@@ -17,6 +17,7 @@ export class Session {
   readonly #name: string;
   readonly #setting: Setting;
   readonly #pool: FrameBuffers[] = [];
+  readonly #warnings: readonly string[];
   #overrides: Overrides;
   #info: SessionInfo;
   #standing: Standing;
@@ -24,8 +25,10 @@ export class Session {
   #rerouted = false;
   #planner_ms = 0;
 
-  private constructor(core: CoreSession, { name, preset, learning, overrides }: Experiment) {
+  private constructor(core: CoreSession, experiment: Experiment, warnings: readonly string[]) {
+    const { name, preset, learning, overrides } = experiment;
     this.#core = core;
+    this.#warnings = warnings;
     this.#name = name;
     this.#setting = { preset, learning };
     this.#overrides = overrides;
@@ -33,8 +36,7 @@ export class Session {
     this.#standing = core.standing();
   }
 
-  /** A session, and what is to be said of the file of heights that it stands on. */
-  static async open(core: Core, experiment: Experiment): Promise<{ session: Session; warnings: readonly string[] }> {
+  static async open(core: Core, experiment: Experiment): Promise<Session> {
     const { preset, learning, overrides } = experiment;
     // Without the overrides, so that the core knows the defaults, too.
     const [scenario, ...terrain] = filesOf(core, { ...experiment, overrides: {} });
@@ -47,7 +49,7 @@ export class Session {
       learning,
       overrides,
     };
-    return { session: new Session(new core.Session(options), experiment), warnings };
+    return new Session(new core.Session(options), experiment, warnings);
   }
 
   free(): void {
@@ -156,6 +158,7 @@ export class Session {
       ...this.#setting,
       parameters: before?.parameters ?? this.#core.parameters(),
       overrides: this.#overrides,
+      warnings: this.#warnings,
     };
   }
 

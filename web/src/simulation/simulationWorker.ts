@@ -201,11 +201,11 @@ async function load(source: Source, play: boolean, id: number): Promise<void> {
   const experiment = await experimentFrom(core, source);
   const opened = await Session.open(core, experiment);
   session?.free();
-  session = opened.session;
+  session = opened;
   playing ||= play;
   const ground = session.ground();
   const scenario = scenarioOf(core, source, experiment);
-  const loaded = { ground, experiment, scenario, warnings: opened.warnings };
+  const loaded = { ground, experiment, scenario };
   post({ type: 'session', info: session.info, loaded }, [ground.heights_m.buffer]);
   openFromStart();
 }
