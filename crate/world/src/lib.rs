@@ -16,6 +16,7 @@ mod height_field;
 mod level_places;
 mod lidar;
 pub mod noise;
+mod objects;
 pub mod random;
 mod robot;
 mod robot_config;
@@ -29,8 +30,9 @@ pub use caster::Caster;
 pub use height_field::{
     FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M, check_grid,
 };
-pub use lidar::{Lidar, Scan, SensorConfig};
+pub use lidar::{Lidar, Scan, Scene, SensorConfig};
 pub use mapless_parameters::ConfigError;
+pub use objects::{Object, Objects, Shape, Solid, Walk};
 pub use robot::{DriveCommand, DriveError, Robot, RobotState};
 pub use robot_config::RobotConfig;
 pub use sculpt::{Brush, BrushKind, SampleRect, smooth_step};

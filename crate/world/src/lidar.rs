@@ -3,6 +3,7 @@
 
 use crate::attitude::{Attitude, world_from_body};
 use crate::caster::{Caster, Fan};
+use crate::objects::{NearSolids, Solid};
 use crate::random;
 use crate::sensor_pose::SensorPose;
 use glam::{DVec2, DVec3, Vec3};
@@ -101,6 +102,23 @@ pub struct Scan {
     pub points: Vec<Vec3>,
 }
 
+/// What a sensor looks at.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// The ground.
+    pub caster: &'a Caster,
+    /// What stands on it.
+    pub solids: &'a [Solid],
+}
+
+impl<'a> Scene<'a> {
+    /// Ground with nothing on it.
+    #[must_use]
+    pub fn bare(caster: &'a Caster) -> Self {
+        Self { caster, solids: &[] }
+    }
+}
+
 /// The sensor: its configuration and the directions of its beams.
 #[derive(Clone, Debug)]
 pub struct Lidar {
@@ -139,20 +157,20 @@ impl Lidar {
         &self.config
     }
 
-    /// Takes one revolution from a fixed pose into `scan`, which is reused without allocation.
+    /// Takes one revolution of bare ground from a fixed pose into `scan`, which is reused without allocation.
     ///
     /// Noise and drop-outs depend only on `seed`, `tick` and the beam. A return whose range, noise included,
     /// lies outside the sensor's limits is not reported.
     pub fn scan(&self, caster: &Caster, pose: &SensorPose, seed: u64, tick: u64, scan: &mut Scan) {
-        self.scan_within(f64::INFINITY, caster, pose, seed, tick, scan);
+        self.scan_within(f64::INFINITY, &Scene::bare(caster), pose, seed, tick, scan);
     }
 
-    /// As [`Lidar::scan`], and faster: every return within `sight_m` is the same, those much farther are left
-    /// out.
+    /// As [`Lidar::scan`], with what stands on the ground, and faster: every return within `sight_m` is the
+    /// same, those much farther are left out.
     pub fn scan_within(
         &self,
         sight_m: f64,
-        caster: &Caster,
+        scene: &Scene<'_>,
         pose: &SensorPose,
         seed: u64,
         tick: u64,
@@ -169,10 +187,15 @@ impl Lidar {
         scan.ranges_m.reserve(beams);
         scan.points.reserve(beams);
         let scan_key = random::key(seed, tick);
+        let near = NearSolids::new(scene.solids, pose, reach_m);
+        let mut in_plane = Vec::new();
         for &(sin_azimuth, cos_azimuth) in &self.azimuths {
-            let mut fan = Fan::new(caster, pose, sin_azimuth, cos_azimuth);
+            let mut fan = Fan::new(scene.caster, pose, sin_azimuth, cos_azimuth);
+            near.in_plane(&fan, &mut in_plane);
             for &(sin_elevation, cos_elevation) in &self.elevations {
-                let true_range_m = fan.cast(sin_elevation, cos_elevation, reach_m);
+                let solid_m = near.cast(&in_plane, fan.direction(sin_elevation, cos_elevation), reach_m);
+                let ground_m = fan.cast(sin_elevation, cos_elevation, solid_m.unwrap_or(reach_m));
+                let true_range_m = ground_m.or(solid_m);
                 let beam_key = random::key(scan_key, scan.ranges_m.len() as u64);
                 let true_range_m = self.stray(true_range_m, beam_key).or(true_range_m);
                 match true_range_m.and_then(|range_m| self.measure(range_m, beam_key)) {
@@ -238,7 +261,7 @@ impl Lidar {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::HeightField;
+    use crate::{HeightField, Object, Objects};
 
     const RING_COUNT: usize = 16;
 
@@ -254,7 +277,8 @@ mod tests {
         let level = Attitude { height_m: 1.0, ..Attitude::default() };
         let pose = config.pose_on(DVec2::splat(50.0), 0.4, &level);
         let mut scan = Scan::default();
-        Lidar::new(config).unwrap().scan_within(sight_m, caster, &pose, seed, tick, &mut scan);
+        let scene = Scene::bare(caster);
+        Lidar::new(config).unwrap().scan_within(sight_m, &scene, &pose, seed, tick, &mut scan);
         scan
     }
 
@@ -315,6 +339,44 @@ mod tests {
             assert!(near.to_bits() == far.to_bits() || near.is_nan() && *far > 4.0, "{near} {far}");
         }
         assert!(near.points.len() < far.points.len());
+    }
+
+    #[test]
+    fn every_beam_meets_the_first_of_ground_and_objects() {
+        let caster = flat();
+        let places = [[53.0, 50.0], [50.0, 47.0], [44.0, 52.0], [58.0, 57.0], [49.0, 50.6]];
+        let objects = places.iter().enumerate().map(|(index, &at)| match index % 3 {
+            0 => Object::Post { at, radius_m: 0.1, height_m: 2.0, walk: None },
+            1 => Object::Box { at, size_m: [1.0, 0.4, 0.6], yaw_rad: 0.7, raised_m: 0.3, walk: None },
+            _ => Object::Rock { at, radius_m: 0.5, sunk_m: 0.2 },
+        });
+        let objects = Objects::new(objects.collect(), caster.field());
+        let config = SensorConfig { range_noise_m: 0.0, min_range_m: 0.0, ..SensorConfig::default() };
+        let attitude = Attitude { height_m: 1.0, roll_rad: 0.2, pitch_rad: -0.1 };
+        let pose = config.pose_on(DVec2::splat(50.0), 0.4, &attitude);
+        let lidar = Lidar::new(config.clone()).unwrap();
+        let scene = Scene { caster: &caster, solids: objects.solids() };
+        let mut scan = Scan::default();
+        lidar.scan_within(12.0, &scene, &pose, 0, 0, &mut scan);
+        let mut on_objects = 0;
+        for (beam, &range_m) in scan.ranges_m.iter().enumerate() {
+            let azimuth_rad = -PI + (beam / RING_COUNT) as f64 * (TAU / config.columns as f64);
+            let (sin_azimuth, cos_azimuth) = libm::sincos(azimuth_rad);
+            let (sin, cos) = libm::sincos(config.ring_elevation_rad(beam % RING_COUNT));
+            let direction = pose.world_from_sensor * DVec3::new(cos * cos_azimuth, cos * sin_azimuth, sin);
+            let hits = objects.solids().iter().filter_map(|solid| solid.cast(pose.position, direction, 12.0));
+            let solid_m = hits.fold(f64::INFINITY, f64::min);
+            let ground_m = caster.cast(pose.position, direction, 12.0).unwrap_or(f64::INFINITY);
+            let expected_m = solid_m.min(ground_m);
+            on_objects += usize::from(solid_m < ground_m);
+            let is_same = (f64::from(range_m) - expected_m).abs() < 1e-5;
+            assert!(
+                is_same || range_m.is_nan() && expected_m.is_infinite(),
+                "{beam}: {range_m} {solid_m} {ground_m} {direction} {}",
+                pose.position
+            );
+        }
+        assert!(on_objects > 1000, "{on_objects}");
     }
 
     #[test]

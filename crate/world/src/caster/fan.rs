@@ -43,10 +43,25 @@ impl<'a> Fan<'a> {
         }
     }
 
+    /// Unit vector of the fan's plane at elevation 0.
+    pub(crate) fn ahead(&self) -> DVec3 {
+        self.ahead
+    }
+
+    /// Unit vector across the fan's plane.
+    pub(crate) fn aside(&self) -> DVec3 {
+        self.up.cross(self.ahead)
+    }
+
+    /// Unit vector of the beam at the elevation with this sine and cosine.
+    pub(crate) fn direction(&self, sin_elevation: f64, cos_elevation: f64) -> DVec3 {
+        self.ahead * cos_elevation + self.up * sin_elevation
+    }
+
     /// Range in metres to the ground at the elevation with this sine and cosine, which must not be lower than
     /// the one before; see [`Caster::cast`].
     pub(crate) fn cast(&mut self, sin_elevation: f64, cos_elevation: f64, max_range_m: f64) -> Option<f64> {
-        let direction = self.ahead * cos_elevation + self.up * sin_elevation;
+        let direction = self.direction(sin_elevation, cos_elevation);
         let begin_m = if self.can_skip { (self.free_m / cos_elevation - SLACK_M).max(0.0) } else { 0.0 };
         if begin_m >= max_range_m || max_range_m.is_nan() {
             return None;

@@ -144,8 +144,10 @@ impl Caster {
         if begin > end {
             return Trace::Nothing(begin_m);
         }
+        // At the ceiling nothing is above the ray, though rounding may say so on a level top.
+        let is_under_ceiling = direction.z >= 0.0 || begin > ceiling;
         let starts_below = || ray.clearance(&self.field, ray.cell_at(begin, cells), begin) < 0.0;
-        if begin_m <= 0.0 && starts_below() {
+        if begin_m <= 0.0 && is_under_ceiling && starts_below() {
             return Trace::Nothing(begin);
         }
         match self.walk(&ray, begin, end, cells) {

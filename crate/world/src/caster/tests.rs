@@ -48,6 +48,17 @@ fn direction(azimuth: f64, elevation: f64) -> DVec3 {
     DVec3::new(cos_elevation * cos_azimuth, cos_elevation * sin_azimuth, sin_elevation)
 }
 
+#[test]
+fn every_ray_down_meets_level_ground() {
+    let caster = Caster::new(field_of(401, 401, 0.25, &[1.0; 401 * 401]));
+    for index in 0..10_000 {
+        let azimuth_rad = f64::from(index) * 0.1;
+        let direction = DVec3::new(libm::cos(azimuth_rad), libm::sin(azimuth_rad), -0.0894).normalize();
+        let range_m = caster.cast(DVec3::new(50.1, 49.9, 1.0 + 0.78), direction, 12.0);
+        assert!(range_m.is_some(), "{direction}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
