@@ -9,6 +9,12 @@
 //!
 //! [planner.decision]            # any value of the planner, sensor or robot
 //! steepness_weight = 0.8
+//!
+//! [[objects]]                   # what stands or walks on the ground; see [`mapless_world::Object`]
+//! kind = "post"
+//! at = [20.0, 22.0]
+//! radius_m = 0.1
+//! height_m = 1.5
 //! ```
 
 pub(crate) mod renamed_keys;
@@ -16,7 +22,7 @@ pub(crate) mod renamed_keys;
 use glam::DVec2;
 use mapless::{PlannerConfig, RobotModel, SensorModel};
 use mapless_terrain::TerrainError;
-use mapless_world::{RobotConfig, SensorConfig};
+use mapless_world::{Object, RobotConfig, SensorConfig};
 
 use crate::places::{self, StartPose};
 use renamed_keys::RENAMED_KEYS;
@@ -89,6 +95,8 @@ pub struct Scenario {
     pub sensor: SensorConfig,
     /// The robot.
     pub robot: RobotConfig,
+    /// What stands and walks on the ground.
+    pub objects: Vec<Object>,
     /// The values of the `[planner]` section.
     pub(crate) planner: toml::Table,
 }
@@ -139,6 +147,8 @@ struct File {
     sensor: SensorConfig,
     #[serde(default)]
     robot: RobotConfig,
+    #[serde(default)]
+    objects: Vec<Object>,
 }
 
 /// The sections of a scenario file that set parameters.
@@ -169,6 +179,9 @@ impl Scenario {
         parsed.planner.validate("planner").map_err(|e| value(e.to_string()))?;
         parsed.sensor.validate("sensor").map_err(|e| value(e.to_string()))?;
         parsed.robot.validate("robot").map_err(|e| value(e.to_string()))?;
+        for (index, object) in parsed.objects.iter().enumerate() {
+            object.validate(&format!("objects[{}]", index + 1)).map_err(|e| value(e.to_string()))?;
+        }
         Ok(Self {
             terrain: parsed.terrain,
             start: parsed.start,
@@ -178,6 +191,7 @@ impl Scenario {
             seed: parsed.seed,
             sensor: parsed.sensor,
             robot: parsed.robot,
+            objects: parsed.objects,
             planner,
         })
     }
@@ -284,6 +298,7 @@ fn robot_model(robot: &RobotConfig) -> RobotModel {
     model.track_m = robot.track_m;
     model.wheel_radius_m = robot.wheel_radius_m;
     model.ground_clearance_m = robot.ground_clearance_m;
+    model.height_m = robot.height_m;
     model.max_step_m = robot.max_step_m;
     model.roll_limit_rad = robot.roll_limit_rad;
     model.pitch_limit_rad = robot.pitch_limit_rad;

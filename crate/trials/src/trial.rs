@@ -8,8 +8,8 @@ use mapless::gp::GpError;
 use mapless::skyline::surface::PredictedSurface;
 use mapless::{Command, Goal, Planner, PlannerConfig, Pose, Step};
 use mapless_world::{
-    Brush, Caster, DriveCommand, DriveError, HeightField, Lidar, Robot, RobotConfig, RobotState, SampleRect,
-    Scan, SensorConfig,
+    Body, Brush, Caster, Contact, DriveCommand, DriveError, Footing, HeightField, Lidar, Object, Objects,
+    Robot, RobotConfig, RobotState, SampleRect, Scan, Scene, SensorConfig, Solid,
 };
 
 use crate::digest::TrajectoryDigest;
@@ -46,9 +46,11 @@ pub enum TrialError {
 pub struct Trial<N = Planner> {
     /// Shared by copies of the trial until one of them changes its ground.
     caster: Arc<Caster>,
+    objects: Objects,
     sensor: Lidar,
     scan: Scan,
     husky: Robot,
+    body: Body,
     navigator: N,
     decision: Decision,
     start: StartPose,
@@ -63,6 +65,7 @@ pub struct Trial<N = Planner> {
     digest: TrajectoryDigest,
     progress: ProgressChecker,
     outcome: Option<Outcome>,
+    contact: Option<Contact>,
 }
 
 impl Trial {
@@ -119,12 +122,28 @@ impl Trial {
         Ok(())
     }
 
+    /// Puts other objects on the ground, with the same consequences as [`Trial::sculpt`].
+    ///
+    /// # Errors
+    /// [`TrialError::Config`] for an object that is not valid; nothing then changes.
+    pub fn set_objects(&mut self, objects: Vec<Object>) -> Result<(), TrialError> {
+        for (index, object) in objects.iter().enumerate() {
+            let place = format!("objects[{}]", index + 1);
+            object.validate(&place).map_err(|e| TrialError::Config(e.to_string()))?;
+        }
+        self.objects = Objects::new(objects, self.caster.field());
+        self.settle(true);
+        Ok(())
+    }
+
     /// Settles the robot on the ground; the navigator forgets the terrain if it `changed`.
     fn settle(&mut self, changed: bool) {
         if changed {
             self.navigator.reset();
+            self.objects.settle(self.caster.field());
         }
-        if self.husky.settle(self.caster.field()).is_err() {
+        let footing = Footing { field: self.caster.field(), solids: self.objects.solids() };
+        if self.husky.settle(&footing).is_err() {
             self.outcome = Some(Outcome::LeftTerrain);
         } else if self.outcome.is_some_and(|outcome| outcome != Outcome::Reached) {
             self.resume();
@@ -164,14 +183,18 @@ impl<N: Navigator> Trial<N> {
     ) -> Result<Self, TrialError> {
         let sensor: SensorConfig = scenario.sensor.clone();
         let sensor = Lidar::new(sensor).map_err(|e| TrialError::Config(e.to_string()))?;
-        let husky = place(&field, scenario.robot.clone(), scenario.start)?;
+        let objects = Objects::new(scenario.objects.clone(), &field);
+        let husky = place(&field, objects.solids(), scenario.robot.clone(), scenario.start)?;
+        let body = Body::new(husky.config(), sensor.config().place_on_robot_m());
         check_route(&field, &scenario.waypoints_m, scenario.goal_m)?;
         let mut trial = Self {
             metrics: MetricsRecorder::new(sample_of(&husky)),
             caster: Arc::new(Caster::new(field)),
+            objects,
             sensor,
             scan: Scan::default(),
             husky,
+            body,
             navigator,
             decision: Decision { activity: Activity::Searching, command: Command::STOP },
             start: scenario.start,
@@ -184,6 +207,7 @@ impl<N: Navigator> Trial<N> {
             digest: TrajectoryDigest::default(),
             progress: ProgressChecker::default(),
             outcome: None,
+            contact: None,
         };
         trial.restart_time_limit();
         Ok(trial)
@@ -222,7 +246,8 @@ impl<N: Navigator> Trial<N> {
         }
         let state = self.husky.state();
         let sensor_pose = self.sensor.config().pose_on(state.position, state.yaw_rad, &state.attitude);
-        self.sensor.scan_within(sight_m, &self.caster, &sensor_pose, self.seed, self.tick, &mut self.scan);
+        let scene = Scene { caster: &self.caster, solids: self.objects.solids() };
+        self.sensor.scan_within(sight_m, &scene, &sensor_pose, self.seed, self.tick, &mut self.scan);
         let RobotConfig { length_m, width_m, .. } = *self.husky.config();
         let outline_m = DVec2::new(length_m, width_m);
         self.sensor.add_self_returns(outline_m, self.seed, self.tick, &mut self.scan.points);
@@ -259,7 +284,12 @@ impl<N: Navigator> Trial<N> {
         let command = DriveCommand { speed_m_s: command.linear_m_s, turn_rate_rad_s: command.angular_rad_s };
         let dt_s = self.period_s() / f64::from(MOTION_STEPS);
         for _ in 0..MOTION_STEPS {
-            if let Err(error) = self.husky.step(command, dt_s, self.caster.field()) {
+            let field = self.caster.field();
+            let here_m = self.husky.state().position;
+            self.objects.walk(dt_s, field, here_m, |solid| self.body.is_clear_of(self.husky.state(), solid));
+            let solids = self.objects.solids();
+            let footing = Footing { field, solids };
+            if let Err(error) = self.husky.step(command, dt_s, &footing) {
                 return Some(match error {
                     DriveError::LeftTerrain { .. } => Outcome::LeftTerrain,
                     DriveError::NotFinite { .. } => Outcome::NoSubgoal,
@@ -268,6 +298,10 @@ impl<N: Navigator> Trial<N> {
             let sample = sample_of(&self.husky);
             self.metrics.record(sample, dt_s);
             self.digest.add(&sample, self.husky.state().yaw_rad);
+            self.contact = self.body.contact(self.husky.state(), field, &footing, solids);
+            if let Some(contact) = self.contact {
+                return Some(contact.kind.into());
+            }
             let limits = self.husky.config();
             if sample.roll_rad.abs() > limits.roll_limit_rad
                 || sample.pitch_rad.abs() > limits.pitch_limit_rad
@@ -316,7 +350,9 @@ impl<N: Navigator> Trial<N> {
     /// # Errors
     /// [`TrialError::OffTerrain`]; nothing then changes.
     pub fn set_start(&mut self, start: StartPose) -> Result<(), TrialError> {
-        self.husky = place(self.caster.field(), self.husky.config().clone(), start)?;
+        let objects = Objects::new(self.objects.list().to_vec(), self.caster.field());
+        self.husky = place(self.caster.field(), objects.solids(), self.husky.config().clone(), start)?;
+        self.objects = objects;
         self.start = start;
         self.passed = 0;
         self.tick = 0;
@@ -330,12 +366,23 @@ impl<N: Navigator> Trial<N> {
     /// Continues an ended trial after a change.
     fn resume(&mut self) {
         self.outcome = None;
+        self.contact = None;
         self.restart_time_limit();
     }
 
     /// How the trial ended; `None` while it runs.
     pub fn outcome(&self) -> Option<Outcome> {
         self.outcome
+    }
+
+    /// What the body touched to end the trial, if it did.
+    pub fn contact(&self) -> Option<Contact> {
+        self.contact
+    }
+
+    /// What stands and walks on the ground.
+    pub fn objects(&self) -> &Objects {
+        &self.objects
     }
 
     /// Why the navigator stopped, if it did.
@@ -457,11 +504,14 @@ impl<N: Navigator> Trial<N> {
     }
 }
 
-fn place(field: &HeightField, robot: RobotConfig, start: StartPose) -> Result<Robot, TrialError> {
-    Robot::new(robot, field, start.position_m, start.heading_rad).map_err(|_| TrialError::OffTerrain {
-        what: "start",
-        place_m: start.position_m,
-        extent_m: field.extent_m(),
+fn place(
+    field: &HeightField,
+    solids: &[Solid],
+    robot: RobotConfig,
+    start: StartPose,
+) -> Result<Robot, TrialError> {
+    Robot::new(robot, &Footing { field, solids }, start.position_m, start.heading_rad).map_err(|_| {
+        TrialError::OffTerrain { what: "start", place_m: start.position_m, extent_m: field.extent_m() }
     })
 }
 

@@ -1,6 +1,6 @@
 //! The attitude of a rigid body on four wheels on the ground.
 
-use crate::height_field::HeightField;
+use crate::ground::Ground;
 use crate::robot_config::RobotConfig;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -24,7 +24,7 @@ const ROUNDS: usize = 4;
 /// The contact plane is the least-squares plane through the four points of the ground under the wheels.
 #[must_use]
 pub fn attitude_on(
-    field: &HeightField,
+    footing: &impl Ground,
     position: DVec2,
     yaw_rad: f64,
     config: &RobotConfig,
@@ -40,7 +40,7 @@ pub fn attitude_on(
         let ground = |offset: DVec2| {
             let turned =
                 DVec2::new(offset.x * cos_yaw - offset.y * sin_yaw, offset.x * sin_yaw + offset.y * cos_yaw);
-            field.height_m(position + turned)
+            footing.height_m(position + turned)
         };
         let front_left = ground(ahead + aside)?;
         let front_right = ground(ahead - aside)?;
@@ -78,6 +78,7 @@ pub fn world_from_body(yaw_rad: f64, attitude: &Attitude) -> DMat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::height_field::HeightField;
     use proptest::prelude::*;
 
     fn plane(dzdx: f64, dzdy: f64) -> HeightField {

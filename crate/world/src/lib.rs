@@ -11,7 +11,9 @@
 #![cfg_attr(test, allow(clippy::float_cmp))]
 
 mod attitude;
+mod body;
 mod caster;
+mod ground;
 mod height_field;
 mod level_places;
 mod lidar;
@@ -26,7 +28,9 @@ mod skyline;
 mod slopes;
 
 pub use attitude::{Attitude, attitude_on, world_from_body};
+pub use body::{Body, Contact, ContactKind};
 pub use caster::Caster;
+pub use ground::{Footing, Ground};
 pub use height_field::{
     FieldError, HEIGHT_LIMIT_M, HeightField, MAX_CELL_M, MAX_SAMPLES, MIN_CELL_M, check_grid,
 };

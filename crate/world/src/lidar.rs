@@ -75,11 +75,17 @@ impl SensorConfig {
         (2.0 * ring as f64 - steps) * half_step + middle
     }
 
+    /// Place of the sensor in the robot frame, metres.
+    #[must_use]
+    pub fn place_on_robot_m(&self) -> DVec3 {
+        DVec3::new(self.forward_m, self.left_m, self.height_m)
+    }
+
     /// Pose of the sensor on a robot that stands at `position` with heading `yaw_rad`.
     #[must_use]
     pub fn pose_on(&self, position: DVec2, yaw_rad: f64, attitude: &Attitude) -> SensorPose {
         let world_from_robot = world_from_body(yaw_rad, attitude);
-        let mount = world_from_robot * DVec3::new(self.forward_m, self.left_m, self.height_m);
+        let mount = world_from_robot * self.place_on_robot_m();
         let turned = Attitude { height_m: 0.0, roll_rad: self.roll_rad, pitch_rad: self.pitch_rad };
         let is_turned = [self.roll_rad, self.pitch_rad, self.yaw_rad].iter().any(|&angle| angle != 0.0);
         let world_from_sensor = if is_turned {
@@ -232,7 +238,7 @@ impl Lidar {
         let scan_key = random::key(seed, tick);
         let mount = Attitude { height_m: 0.0, roll_rad: config.roll_rad, pitch_rad: config.pitch_rad };
         let sensor_from_robot = world_from_body(config.yaw_rad, &mount).transpose();
-        let mount_m = DVec3::new(config.forward_m, config.left_m, config.height_m);
+        let mount_m = config.place_on_robot_m();
         for index in 0..config.self_returns {
             // Beams have the keys from 0.
             let mut places = random::Sequence::new(random::key(scan_key, u64::MAX - index as u64));

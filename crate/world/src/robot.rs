@@ -2,7 +2,7 @@
 //! four wheels.
 
 use crate::attitude::{Attitude, attitude_on, world_from_body};
-use crate::height_field::HeightField;
+use crate::ground::Ground;
 use crate::robot_config::RobotConfig;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
@@ -82,12 +82,12 @@ impl Robot {
     /// [`DriveError::LeftTerrain`] when a wheel is off the terrain.
     pub fn new(
         config: RobotConfig,
-        field: &HeightField,
+        footing: &impl Ground,
         position: DVec2,
         yaw_rad: f64,
     ) -> Result<Self, DriveError> {
         let attitude =
-            attitude_on(field, position, yaw_rad, &config).ok_or(DriveError::LeftTerrain { position })?;
+            attitude_on(footing, position, yaw_rad, &config).ok_or(DriveError::LeftTerrain { position })?;
         let state = RobotState { position, yaw_rad, speed_m_s: 0.0, turn_rate_rad_s: 0.0, attitude };
         Ok(Self { config, state })
     }
@@ -114,8 +114,8 @@ impl Robot {
     ///
     /// # Errors
     /// [`DriveError::LeftTerrain`] when a wheel is off the terrain.
-    pub fn settle(&mut self, field: &HeightField) -> Result<(), DriveError> {
-        self.step(DriveCommand::default(), 0.0, field)
+    pub fn settle(&mut self, footing: &impl Ground) -> Result<(), DriveError> {
+        self.step(DriveCommand::default(), 0.0, footing)
     }
 
     /// Moves on by `dt_s` seconds: the unicycle of the paper (x' = v cos θ, y' = v sin θ, θ' = ω) along an
@@ -127,7 +127,12 @@ impl Robot {
     ///
     /// # Errors
     /// [`DriveError`]; the robot then stays as it was.
-    pub fn step(&mut self, command: DriveCommand, dt_s: f64, field: &HeightField) -> Result<(), DriveError> {
+    pub fn step(
+        &mut self,
+        command: DriveCommand,
+        dt_s: f64,
+        footing: &impl Ground,
+    ) -> Result<(), DriveError> {
         let DriveCommand { speed_m_s, turn_rate_rad_s } = command;
         if !(speed_m_s.is_finite() && turn_rate_rad_s.is_finite() && dt_s.is_finite() && dt_s >= 0.0) {
             return Err(DriveError::NotFinite { speed_m_s, turn_rate_rad_s, dt_s });
@@ -149,7 +154,7 @@ impl Robot {
         let position = state.position + DVec2::new(cos, sin) * (way * chord_ratio(half_turn));
         let yaw_rad = state.yaw_rad + 2.0 * half_turn;
         let attitude =
-            attitude_on(field, position, yaw_rad, config).ok_or(DriveError::LeftTerrain { position })?;
+            attitude_on(footing, position, yaw_rad, config).ok_or(DriveError::LeftTerrain { position })?;
         self.state = RobotState { position, yaw_rad, speed_m_s: speed, turn_rate_rad_s: turn_rate, attitude };
         Ok(())
     }
@@ -167,6 +172,7 @@ fn chord_ratio(half_turn: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::height_field::HeightField;
     use proptest::prelude::*;
 
     fn flat() -> HeightField {

@@ -30,6 +30,10 @@ parameters! {
         width_m: f64 = 0.685, unit "m", range [0.58, 1.5], check UpTo(6.0);
         /// Height of the belly above the contact plane.
         ground_clearance_m: f64 = 0.13, unit "m", range [0.02, 0.5], check Within(0.01, 2.0);
+        /// Height of the top of the body, without what is mounted on it.
+        height_m: f64 = 0.39, unit "m", range [0.1, 2.0], check Within(0.05, 5.0);
+        /// Height of the underside of body and bumpers before the front and behind the rear axle.
+        overhang_clearance_m: f64 = 0.18, unit "m", range [0.02, 1.0], check Within(0.01, 2.0);
         /// Highest vertical step that the wheels climb.
         max_step_m: f64 = 0.165, unit "m", range [0.0, 0.5], check Within(0.0, 2.0);
     }
@@ -53,6 +57,8 @@ impl RobotConfig {
             wheel_radius_m: 0.098,
             width_m: 0.43,
             ground_clearance_m: 0.065,
+            height_m: 0.25,
+            overhang_clearance_m: 0.1,
             max_step_m: 0.098,
             ..Self::default()
         }
@@ -68,6 +74,8 @@ impl RobotConfig {
             wheel_radius_m: 0.3,
             width_m: 1.38,
             ground_clearance_m: 0.254,
+            height_m: 0.83,
+            overhang_clearance_m: 0.35,
             max_step_m: 0.3,
             ..Self::default()
         }
