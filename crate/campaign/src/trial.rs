@@ -76,7 +76,7 @@ fn drive(
     Ok(TrialResult {
         id: spec.id.clone(),
         outcome: Some(outcome),
-        stop_reason: trial.stop_reason().map(|reason| reason.to_string()),
+        stop_reason: trial.end_reason(),
         error: None,
         metrics: Some(metrics),
         sim_time_s: Some(trial.time_s()),

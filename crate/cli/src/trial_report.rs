@@ -61,7 +61,7 @@ impl Report {
         Self {
             subject,
             outcome,
-            reason: trial.stop_reason().map(|reason| reason.to_string()),
+            reason: trial.end_reason(),
             metrics: trial.metrics(),
             ticks: trial.ticks(),
             sim_time_s: trial.time_s(),

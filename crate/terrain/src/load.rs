@@ -36,7 +36,7 @@ pub fn load_terrain(path: &std::path::Path) -> Result<Terrain, TerrainError> {
     let grid = mapless_heights::read(&file, &bytes, &Import::default());
     let grid = grid.map_err(|fault| TerrainFault::from(fault).of(&file))?;
     let (field, warnings) = crate::terrain::ground(&file, grid)?;
-    Ok(Terrain { name: stem.to_owned(), description: String::new(), field, warnings })
+    Ok(Terrain { name: stem.to_owned(), description: String::new(), field, objects: Vec::new(), warnings })
 }
 
 #[cfg(not(target_arch = "wasm32"))]

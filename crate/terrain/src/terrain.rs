@@ -1,7 +1,7 @@
 //! A terrain, and what may be wrong with its file.
 
 use mapless_heights::{Fault, Grid};
-use mapless_world::{FieldError, HeightField};
+use mapless_world::{FieldError, HeightField, Object};
 use thiserror::Error;
 
 /// A named piece of ground.
@@ -13,6 +13,8 @@ pub struct Terrain {
     pub description: String,
     /// The ground.
     pub field: HeightField,
+    /// What stands and walks on it.
+    pub objects: Vec<Object>,
     /// What was done to an imported grid that its owner should know, each with the file's name.
     pub warnings: Vec<String>,
 }

@@ -10,7 +10,8 @@
 //! [planner.decision]            # any value of the planner, sensor or robot
 //! steepness_weight = 0.8
 //!
-//! [[objects]]                   # what stands or walks on the ground; see [`mapless_world::Object`]
+//! [[objects]]                   # what stands or walks on the ground, in place of the terrain's own; see
+//!                               # [`mapless_world::Object`]
 //! kind = "post"
 //! at = [20.0, 22.0]
 //! radius_m = 0.1
@@ -95,8 +96,9 @@ pub struct Scenario {
     pub sensor: SensorConfig,
     /// The robot.
     pub robot: RobotConfig,
-    /// What stands and walks on the ground.
-    pub objects: Vec<Object>,
+    /// What stands and walks on the ground. What the scenario does not say is that of its terrain:
+    /// [`Scenario::on_terrain`].
+    pub objects: Option<Vec<Object>>,
     /// The values of the `[planner]` section.
     pub(crate) planner: toml::Table,
 }
@@ -147,8 +149,7 @@ struct File {
     sensor: SensorConfig,
     #[serde(default)]
     robot: RobotConfig,
-    #[serde(default)]
-    objects: Vec<Object>,
+    objects: Option<Vec<Object>>,
 }
 
 /// The sections of a scenario file that set parameters.
@@ -179,7 +180,7 @@ impl Scenario {
         parsed.planner.validate("planner").map_err(|e| value(e.to_string()))?;
         parsed.sensor.validate("sensor").map_err(|e| value(e.to_string()))?;
         parsed.robot.validate("robot").map_err(|e| value(e.to_string()))?;
-        for (index, object) in parsed.objects.iter().enumerate() {
+        for (index, object) in parsed.objects.iter().flatten().enumerate() {
             object.validate(&format!("objects[{}]", index + 1)).map_err(|e| value(e.to_string()))?;
         }
         Ok(Self {
@@ -209,6 +210,13 @@ impl Scenario {
         merge(&mut scenario.planner, &sections.planner);
         (scenario.sensor, scenario.robot) = sections.applied_to(&self.sensor, &self.robot).map_err(fail)?;
         Ok(scenario)
+    }
+
+    /// With the objects of its terrain, unless the scenario has its own.
+    #[must_use]
+    pub fn on_terrain(mut self, objects: &[Object]) -> Self {
+        self.objects.get_or_insert_with(|| objects.to_vec());
+        self
     }
 
     /// The planner's configuration: the preset, with the geometry of this sensor and robot, with what the
@@ -365,7 +373,7 @@ impl LoadedScenario {
         let scenario = Scenario::parse(&file, &text)?;
         let terrain = mapless_terrain::load_terrain(&path.with_file_name(&scenario.terrain))
             .map_err(|error| ScenarioError { file, fault: ScenarioFault::Terrain(error) })?;
-        Ok(Self { scenario, terrain })
+        Ok(Self { scenario: scenario.on_terrain(&terrain.objects), terrain })
     }
 }
 

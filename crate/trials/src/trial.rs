@@ -8,8 +8,8 @@ use mapless::gp::GpError;
 use mapless::skyline::surface::PredictedSurface;
 use mapless::{Command, Goal, Planner, PlannerConfig, Pose, Step};
 use mapless_world::{
-    Body, Brush, Caster, Contact, DriveCommand, DriveError, Footing, HeightField, Lidar, Object, Objects,
-    Robot, RobotConfig, RobotState, SampleRect, Scan, Scene, SensorConfig, Solid,
+    Body, Brush, Caster, Contact, ContactKind, DriveCommand, DriveError, Footing, HeightField, Lidar, Object,
+    Objects, Robot, RobotConfig, RobotState, SampleRect, Scan, Scene, SensorConfig, Solid,
 };
 
 use crate::digest::TrajectoryDigest;
@@ -66,6 +66,8 @@ pub struct Trial<N = Planner> {
     progress: ProgressChecker,
     outcome: Option<Outcome>,
     contact: Option<Contact>,
+    /// Whether belly, bumpers and steps count on bare ground.
+    touches_ground: bool,
 }
 
 impl Trial {
@@ -183,7 +185,7 @@ impl<N: Navigator> Trial<N> {
     ) -> Result<Self, TrialError> {
         let sensor: SensorConfig = scenario.sensor.clone();
         let sensor = Lidar::new(sensor).map_err(|e| TrialError::Config(e.to_string()))?;
-        let objects = Objects::new(scenario.objects.clone(), &field);
+        let objects = Objects::new(scenario.objects.clone().unwrap_or_default(), &field);
         let husky = place(&field, objects.solids(), scenario.robot.clone(), scenario.start)?;
         let body = Body::new(husky.config(), sensor.config().place_on_robot_m());
         check_route(&field, &scenario.waypoints_m, scenario.goal_m)?;
@@ -208,6 +210,7 @@ impl<N: Navigator> Trial<N> {
             progress: ProgressChecker::default(),
             outcome: None,
             contact: None,
+            touches_ground: false,
         };
         trial.restart_time_limit();
         Ok(trial)
@@ -298,7 +301,11 @@ impl<N: Navigator> Trial<N> {
             let sample = sample_of(&self.husky);
             self.metrics.record(sample, dt_s);
             self.digest.add(&sample, self.husky.state().yaw_rad);
-            self.contact = self.body.contact(self.husky.state(), field, &footing, solids);
+            let state = self.husky.state();
+            self.contact = self.body.contact_with(solids, state).or_else(|| {
+                let touches = self.touches_ground;
+                touches.then(|| self.body.contact_with_ground(field, &footing, state)).flatten()
+            });
             if let Some(contact) = self.contact {
                 return Some(contact.kind.into());
             }
@@ -383,6 +390,23 @@ impl<N: Navigator> Trial<N> {
     /// What stands and walks on the ground.
     pub fn objects(&self) -> &Objects {
         &self.objects
+    }
+
+    /// Why the trial ended, in a sentence: what the body touched, or why the navigator stopped.
+    pub fn end_reason(&self) -> Option<String> {
+        let of_contact = self.contact.map(|Contact { kind, place_m, object }| {
+            let object = object.and_then(|index| Some((index, self.objects.list().get(index)?)));
+            let thing = object.map_or("the ground".to_owned(), |(index, object)| {
+                format!("{} {}", object.name(), index + 1)
+            });
+            let what = match kind {
+                ContactKind::Collision => "the body ran into",
+                ContactKind::HighCentred => "the belly or a bumper is on",
+                ContactKind::Step => "a wheel is against a step of",
+            };
+            format!("{what} {thing} at ({:.2}, {:.2}) m", place_m.x, place_m.y)
+        });
+        of_contact.or_else(|| self.stop_reason().map(|reason| reason.to_string()))
     }
 
     /// Why the navigator stopped, if it did.

@@ -4,6 +4,7 @@
 //! crosses has a struct of its own, whose TypeScript is made from it: `web/src/wasm/mapless_wasm.d.ts`.
 
 mod decision;
+mod objects;
 mod opening;
 mod parameters;
 mod places;
@@ -13,6 +14,7 @@ mod stroke;
 mod terrain;
 
 pub use decision::{Cost, Forecast, PathPoint, ReachEnd, Refusal, Segment, Subgoal, Verdict};
+pub use objects::{ObjectList, Solid, SolidList};
 pub use opening::{Learning, Preset, ScenarioRead, SessionOptions, TextFile, read_scenario};
 pub use parameters::{Parameter, ParameterGroup, ParameterKind};
 pub use places::{Goal, Heading, Place, Route};

@@ -17,6 +17,7 @@ use tsify::Ts;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 use web_sys::Performance;
 
+use crate::objects::{ObjectList, Solid, SolidList};
 use crate::opening::SessionOptions;
 use crate::parameters::{self, ParameterGroup};
 use crate::places::{Heading, Route};
@@ -76,11 +77,13 @@ impl Session {
     #[wasm_bindgen(constructor)]
     pub fn new(options: Ts<SessionOptions>) -> Result<Session, JsError> {
         let options = read(options)?;
-        let file = Scenario::parse(&options.scenario.name, &options.scenario.text)?;
+        let terrain = options.terrain.load()?;
+        let file =
+            Scenario::parse(&options.scenario.name, &options.scenario.text)?.on_terrain(&terrain.objects);
         let running = changed(&file, &options.overrides.unwrap_or_default())?;
         let (preset, learning) = (options.preset.into(), options.learning.map(LearningMode::from));
         let seed = options.seed.unwrap_or(file.seed);
-        let trial = trial(options.terrain.load()?, &running, preset, learning, seed)?;
+        let trial = trial(terrain.field, &running, preset, learning, seed)?;
         Ok(Session {
             now: Moment::new(trial),
             history: None,
@@ -204,6 +207,35 @@ impl Session {
         self.now.trial.replace_ground(patch.rect(), &patch.heights_m())?;
         (self.history, self.ground_changed) = (None, true);
         Ok(())
+    }
+
+    /// Puts other objects on the ground in place of all there are, with the same consequences as a stroke.
+    ///
+    /// # Errors
+    /// An object that makes no sense, with its place and what was expected; nothing then changes.
+    pub fn set_objects(&mut self, objects: Ts<ObjectList>) -> Result<(), JsError> {
+        let ObjectList(objects) = read(objects)?;
+        self.now.trial.set_objects(objects.clone())?;
+        self.file.objects = Some(objects.clone());
+        self.running.objects = Some(objects);
+        (self.history, self.ground_changed) = (None, true);
+        Ok(())
+    }
+
+    /// The objects on the ground.
+    ///
+    /// # Errors
+    /// None, unless JavaScript runs out of memory.
+    pub fn objects(&self) -> Result<Ts<ObjectList>, JsError> {
+        give(&ObjectList(self.now.trial.objects().list().to_vec()))
+    }
+
+    /// The shapes that the objects are made of, where they are now.
+    ///
+    /// # Errors
+    /// None, unless JavaScript runs out of memory.
+    pub fn solids(&self) -> Result<Ts<SolidList>, JsError> {
+        give(&SolidList(self.now.trial.objects().solids().iter().map(Solid::from).collect()))
     }
 
     /// Looks at new ground while nothing moves. Before the first tick the trial begins anew on it: the run is

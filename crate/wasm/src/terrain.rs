@@ -2,7 +2,7 @@
 
 use js_sys::{Float32Array, Uint8Array};
 use mapless_terrain::generate::{Difficulty, terrain_recipe};
-use mapless_terrain::{Fault, Grid, Import, Imported, load_recipe};
+use mapless_terrain::{Fault, Grid, Import, Imported, Terrain, load_recipe};
 use mapless_world::{HeightField, SampleRect};
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
@@ -40,14 +40,13 @@ pub struct ImportRequest {
 }
 
 impl TerrainFiles {
-    pub(crate) fn load(&self) -> Result<HeightField, JsError> {
+    pub(crate) fn load(&self) -> Result<Terrain, JsError> {
         // A module of its own has read the file: this one is what every visitor loads.
         let mut imported = |wanted: &str, _: &Import| {
             let missing = || Fault::Read { reason: format!("expected the file {wanted} beside the recipe") };
             self.imported.as_ref().map(Ground::grid).ok_or_else(missing)
         };
-        let terrain = load_recipe(&self.name, &self.bytes.to_vec(), &mut imported)?;
-        Ok(terrain.field)
+        Ok(load_recipe(&self.name, &self.bytes.to_vec(), &mut imported)?)
     }
 }
 
@@ -172,7 +171,7 @@ pub fn import_of(file: &str, recipe: &str) -> Result<Option<Ts<ImportRequest>>, 
 /// A fault of the terrain, with place, value and expectation.
 #[wasm_bindgen]
 pub fn level_places(terrain: Ts<TerrainFiles>) -> Result<Ts<LevelPlaces>, JsError> {
-    let [start, goal] = read(terrain)?.load()?.level_places();
+    let [start, goal] = read(terrain)?.load()?.field.level_places();
     give(&LevelPlaces { start: start.into(), goal: goal.into() })
 }
 
@@ -182,5 +181,5 @@ pub fn level_places(terrain: Ts<TerrainFiles>) -> Result<Ts<LevelPlaces>, JsErro
 /// A fault of the terrain, with place, value and expectation.
 #[wasm_bindgen]
 pub fn terrain_preview(terrain: Ts<TerrainFiles>, most: u32) -> Result<Ts<Ground>, JsError> {
-    give(&Ground::coarse(&read(terrain)?.load()?, most))
+    give(&Ground::coarse(&read(terrain)?.load()?.field, most))
 }

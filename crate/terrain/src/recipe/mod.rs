@@ -55,6 +55,12 @@
 //! radius_m = 2.0
 //! strength_m = 0.1
 //! points = [[10.0, 12.0], [10.5, 12.0]]
+//!
+//! [[objects]]                    # stands on the ground and is not ground; see [`mapless_world::Object`]
+//! kind = "post"                  # or box, rock, wall, gate, roof
+//! at = [20.0, 22.0]
+//! radius_m = 0.1
+//! height_m = 1.5
 //! ```
 //!
 //! In place of `size_m` and `cell_m` a recipe may start from a grid in another file:
@@ -84,7 +90,7 @@ use check::Table;
 use features::{Crater, Feature, Hill, Noise, Plateau, Ridge, Valley};
 use mapless_heights::{Fault, Grid, Holes, split_name};
 use mapless_toml::Located;
-use mapless_world::{HeightField, check_grid};
+use mapless_world::{HeightField, Object, check_grid};
 use serde::Deserialize;
 use trail::Trail;
 
@@ -119,6 +125,8 @@ struct Recipe {
     trail: Vec<Located<Trail>>,
     #[serde(default)]
     stroke: Vec<Located<StrokeTable>>,
+    #[serde(default)]
+    objects: Vec<Located<Object>>,
 }
 
 #[derive(Deserialize)]
@@ -167,10 +175,19 @@ pub(crate) fn load(file: &str, text: &str, read: Read<'_>) -> Result<Terrain, Te
         Ok(field)
     });
     let field = field.map_err(|fault| fault.of(file))?;
-    Ok(Terrain { name: recipe.name, description: recipe.description, field, warnings })
+    recipe.check_objects(text).map_err(|fault| fault.of(file))?;
+    let objects = recipe.objects.into_iter().map(|object| object.value).collect();
+    Ok(Terrain { name: recipe.name, description: recipe.description, field, objects, warnings })
 }
 
 impl Recipe {
+    fn check_objects(&self, text: &str) -> Result<(), TerrainFault> {
+        self.objects.iter().enumerate().try_for_each(|(index, object)| {
+            let table = Table::at(text, object.begin, "objects", index);
+            object.value.validate("").map_err(|error| table.fault(error.name, error.value, error.expected))
+        })
+    }
+
     /// The ground before any feature, and what is to be said of it.
     fn ground(&self, file: &str, read: Read<'_>) -> Result<(Canvas, Vec<String>), TerrainError> {
         let Some(import) = &self.import else {

@@ -9,6 +9,7 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 use super::Session;
 use super::tick::{Activity, Velocity};
 use crate::decision::{self, PathPoint, Segment, Subgoal};
+use crate::objects::Solid;
 use crate::shared::{Metrics, Outcome, Pose, give, read};
 
 /// Everything that one tick saw, decided and did. At tick 0 there is a scan but no decision yet.
@@ -18,7 +19,7 @@ pub struct Frame {
     time_s: f64,
     outcome: Outcome,
     activity: Activity,
-    /// Why the planner stopped, where it did.
+    /// Why the planner stopped, or what the body touched, where the trial ended so.
     stop_reason: Option<String>,
     pose: Pose,
     v_m_s: f64,
@@ -40,6 +41,8 @@ pub struct Frame {
     digest: String,
     timeline: Timeline,
     waypoints_passed: usize,
+    /// The shapes that walk, where they are now.
+    movers: Vec<Solid>,
 }
 
 /// Typed arrays that a frame fills, each as far as it goes.
@@ -140,7 +143,7 @@ impl Session {
             time_s: trial.time_s(),
             outcome: Outcome::of(trial),
             activity: step.status.into(),
-            stop_reason: trial.stop_reason().map(|reason| reason.to_string()),
+            stop_reason: trial.end_reason(),
             pose: Pose::of(trial),
             v_m_s: robot.speed_m_s,
             omega_rad_s: robot.turn_rate_rad_s,
@@ -155,6 +158,7 @@ impl Session {
             digest: self.digest(),
             timeline: self.timeline(),
             waypoints_passed: trial.waypoints_passed(),
+            movers: trial.objects().moving().map(Solid::from).collect(),
         })
     }
 

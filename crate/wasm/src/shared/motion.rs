@@ -58,6 +58,12 @@ pub enum Outcome {
     Reached,
     /// It rolled or pitched too far.
     TiltLimit,
+    /// Its body ran into an object.
+    Collision,
+    /// Its belly or a bumper is on the ground or on a low object.
+    HighCentred,
+    /// A wheel is against more than it climbs.
+    Step,
     /// It got nowhere for too long.
     Stuck,
     /// The planner knows no way on.
@@ -75,6 +81,9 @@ impl Outcome {
             None => Self::Running,
             Some(Ended::Reached) => Self::Reached,
             Some(Ended::TiltLimit) => Self::TiltLimit,
+            Some(Ended::Collision) => Self::Collision,
+            Some(Ended::HighCentred) => Self::HighCentred,
+            Some(Ended::Step) => Self::Step,
             Some(Ended::Stuck) => Self::Stuck,
             Some(Ended::NoSubgoal) => Self::NoSubgoal,
             Some(Ended::LeftTerrain) => Self::LeftTerrain,

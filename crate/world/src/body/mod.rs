@@ -99,30 +99,13 @@ impl Body {
         self.parts().all(|part| part.touches(origin_m, &rotation, solid).is_none())
     }
 
-    /// The first contact of a robot in this state, if any: with solids, then of the belly and the bumpers
-    /// with the ground, then of the wheels with a step of `footing`.
+    /// The first solid that the body of a robot in this state touches, if any.
     #[must_use]
-    pub fn contact(
-        &self,
-        state: &RobotState,
-        field: &HeightField,
-        footing: &impl Ground,
-        solids: &[Solid],
-    ) -> Option<Contact> {
+    pub fn contact_with(&self, solids: &[Solid], state: &RobotState) -> Option<Contact> {
         let (origin_m, rotation) = placed(state);
-        self.contact_with_solids(origin_m, &rotation, solids)
-            .or_else(|| self.contact_with_ground(origin_m, &rotation, field))
-            .or_else(|| self.step(state, origin_m, &rotation, footing))
-    }
-
-    fn parts(&self) -> impl Iterator<Item = &Part> {
-        self.overhangs.iter().chain(&self.wheels).chain([&self.deck, &self.mast])
-    }
-
-    fn contact_with_solids(&self, origin_m: DVec3, rotation: &DMat3, solids: &[Solid]) -> Option<Contact> {
         for solid in solids {
             for part in self.parts() {
-                let Some(place_m) = part.touches(origin_m, rotation, solid) else { continue };
+                let Some(place_m) = part.touches(origin_m, &rotation, solid) else { continue };
                 // What is lower than the deck can be stood on or climbed; the rest is run into.
                 let is_low = solid.is_grounded && solid.top_m() < origin_m.z + self.config.height_m;
                 let kind = match part {
@@ -136,8 +119,25 @@ impl Body {
         None
     }
 
+    /// Where the ground touches more than the wheels of a robot in this state, if anywhere: belly and bumpers
+    /// with the ground itself, and wheels with a step of `footing`.
+    #[must_use]
+    pub fn contact_with_ground(
+        &self,
+        field: &HeightField,
+        footing: &impl Ground,
+        state: &RobotState,
+    ) -> Option<Contact> {
+        let (origin_m, rotation) = placed(state);
+        self.underside(origin_m, &rotation, field).or_else(|| self.step(state, origin_m, &rotation, footing))
+    }
+
+    fn parts(&self) -> impl Iterator<Item = &Part> {
+        self.overhangs.iter().chain(&self.wheels).chain([&self.deck, &self.mast])
+    }
+
     /// The ground where it is higher than the underside.
-    fn contact_with_ground(&self, origin_m: DVec3, rotation: &DMat3, field: &HeightField) -> Option<Contact> {
+    fn underside(&self, origin_m: DVec3, rotation: &DMat3, field: &HeightField) -> Option<Contact> {
         for part in [&self.deck, &self.overhangs[0], &self.overhangs[1]] {
             let corner_m = part.centre_m - part.half_m;
             let counts =

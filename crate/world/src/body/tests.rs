@@ -27,7 +27,9 @@ fn drive(field: &HeightField, objects: Vec<Object>) -> Option<(Contact, f64)> {
     let command = DriveCommand { speed_m_s: 0.8, turn_rate_rad_s: 0.0 };
     for _ in 0..1250 {
         husky.step(command, 0.01, &footing).unwrap();
-        if let Some(contact) = body.contact(husky.state(), field, &footing, objects.solids()) {
+        let state = husky.state();
+        let contact = body.contact_with(objects.solids(), state);
+        if let Some(contact) = contact.or_else(|| body.contact_with_ground(field, &footing, state)) {
             return Some((contact, husky.state().position.x));
         }
     }

@@ -61,10 +61,9 @@ impl Objects {
         &self.solids
     }
 
-    /// Whether anything walks.
-    #[must_use]
-    pub fn has_movers(&self) -> bool {
-        !self.movers.is_empty()
+    /// The solids that walk, where they are now.
+    pub fn moving(&self) -> impl Iterator<Item = &Solid> {
+        self.solids.iter().filter(|solid| self.movers.iter().any(|mover| mover.object == solid.object))
     }
 
     /// Puts everything anew on ground that has changed.
