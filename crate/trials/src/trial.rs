@@ -338,6 +338,7 @@ impl<N: Navigator> Trial<N> {
         let motion = self.husky.motion().clone();
         self.husky = place(self.caster.field(), self.husky.config().clone(), start)?.with_motion(motion);
         self.reality.restart(self.seed, &self.husky);
+        self.decision = Decision { activity: Activity::Searching, command: Command::STOP };
         self.start = start;
         self.passed = 0;
         self.tick = 0;

@@ -132,3 +132,114 @@ fn biased(config: &PoseConfig, truth: Pose) -> Pose {
     pose.pitch_rad += config.pitch_bias_rad;
     pose
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PERIOD_S: f64 = 0.1;
+
+    fn at(x_m: f64, pitch_rad: f64) -> Pose {
+        Pose::from_roll_pitch_yaw(DVec3::new(x_m, 0.0, x_m * libm::tan(pitch_rad)), 0.0, pitch_rad, 0.0)
+    }
+
+    /// The localisation after 100 m straight on in steps of 0.1 m.
+    fn after_100_m(config: &PoseConfig, seed: u64, pitch_rad: f64, wheels_m: f64) -> Localisation {
+        let mut localisation = Localisation::new(config.clone(), seed, at(0.0, pitch_rad));
+        let metres = |step: u32| 0.1 * f64::from(step) * libm::cos(pitch_rad);
+        for step in 0..1000 {
+            let (before, after) = (at(metres(step), pitch_rad), at(metres(step + 1), pitch_rad));
+            localisation.moved(&before, &after, wheels_m);
+        }
+        localisation
+    }
+
+    /// Standard deviation of a value over 400 seeds.
+    fn deviation(value: impl Fn(u64) -> f64) -> f64 {
+        ((0..400).map(|seed| value(seed) * value(seed)).sum::<f64>() / 400.0).sqrt()
+    }
+
+    fn ideal() -> PoseConfig {
+        PoseConfig::default()
+    }
+
+    #[test]
+    fn without_errors_the_truth_is_believed_to_the_bit() {
+        let localisation = after_100_m(&ideal(), 1, 0.2, 0.1);
+        let truth = at(100.0 * libm::cos(0.2), 0.2);
+        assert_eq!(localisation.believed(localisation.odometry(), 5), truth);
+    }
+
+    #[test]
+    fn the_scale_is_off_by_a_share_of_the_way() {
+        let config = PoseConfig { scale_drift: 0.02, ..ideal() };
+        let error_m = |seed| after_100_m(&config, seed, 0.0, 0.1).odometry().position_m.x - 100.0;
+        assert!((deviation(error_m) - 2.0).abs() < 0.2, "{}", deviation(error_m));
+    }
+
+    #[test]
+    fn the_heading_walks_with_the_root_of_the_way() {
+        let config = PoseConfig { heading_drift_rad: 0.01, ..ideal() };
+        let error_rad = |seed| after_100_m(&config, seed, 0.0, 0.1).odometry().yaw_rad;
+        assert!((deviation(error_rad) - 0.1).abs() < 0.01, "{}", deviation(error_rad));
+        // Which leads aside: a walk from 0 to σ has the mean square σ² / 3 over the way.
+        let aside_m = |seed| after_100_m(&config, seed, 0.0, 0.1).odometry().position_m.y;
+        assert!((deviation(aside_m) - 100.0 * 0.1 / 3.0_f64.sqrt()).abs() < 0.6, "{}", deviation(aside_m));
+    }
+
+    #[test]
+    fn a_bias_of_the_pitch_climbs_into_the_height() {
+        let config = PoseConfig { pitch_bias_rad: 0.01, roll_bias_rad: -0.02, ..ideal() };
+        let pose = after_100_m(&config, 1, 0.0, 0.1).odometry();
+        assert!((pose.position_m.z - 1.0).abs() < 1e-3, "{}", pose.position_m.z);
+        assert!((pose.pitch_rad - 0.01).abs() < 1e-12 && (pose.roll_rad + 0.02).abs() < 1e-12);
+    }
+
+    #[test]
+    fn wheels_that_slip_measure_too_long_a_way() {
+        let config = PoseConfig { wheel_odometry: true, ..ideal() };
+        let pose = after_100_m(&config, 1, 0.3, 0.11).odometry();
+        assert!((pose.position_m.truncate().length() - 110.0 * libm::cos(0.3)).abs() < 1e-6);
+        assert!((pose.position_m.z - 110.0 * libm::sin(0.3)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn noise_has_its_deviation_and_no_memory() {
+        let config = PoseConfig { position_noise_m: 0.05, angle_noise_rad: 0.02, ..ideal() };
+        let localisation = Localisation::new(config, 1, at(3.0, 0.1));
+        let of = |tick| localisation.believed(localisation.odometry(), tick);
+        assert!((deviation(|tick| of(tick).position_m.z - at(3.0, 0.1).position_m.z) - 0.05).abs() < 0.005);
+        assert!((deviation(|tick| of(tick).pitch_rad - 0.1) - 0.02).abs() < 0.002);
+        assert!((deviation(|tick| of(tick).yaw_rad) - 0.02).abs() < 0.002);
+        assert_eq!(of(7), of(7));
+        assert_ne!(of(7), of(8));
+    }
+
+    #[test]
+    fn a_correction_removes_the_drift_and_leaves_its_own_error() {
+        let config = PoseConfig {
+            scale_drift: 0.1,
+            heading_drift_rad: 0.05,
+            correction_period_s: 2.0,
+            correction_error_m: 0.3,
+            correction_error_rad: 0.02,
+            ..ideal()
+        };
+        let truth = at(100.0, 0.0);
+        let corrected = |seed: u64| {
+            let mut localisation = after_100_m(&config, seed, 0.0, 0.1);
+            assert!(localisation.correct(&truth, 19, PERIOD_S).is_none());
+            let (before, after) = localisation.correct(&truth, 20, PERIOD_S).unwrap();
+            assert!(before.position_m.distance(truth.position_m) > 1e-3);
+            assert_eq!(after, localisation.in_map(localisation.odometry()));
+            after
+        };
+        assert!((deviation(|seed| corrected(seed).position_m.x - 100.0) - 0.3).abs() < 0.03);
+        assert!((deviation(|seed| corrected(seed).yaw_rad) - 0.02).abs() < 0.002);
+        // The odometry itself does not jump: a sweep is corrected by it.
+        let mut localisation = after_100_m(&config, 1, 0.0, 0.1);
+        let odometry = localisation.odometry();
+        localisation.correct(&truth, 20, PERIOD_S);
+        assert_eq!(localisation.odometry(), odometry);
+    }
+}
