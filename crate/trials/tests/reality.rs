@@ -53,7 +53,7 @@ fn ground(height_m: impl Fn(f64, f64) -> f64) -> HeightField {
 }
 
 fn hilly() -> HeightField {
-    ground(|x, y| 0.6 * (0.5 * x).sin() * (0.4 * y).cos())
+    ground(|x, y| 0.6 * libm::sin(0.5 * x) * libm::cos(0.4 * y))
 }
 
 fn scenario(reality: &str) -> Scenario {

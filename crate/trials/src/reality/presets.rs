@@ -35,7 +35,6 @@ fn field() -> RealityConfig {
             mount_pitch_rad: 0.5 * DEGREE,
             mount_height_m: 0.01,
             lost_scan_probability: 0.001,
-            scan_delay_periods: 1,
             ..SensingConfig::default()
         },
         pose: PoseConfig {
@@ -45,10 +44,11 @@ fn field() -> RealityConfig {
             angle_noise_rad: 0.3 * DEGREE,
             roll_bias_rad: 0.5 * DEGREE,
             pitch_bias_rad: 0.5 * DEGREE,
+            latency_s: 0.05,
             ..PoseConfig::default()
         },
         motion: MotionConfig {
-            latency_s: 0.05,
+            latency_s: 0.1,
             lag_s: 0.1,
             slope_slip: 0.1,
             side_slip: 0.1,
@@ -76,7 +76,7 @@ fn harsh() -> RealityConfig {
             mount_pitch_rad: 1.0 * DEGREE,
             mount_height_m: 0.03,
             lost_scan_probability: 0.05,
-            scan_delay_periods: 2,
+            scan_delay_periods: 1,
             ..field.sensing
         },
         pose: PoseConfig {
@@ -99,7 +99,7 @@ fn harsh() -> RealityConfig {
             slope_slip: 0.3,
             side_slip: 0.3,
             turn_slide_m_rad: 0.6,
-            turn_ratio: 0.8,
+            turn_ratio: 1.2,
             friction: 0.4,
             payload: 1.0,
             ..field.motion
