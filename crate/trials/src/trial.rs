@@ -373,7 +373,7 @@ impl<N: Navigator> Trial<N> {
         &self.navigator
     }
 
-    /// The last scan, in the sensor frame of the pose before the last motion.
+    /// The last scan that arrived, in the sensor frame of the pose before the last motion, unless scans are late.
     pub fn scan(&self) -> &Scan {
         &self.scan
     }

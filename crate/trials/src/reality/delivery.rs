@@ -43,6 +43,9 @@ impl Delivery {
     /// Takes the scan of `tick` and gives the one that arrives then, with its tick and odometry. Whoever looks
     /// twice in a tick replaces the scan.
     pub(crate) fn send(&mut self, tick: u64, scan: Scan, odometry: Pose) -> Option<(u64, Scan, Pose)> {
+        if self.delay_ticks == 0 {
+            return (!self.is_lost(tick)).then_some((tick, scan, odometry));
+        }
         // Those that have arrived stay until the next tick.
         let oldest = tick.saturating_sub(self.delay_ticks);
         self.under_way.retain(|sent| sent.tick >= oldest && sent.tick != tick);
