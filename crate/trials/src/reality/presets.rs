@@ -95,8 +95,8 @@ fn harsh() -> RealityConfig {
             zeros: true,
             // Assumed: a mast behind the sensor.
             blocked_width_rad: 20.0 * DEGREE,
-            mount_roll_rad: 1.0 * DEGREE,
-            mount_pitch_rad: -1.0 * DEGREE,
+            mount_roll_rad: DEGREE,
+            mount_pitch_rad: -DEGREE,
             mount_height_m: 0.03,
             // Assumed: one every two seconds, as over a radio link.
             lost_scan_probability: 0.05,
@@ -110,13 +110,13 @@ fn harsh() -> RealityConfig {
             heading_drift_rad: 0.02,
             position_noise_m: 0.03,
             // Half the dynamic error of an Xsens MTi.
-            angle_noise_rad: 1.0 * DEGREE,
-            roll_bias_rad: 1.0 * DEGREE,
-            pitch_bias_rad: 1.0 * DEGREE,
+            angle_noise_rad: DEGREE,
+            roll_bias_rad: DEGREE,
+            pitch_bias_rad: DEGREE,
             // Assumed: a GPS without a base station.
             correction_period_s: 10.0,
             correction_error_m: 0.5,
-            correction_error_rad: 1.0 * DEGREE,
+            correction_error_rad: DEGREE,
             latency_s: 0.1,
             ..field.pose
         },
