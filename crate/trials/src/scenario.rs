@@ -199,8 +199,8 @@ impl Scenario {
     }
 
     /// This scenario with other values of parameters: `sections` is TOML with nothing but `[planner]`,
-    /// `[sensor]`, `[robot]` and `[reality]`, named `file` in errors. A `preset` of `[reality]` replaces all of
-    /// the file's own `[reality]`. What the planner's section sets is checked by
+    /// `[sensor]`, `[robot]` and `[reality]`, named `file` in errors. A `preset` of `[reality]` replaces all
+    /// of the file's own `[reality]`. What the planner's section sets is checked by
     /// [`Scenario::planner_config`].
     ///
     /// # Errors
@@ -308,7 +308,8 @@ fn robot_model(robot: &RobotConfig) -> RobotModel {
     model
 }
 
-/// `config` with what a section `[reality]` sets: all values of its preset, if it names one, then single ones.
+/// `config` with what a section `[reality]` sets: all values of its preset, if it names one, then single
+/// ones.
 fn with_reality(config: &RealityConfig, section: &toml::Table) -> Result<RealityConfig, ScenarioFault> {
     let word = section.get("preset").and_then(toml::Value::as_str);
     let preset = RealityPreset::ALL.iter().find(|preset| Some(preset.word()) == word);

@@ -373,7 +373,8 @@ impl<N: Navigator> Trial<N> {
         &self.navigator
     }
 
-    /// The last scan that arrived, in the sensor frame of the pose before the last motion, unless scans are late.
+    /// The last scan that arrived, in the sensor frame of the pose before the last motion, unless scans are
+    /// late.
     pub fn scan(&self) -> &Scan {
         &self.scan
     }
@@ -403,8 +404,8 @@ impl<N: Navigator> Trial<N> {
         pose_of(&self.husky)
     }
 
-    /// The pose that the robot believes, in whose frame the goal is reached. A scan that arrives late comes with
-    /// the one that was believed when it was taken.
+    /// The pose that the robot believes, in whose frame the goal is reached. A scan that arrives late comes
+    /// with the one that was believed when it was taken.
     pub fn believed_pose(&self) -> Pose {
         self.reality.believed_pose(self.tick)
     }

@@ -140,8 +140,8 @@ impl Lidar {
         Ok(Self { sensing, ..self })
     }
 
-    /// Where the sensor truly is on a robot that stands at `position` with heading `yaw_rad`: its mount may be
-    /// off from that of the configuration.
+    /// Where the sensor truly is on a robot that stands at `position` with heading `yaw_rad`: its mount may
+    /// be off from that of the configuration.
     #[must_use]
     pub fn true_pose_on(&self, position: DVec2, yaw_rad: f64, attitude: &Attitude) -> SensorPose {
         let told = self.config.pose_on(position, yaw_rad, attitude);
@@ -185,8 +185,8 @@ impl Lidar {
         self.scan_along(sight_m, caster, |_| *pose, seed, tick, scan);
     }
 
-    /// As [`Lidar::scan_within`], from a moving sensor: each column is fired from the pose for the share of the
-    /// revolution that has passed then, from above 0 to 1, and its points are in the frame of that pose.
+    /// As [`Lidar::scan_within`], from a moving sensor: each column is fired from the pose for the share of
+    /// the revolution that has passed then, from above 0 to 1, and its points are in the frame of that pose.
     pub fn scan_along(
         &self,
         sight_m: f64,

@@ -52,8 +52,8 @@ mod tests {
     fn returns_fade_with_range_incidence_and_wetness() {
         let dry = SensingConfig { weakest_return: 0.04, ..SensingConfig::default() };
         let wet = SensingConfig { wetness: 0.75, ..dry.clone() };
-        // Half of them at the range where the mean power is the weakest: 50 m, or where cosine or wetness take
-        // a quarter, 25 m.
+        // Half of them at the range where the mean power is the weakest: 50 m, or where cosine or wetness
+        // take a quarter, 25 m.
         for (config, range_m, facing) in [(&dry, 50.0, 1.0), (&dry, 25.0, 0.25), (&wet, 25.0, 1.0)] {
             let share = noticed(config, range_m, facing);
             assert!((share - 0.5).abs() < 0.06, "{share}");

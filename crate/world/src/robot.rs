@@ -100,7 +100,8 @@ impl Robot {
         Ok(Self { config, motion, state, wheels: DriveCommand::default(), aside_m_s: 0.0 })
     }
 
-    /// The same robot with a drive and a ground that are not ideal. The configuration must have been validated.
+    /// The same robot with a drive and a ground that are not ideal. The configuration must have been
+    /// validated.
     #[must_use]
     pub fn with_motion(self, motion: MotionConfig) -> Self {
         Self { motion, ..self }
@@ -176,7 +177,11 @@ impl Robot {
             velocity_m_s: DVec2::new(state.speed_m_s, self.aside_m_s),
             turn_rate_rad_s: state.turn_rate_rad_s,
         };
-        let after = body_motion(&self.motion, wheels, &state.attitude, before, dt_s);
+        let unslipped = BodyMotion {
+            velocity_m_s: DVec2::new(wheels.speed_m_s, 0.0),
+            turn_rate_rad_s: wheels.turn_rate_rad_s,
+        };
+        let after = body_motion(&self.motion, unslipped, &state.attitude, before, dt_s);
         let half_turn = (before.turn_rate_rad_s + after.turn_rate_rad_s) / 4.0 * dt_s;
         let mean_m_s = (before.velocity_m_s + after.velocity_m_s) / 2.0;
         let way = mean_m_s.x * dt_s * libm::cos(state.attitude.pitch_rad);

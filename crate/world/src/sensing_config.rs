@@ -18,16 +18,16 @@ choices! {
 parameters! {
     /// What spoils the scans of a sensor in the field; by default nothing.
     pub struct SensingConfig {
-        /// Fire the columns of a revolution one after the other, over the sensor's period, each from where the
-        /// robot is then. The scan belongs to the end of the sweep.
+        /// Fire the columns of a revolution one after the other, over the sensor's period, each from where
+        /// the robot is then. The scan belongs to the end of the sweep.
         sweep: bool = false;
         /// How the points of a sweep are corrected for the motion during it.
         motion_compensation: MotionCompensation = MotionCompensation::None;
-        /// Least power of a return that is noticed, as a share of that from dry ground 10 m away, met at a right
-        /// angle. Power falls with the square of the range and with the cosine of the incidence.
+        /// Least power of a return that is noticed, as a share of that from dry ground 10 m away, met at a
+        /// right angle. Power falls with the square of the range and with the cosine of the incidence.
         weakest_return: f64 = 0.0, range [0.0, 0.2], check Within(0.0, 1.0);
-        /// Share of a return's power that wet ground throws away from the sensor. It matters where weakest_return
-        /// is above 0.
+        /// Share of a return's power that wet ground throws away from the sensor. It matters where
+        /// weakest_return is above 0.
         wetness: f64 = 0.0, range [0.0, 0.95], check Within(0.0, 1.0);
         /// Share of beams that end early, on rain, dust or insects: anywhere before what they would hit, and
         /// within 7 m.

@@ -2,7 +2,6 @@
 
 use crate::attitude::Attitude;
 use crate::motion_config::MotionConfig;
-use crate::robot::DriveCommand;
 use glam::DVec2;
 
 const GRAVITY_M_S2: f64 = 9.81;
@@ -20,7 +19,7 @@ pub(crate) struct BodyMotion {
 /// body that does not slip by `wheels`.
 pub(crate) fn body_motion(
     config: &MotionConfig,
-    wheels: DriveCommand,
+    wheels: BodyMotion,
     attitude: &Attitude,
     before: BodyMotion,
     dt_s: f64,
@@ -32,10 +31,12 @@ pub(crate) fn body_motion(
     let turn_rate_rad_s =
         wheels.turn_rate_rad_s * config.turn_ratio * (1.0 + config.side_slope_turn * tan_roll.abs());
     // A wheel that drives up slips back, one that drives down slips on: both downhill.
-    let ahead = wheels.speed_m_s - config.slope_slip * tan_pitch * wheels.speed_m_s.abs();
-    // In a turn every wheel skids at |ω| r, with r half the diagonal between the wheels. Friction acts against
-    // the skid, so that a pull of tan(roll) from the side is balanced by a drift of |ω| r tan(roll) / μ.
-    let pull = config.side_slip * wheels.speed_m_s.abs() + config.turn_slide_m_rad * turn_rate_rad_s.abs();
+    let ahead = wheels.velocity_m_s.x - config.slope_slip * tan_pitch * wheels.velocity_m_s.x.abs();
+    // In a turn every wheel skids at |ω| r, with r half the diagonal between the wheels. Friction acts
+    // against the skid, so that a pull of tan(roll) from the side is balanced by a drift of |ω| r tan(roll) /
+    // μ.
+    let pull =
+        config.side_slip * wheels.velocity_m_s.x.abs() + config.turn_slide_m_rad * turn_rate_rad_s.abs();
     let wanted = DVec2::new(ahead, -pull * tan_roll);
     let downhill = DVec2::new(-sin_pitch, -sin_roll * cos_pitch) * GRAVITY_M_S2;
     let most = config.friction * GRAVITY_M_S2 * cos_pitch * cos_roll;
@@ -58,7 +59,7 @@ fn held(velocity: DVec2, wanted: DVec2, downhill: DVec2, most: f64, dt_s: f64) -
 mod tests {
     use super::*;
     use crate::height_field::HeightField;
-    use crate::robot::Robot;
+    use crate::robot::{DriveCommand, Robot};
     use crate::robot_config::RobotConfig;
     use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -40,8 +40,8 @@ impl Delivery {
         self.lost_probability <= 0.0 && self.delay_ticks == 0
     }
 
-    /// Takes the scan of `tick` and gives the one that arrives then, with its tick and odometry. Whoever looks
-    /// twice in a tick replaces the scan.
+    /// Takes the scan of `tick` and gives the one that arrives then, with its tick and odometry. Whoever
+    /// looks twice in a tick replaces the scan.
     pub(crate) fn send(&mut self, tick: u64, scan: Scan, odometry: Pose) -> Option<(u64, Scan, Pose)> {
         if self.delay_ticks == 0 {
             return (!self.is_lost(tick)).then_some((tick, scan, odometry));

@@ -67,8 +67,8 @@ impl Reality {
         *self = Self::new(self.config.clone(), seed, robot, self.steps, period_s);
     }
 
-    /// Takes a scan into `scan`; returns whether the sensor saw anything. Late and lost scans leave `scan` as it
-    /// was.
+    /// Takes a scan into `scan`; returns whether the sensor saw anything. Late and lost scans leave `scan` as
+    /// it was.
     pub(crate) fn look(&mut self, sensor: &Lidar, view: View<'_>, scan: &mut Scan) -> bool {
         if self.delivery.is_ideal() {
             self.scan(sensor, view, scan);
@@ -155,8 +155,8 @@ impl Reality {
         self.odometry_trail.settle(self.localisation.odometry());
     }
 
-    /// Corrects the drift if that is due at `tick`; returns the believed poses before and after if the planner
-    /// is told.
+    /// Corrects the drift if that is due at `tick`; returns the believed poses before and after if the
+    /// planner is told.
     pub(crate) fn correct(&mut self, tick: u64) -> Option<(Pose, Pose)> {
         let period_s = self.step_s * f64::from(self.steps);
         let poses = self.localisation.correct(&self.true_trail.ago(0.0), tick, period_s);

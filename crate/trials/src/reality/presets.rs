@@ -34,8 +34,9 @@ fn field() -> RealityConfig {
             stray_probability: 0.0005,
             // Assumed: an antenna and a cable.
             self_returns: 5,
-            // As the static error of an inertial sensor (Xsens MTi manual), with which a mount is levelled. In pitch
-            // it adds to the bias of the pose, in roll they cancel: what comes of both is their root mean square.
+            // As the static error of an inertial sensor (Xsens MTi manual), with which a mount is levelled.
+            // In pitch it adds to the bias of the pose, in roll they cancel: what comes of both is their root
+            // mean square.
             mount_roll_rad: 0.5 * DEGREE,
             mount_pitch_rad: -0.5 * DEGREE,
             // Assumed: a tape measure.
@@ -67,8 +68,8 @@ fn field() -> RealityConfig {
             // Assumed: firm ground; 4 % at 20°.
             slope_slip: 0.1,
             side_slip: 0.1,
-            // Half the diagonal between the wheels, 0.38 m, over the friction; 0.2 m a radian at 27°, as in the
-            // physics engine.
+            // Half the diagonal between the wheels, 0.38 m, over the friction; 0.2 m a radian at 27°, as in
+            // the physics engine.
             turn_slide_m_rad: 0.42,
             turn_ratio: 1.0,
             // 1.35 times at 25°: the middle of 1.2 to 1.5 in the physics engine.

@@ -23,8 +23,8 @@ impl Trail {
         self.poses.push(pose);
     }
 
-    /// The pose so many steps ago, which need not be whole: poses between two steps are interpolated, for which
-    /// headings must not be wrapped. The oldest if that is farther back.
+    /// The pose so many steps ago, which need not be whole: poses between two steps are interpolated, for
+    /// which headings must not be wrapped. The oldest if that is farther back.
     pub(crate) fn ago(&self, steps: f64) -> Pose {
         let last = self.poses.len() - 1;
         let step = (last as f64 - steps).clamp(0.0, last as f64);
