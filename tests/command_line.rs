@@ -85,6 +85,7 @@ fn json_has_every_name_and_the_same_seed_gives_the_same_digest() {
     let first = folder.json(&[]);
     let expected = [
         "digest",
+        "distance_to_goal_m",
         "metrics.curvature_change_rad_m",
         "metrics.distance_m",
         "metrics.max_abs_pitch_rad",

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use mapless_tests::scenarios_text::SCENARIOS;
-use mapless_trials::Outcome;
+use mapless_trials::{Outcome, RealityPreset};
 
 #[test]
 fn every_scenario_reaches_its_goal_with_the_recorded_digest() {
@@ -37,6 +37,24 @@ fn every_scenario_reaches_its_goal_with_the_recorded_digest() {
     });
     if record {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/digests.toml");
+        std::fs::write(path, toml::to_string(&digests).unwrap()).unwrap();
+    }
+}
+
+/// In the browser, too.
+#[test]
+fn in_the_field_two_routes_give_the_recorded_digest() {
+    let record = std::env::var_os("MAPLESS_RECORD_DIGESTS").is_some();
+    let mut digests = BTreeMap::new();
+    for scenario in SCENARIOS.iter().filter(|scenario| ["gsb", "ht"].contains(&scenario.name)) {
+        if record {
+            digests.insert(scenario.name, scenario.drive_in(RealityPreset::Field).unwrap().digest());
+        } else {
+            scenario.check_in_the_field().unwrap_or_else(|difference| panic!("{difference}"));
+        }
+    }
+    if record {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/field_digests.toml");
         std::fs::write(path, toml::to_string(&digests).unwrap()).unwrap();
     }
 }

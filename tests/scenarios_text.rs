@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use mapless_trials::{Outcome, Preset, Scenario, Trial};
+use mapless_trials::{Outcome, Preset, RealityPreset, Scenario, Trial};
 use mapless_world::RobotConfig;
 
 /// A scenario with its terrain.
@@ -34,13 +34,25 @@ pub const SCENARIOS: [Bundled; 10] = bundled![
 /// Digests of the trajectories with the preset `default` and the scenario's own seed, by scenario.
 pub const DIGESTS: &str = include_str!("digests.toml");
 
+/// The same in the world of the reality preset `field`, of two routes.
+pub const FIELD_DIGESTS: &str = include_str!("field_digests.toml");
+
 impl Bundled {
     /// A trial ready to run, with the preset `default` and the scenario's own seed.
     ///
     /// # Errors
     /// What is wrong with the files.
     pub fn trial(&self) -> Result<Trial, String> {
-        let scenario = Scenario::parse(self.name, self.scenario).map_err(|e| e.to_string())?;
+        self.trial_in(RealityPreset::Ideal)
+    }
+
+    /// As [`Bundled::trial`], in a world that is as hard as `reality` says.
+    ///
+    /// # Errors
+    /// What is wrong with the files.
+    pub fn trial_in(&self, reality: RealityPreset) -> Result<Trial, String> {
+        let mut scenario = Scenario::parse(self.name, self.scenario).map_err(|e| e.to_string())?;
+        scenario.reality = reality.config();
         let terrain =
             mapless_terrain::load_recipe(&scenario.terrain, self.terrain.as_bytes(), &mut |_, _| {
                 Err(mapless_terrain::Fault::Read { reason: "not bundled".to_owned() })
@@ -55,9 +67,26 @@ impl Bundled {
     /// # Errors
     /// What is wrong with the files.
     pub fn drive(&self) -> Result<Trial, String> {
-        let mut trial = self.trial()?;
+        self.drive_in(RealityPreset::Ideal)
+    }
+
+    /// As [`Bundled::drive`], in a world that is as hard as `reality` says.
+    ///
+    /// # Errors
+    /// What is wrong with the files.
+    pub fn drive_in(&self, reality: RealityPreset) -> Result<Trial, String> {
+        let mut trial = self.trial_in(reality)?;
         while trial.tick().is_none() {}
         Ok(trial)
+    }
+
+    /// Drives the trial in the world of `field` and compares its digest with the recorded one.
+    ///
+    /// # Errors
+    /// What is another.
+    pub fn check_in_the_field(&self) -> Result<(), String> {
+        let trial = self.drive_in(RealityPreset::Field)?;
+        self.compare(FIELD_DIGESTS, &trial)
     }
 
     /// Drives the trial and compares how it went: the goal reached within the limits of tilt, over a path of
@@ -66,7 +95,6 @@ impl Bundled {
     /// # Errors
     /// What is another.
     pub fn check(&self) -> Result<(), String> {
-        let recorded: BTreeMap<String, String> = toml::from_str(DIGESTS).map_err(|e| e.to_string())?;
         let trial = self.drive()?;
         if trial.outcome() != Some(Outcome::Reached) {
             return Err(format!("{}: {:?} instead of reached", self.name, trial.outcome()));
@@ -79,6 +107,11 @@ impl Bundled {
         if !is_possible {
             return Err(format!("{}: {straight_m} m to the goal, {metrics:?}", self.name));
         }
+        self.compare(DIGESTS, &trial)
+    }
+
+    fn compare(&self, digests: &str, trial: &Trial) -> Result<(), String> {
+        let recorded: BTreeMap<String, String> = toml::from_str(digests).map_err(|e| e.to_string())?;
         match recorded.get(self.name) {
             Some(expected) if *expected == trial.digest() => Ok(()),
             expected => Err(format!("{}: digest {}, recorded {expected:?}", self.name, trial.digest())),

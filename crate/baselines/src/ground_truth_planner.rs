@@ -149,6 +149,10 @@ impl Navigator for GroundTruthPlanner {
         Planner::reset(&mut self.planner);
     }
 
+    fn relocalise(&mut self, before: &Pose, after: &Pose) {
+        self.planner.relocalise(before, after);
+    }
+
     fn subgoal_m(&self) -> Option<DVec2> {
         self.planner.subgoal_m()
     }

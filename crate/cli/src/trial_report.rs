@@ -35,6 +35,8 @@ pub(crate) struct Report {
     /// Why the planner stopped, if it did.
     pub(crate) reason: Option<String>,
     pub(crate) metrics: Metrics,
+    /// From where the robot truly is at the end, seen from above.
+    pub(crate) distance_to_goal_m: f64,
     pub(crate) ticks: u64,
     pub(crate) sim_time_s: f64,
     pub(crate) planner_ms: PlannerTime,
@@ -63,6 +65,7 @@ impl Report {
             outcome,
             reason: trial.end_reason(),
             metrics: trial.metrics(),
+            distance_to_goal_m: trial.true_distance_to_goal_m(),
             ticks: trial.ticks(),
             sim_time_s: trial.time_s(),
             planner_ms: PlannerTime::of(planner_times),
@@ -99,6 +102,7 @@ impl Report {
         };
         row("outcome", self.outcome.name().to_owned(), "");
         row("distance", format!("{:.2}", metrics.distance_m), "m");
+        row("from the goal at the end", format!("{:.2}", self.distance_to_goal_m), "m");
         row("max |roll|", tilt(metrics.max_abs_roll_rad), &limit(self.subject.roll_limit_rad));
         row("max |pitch|", tilt(metrics.max_abs_pitch_rad), &limit(self.subject.pitch_limit_rad));
         row("mean vibration", format!("{:.4}", metrics.mean_vibration_rad_s), "rad/s");

@@ -90,8 +90,8 @@ fn drive_all(routes: &[PathBuf]) -> Result<Vec<Driven>, Failure> {
 
 fn drive(route: &Path, setting: usize) -> Result<Driven, Failure> {
     let mut loaded = LoadedScenario::read(route)?;
-    let sensor = &mut loaded.scenario.sensor;
-    (sensor.stray_probability, sensor.self_returns) = SETTINGS[setting];
+    let sensing = &mut loaded.scenario.reality.sensing;
+    (sensing.stray_probability, sensing.self_returns) = SETTINGS[setting];
     let mut trial = Trial::new(loaded.terrain.field, &loaded.scenario, Preset::Default, SEED)?;
     let (mut points, mut stray, mut body) = (0, 0, 0);
     let outcome = loop {

@@ -12,6 +12,7 @@ pub mod parameters;
 mod places;
 mod profile_accuracy;
 mod progress_checker;
+mod reality;
 mod scenario;
 pub mod statistics;
 mod trial;
@@ -23,6 +24,7 @@ pub use outcome::Outcome;
 pub use places::StartPose;
 pub use profile_accuracy::{ColumnKind, ProfileAccuracy, profile_accuracy};
 pub use progress_checker::{BASE_TIME_LIMIT_S, MOST_STRAIGHT_TIMES};
+pub use reality::{PoseConfig, RealityConfig, RealityPreset};
 #[cfg(not(target_arch = "wasm32"))]
 pub use scenario::LoadedScenario;
 pub use scenario::renamed_keys::{current_path, current_value};

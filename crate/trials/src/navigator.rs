@@ -86,6 +86,9 @@ pub trait Navigator {
     /// Forgets everything that was sensed and driven.
     fn reset(&mut self);
 
+    /// The localisation was corrected: what it gave as `before` it now gives as `after`.
+    fn relocalise(&mut self, _before: &Pose, _after: &Pose) {}
+
     /// The last chosen subgoal, seen from above, in the world; `None` if there is none.
     fn subgoal_m(&self) -> Option<DVec2> {
         None
@@ -107,6 +110,10 @@ impl<N: Navigator + ?Sized> Navigator for Box<N> {
 
     fn reset(&mut self) {
         (**self).reset();
+    }
+
+    fn relocalise(&mut self, before: &Pose, after: &Pose) {
+        (**self).relocalise(before, after);
     }
 
     fn subgoal_m(&self) -> Option<DVec2> {
@@ -131,6 +138,10 @@ impl Navigator for Planner {
 
     fn reset(&mut self) {
         Planner::reset(self);
+    }
+
+    fn relocalise(&mut self, before: &Pose, after: &Pose) {
+        Planner::relocalise(self, before, after);
     }
 
     fn subgoal_m(&self) -> Option<DVec2> {

@@ -3,8 +3,9 @@
 
 use mapless::PlannerConfig;
 pub use mapless_parameters::{Kind, Parameter, Value};
-use mapless_world::{RobotConfig, SensorConfig};
+use mapless_world::{MotionConfig, RobotConfig, SensingConfig, SensorConfig};
 
+use crate::reality::{PoseConfig, RealityConfig};
 use crate::scenario::{Preset, Scenario, ScenarioFault};
 
 /// Parameters of one table, with their values.
@@ -28,7 +29,12 @@ pub struct Valued {
 }
 
 /// All groups, in the order of the method, with the values of these configurations.
-pub fn groups(planner: &PlannerConfig, sensor: &SensorConfig, robot: &RobotConfig) -> Vec<Group> {
+pub fn groups(
+    planner: &PlannerConfig,
+    sensor: &SensorConfig,
+    robot: &RobotConfig,
+    reality: &RealityConfig,
+) -> Vec<Group> {
     /// One group: its table, its title, and the configuration that its parameters are in.
     macro_rules! groups {
         ($($table:literal $title:literal $type:ty = $config:expr;)*) => {
@@ -62,6 +68,10 @@ pub fn groups(planner: &PlannerConfig, sensor: &SensorConfig, robot: &RobotConfi
         "planner.sensor" "Sensor as the planner knows it; follows the sensor unless set" SensorModel = planner.sensor;
         "sensor" "Sensor" SensorConfig = sensor;
         "robot" "Robot" RobotConfig = robot;
+        "reality" "Reality" RealityConfig = reality;
+        "reality.sensing" "What spoils the scans" SensingConfig = reality.sensing;
+        "reality.pose" "What is wrong with the believed pose" PoseConfig = reality.pose;
+        "reality.motion" "What drive and ground do to a motion" MotionConfig = reality.motion;
     }
 }
 
@@ -76,13 +86,17 @@ fn group(
 }
 
 /// The values that hold where nobody changed any: those of the scenario `file` under `preset`. What the
-/// planner takes from sensor and robot follows those of `running`, the scenario with its changes.
+/// planner takes from sensor and robot follows those of `running`, the scenario with its changes, and so does
+/// `[reality]` if they name another preset.
 ///
 /// # Errors
 /// The value that does not fit the preset.
 pub fn values(file: &Scenario, running: &Scenario, preset: Preset) -> Result<Vec<Group>, ScenarioFault> {
     let planner = Scenario { planner: file.planner.clone(), ..running.clone() }.planner_config(preset)?;
-    Ok(groups(&planner, &file.sensor, &file.robot))
+    let preset = running.reality.preset;
+    let is_changed = preset != file.reality.preset;
+    let reality = if is_changed { preset.config() } else { file.reality.clone() };
+    Ok(groups(&planner, &file.sensor, &file.robot, &reality))
 }
 
 #[cfg(test)]
@@ -136,6 +150,7 @@ mod tests {
         paths(&Table::try_from(PlannerConfig::default()).unwrap(), "planner", &mut expected);
         paths(&Table::try_from(SensorConfig::default()).unwrap(), "sensor", &mut expected);
         paths(&Table::try_from(RobotConfig::default()).unwrap(), "robot", &mut expected);
+        paths(&Table::try_from(RealityConfig::default()).unwrap(), "reality", &mut expected);
         let groups = of_preset(Preset::Default);
         let mut found: Vec<String> =
             all(&groups).map(|(table, one)| format!("{table}.{}", one.parameter.name)).collect();
@@ -201,7 +216,8 @@ mod tests {
     fn the_papers_values_are_those_of_the_paper_preset() {
         let mut paper = PlannerConfig::paper();
         paper.perception.learning = LearningConfig::paper();
-        let groups = groups(&paper, &SensorConfig::default(), &RobotConfig::default());
+        let groups =
+            groups(&paper, &SensorConfig::default(), &RobotConfig::default(), &RealityConfig::default());
         let mut given = 0;
         for (table, Valued { parameter, value }) in all(&groups) {
             let Some(paper) = parameter.paper else { continue };

@@ -16,6 +16,12 @@
 //! at = [20.0, 22.0]
 //! radius_m = 0.1
 //! height_m = 1.5
+//!
+//! [reality]                     # what goes wrong; by default nothing
+//! preset = "field"              # "ideal", "field" or "harsh" sets every value of it
+//!
+//! [reality.motion]              # and single ones are set beside: sensing, pose or motion
+//! friction = 0.5
 //! ```
 
 pub(crate) mod renamed_keys;
@@ -26,6 +32,7 @@ use mapless_terrain::TerrainError;
 use mapless_world::{Object, RobotConfig, SensorConfig};
 
 use crate::places::{self, StartPose};
+use crate::reality::{RealityConfig, RealityPreset};
 use renamed_keys::RENAMED_KEYS;
 
 /// The planner configuration from which a scenario's `[planner]` section starts.
@@ -99,6 +106,8 @@ pub struct Scenario {
     /// What stands and walks on the ground. What the scenario does not say is that of its terrain:
     /// [`Scenario::on_terrain`].
     pub objects: Option<Vec<Object>>,
+    /// What goes wrong.
+    pub reality: RealityConfig,
     /// The values of the `[planner]` section.
     pub(crate) planner: toml::Table,
 }
@@ -130,8 +139,8 @@ pub enum ScenarioFault {
     Terrain(#[from] TerrainError),
 }
 
-/// The file as written. `planner` is read a second time as a table: here it only reports wrong keys with
-/// their line.
+/// The file as written. `planner` and `reality` are read a second time as tables: here they only report wrong
+/// keys with their line.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -150,6 +159,8 @@ struct File {
     #[serde(default)]
     robot: RobotConfig,
     objects: Option<Vec<Object>>,
+    #[serde(default)]
+    reality: RealityConfig,
 }
 
 /// The sections of a scenario file that set parameters.
@@ -160,6 +171,7 @@ struct Sections {
     planner: toml::Table,
     sensor: toml::Table,
     robot: toml::Table,
+    reality: toml::Table,
 }
 
 impl Scenario {
@@ -172,10 +184,11 @@ impl Scenario {
         let syntax = |error: mapless_toml::Error| fail(ScenarioFault::Syntax(error.to_string()));
         let parsed: File = mapless_toml::from_str_renamed(text, RENAMED_KEYS).map_err(syntax)?;
         let mut table: toml::Table = mapless_toml::from_str_renamed(text, RENAMED_KEYS).map_err(syntax)?;
-        let planner = match table.remove("planner") {
-            Some(toml::Value::Table(planner)) => planner,
+        let mut section = |name: &str| match table.remove(name) {
+            Some(toml::Value::Table(section)) => section,
             _ => toml::Table::new(),
         };
+        let planner = section("planner");
         let value = |reason: String| fail(ScenarioFault::Value(reason));
         parsed.planner.validate("planner").map_err(|e| value(e.to_string()))?;
         parsed.sensor.validate("sensor").map_err(|e| value(e.to_string()))?;
@@ -183,6 +196,8 @@ impl Scenario {
         for (index, object) in parsed.objects.iter().flatten().enumerate() {
             object.validate(&format!("objects[{}]", index + 1)).map_err(|e| value(e.to_string()))?;
         }
+        parsed.reality.validate("reality").map_err(|e| value(e.to_string()))?;
+        let reality = with_reality(&RealityConfig::default(), &section("reality")).map_err(fail)?;
         Ok(Self {
             terrain: parsed.terrain,
             start: parsed.start,
@@ -193,12 +208,14 @@ impl Scenario {
             sensor: parsed.sensor,
             robot: parsed.robot,
             objects: parsed.objects,
+            reality,
             planner,
         })
     }
 
     /// This scenario with other values of parameters: `sections` is TOML with nothing but `[planner]`,
-    /// `[sensor]` and `[robot]`, named `file` in errors. What the planner's section sets is checked by
+    /// `[sensor]`, `[robot]` and `[reality]`, named `file` in errors. A `preset` of `[reality]` replaces all
+    /// of the file's own `[reality]`. What the planner's section sets is checked by
     /// [`Scenario::planner_config`].
     ///
     /// # Errors
@@ -209,6 +226,7 @@ impl Scenario {
         let mut scenario = self.clone();
         merge(&mut scenario.planner, &sections.planner);
         (scenario.sensor, scenario.robot) = sections.applied_to(&self.sensor, &self.robot).map_err(fail)?;
+        scenario.reality = with_reality(&self.reality, &sections.reality).map_err(fail)?;
         Ok(scenario)
     }
 
@@ -311,6 +329,17 @@ fn robot_model(robot: &RobotConfig) -> RobotModel {
     model.roll_limit_rad = robot.roll_limit_rad;
     model.pitch_limit_rad = robot.pitch_limit_rad;
     model
+}
+
+/// `config` with what a section `[reality]` sets: all values of its preset, if it names one, then single
+/// ones.
+fn with_reality(config: &RealityConfig, section: &toml::Table) -> Result<RealityConfig, ScenarioFault> {
+    let word = section.get("preset").and_then(toml::Value::as_str);
+    let preset = RealityPreset::ALL.iter().find(|preset| Some(preset.word()) == word);
+    let config = preset.map_or_else(|| config.clone(), |preset| preset.config());
+    let config: RealityConfig = overridden(&config, section, "reality")?;
+    config.validate("reality").map_err(|e| ScenarioFault::Value(e.to_string()))?;
+    Ok(config)
 }
 
 /// `config` with the values of `over`; `section` names the place in errors.

@@ -18,6 +18,7 @@ use crate::navigator::{Activity, Decision, Navigator, NavigatorStop};
 use crate::outcome::Outcome;
 use crate::places::StartPose;
 use crate::progress_checker::ProgressChecker;
+use crate::reality::{Reality, View, pose_of};
 use crate::scenario::{Preset, Scenario};
 
 /// Motion steps in one planning period.
@@ -51,6 +52,8 @@ pub struct Trial<N = Planner> {
     scan: Scan,
     husky: Robot,
     body: Body,
+    /// What goes wrong.
+    reality: Reality,
     navigator: N,
     decision: Decision,
     start: StartPose,
@@ -66,8 +69,6 @@ pub struct Trial<N = Planner> {
     progress: ProgressChecker,
     outcome: Option<Outcome>,
     contact: Option<Contact>,
-    /// Whether belly, bumpers and steps count on bare ground.
-    touches_ground: bool,
 }
 
 impl Trial {
@@ -145,7 +146,9 @@ impl Trial {
             self.objects.settle(self.caster.field());
         }
         let footing = Footing { field: self.caster.field(), solids: self.objects.solids() };
-        if self.husky.settle(&footing).is_err() {
+        let settled = self.husky.settle(&footing);
+        self.reality.settled(&self.husky);
+        if settled.is_err() {
             self.outcome = Some(Outcome::LeftTerrain);
         } else if self.outcome.is_some_and(|outcome| outcome != Outcome::Reached) {
             self.resume();
@@ -184,15 +187,20 @@ impl<N: Navigator> Trial<N> {
         seed: u64,
     ) -> Result<Self, TrialError> {
         let sensor: SensorConfig = scenario.sensor.clone();
-        let sensor = Lidar::new(sensor).map_err(|e| TrialError::Config(e.to_string()))?;
+        let reality = scenario.reality.clone();
+        let sensor = Lidar::new(sensor)
+            .and_then(|sensor| sensor.in_the_field(reality.sensing.clone()))
+            .map_err(|e| TrialError::Config(e.to_string()))?;
         let objects = Objects::new(scenario.objects.clone().unwrap_or_default(), &field);
-        let husky = place(&field, objects.solids(), scenario.robot.clone(), scenario.start)?;
+        let husky = place(&field, objects.solids(), scenario.robot.clone(), scenario.start)?
+            .with_motion(reality.motion.clone());
         let body = Body::new(husky.config(), sensor.config().place_on_robot_m());
         check_route(&field, &scenario.waypoints_m, scenario.goal_m)?;
         let mut trial = Self {
             metrics: MetricsRecorder::new(sample_of(&husky)),
             caster: Arc::new(Caster::new(field)),
             objects,
+            reality: Reality::new(reality, seed, &husky, MOTION_STEPS, sensor.config().period_s),
             sensor,
             scan: Scan::default(),
             husky,
@@ -210,7 +218,6 @@ impl<N: Navigator> Trial<N> {
             progress: ProgressChecker::default(),
             outcome: None,
             contact: None,
-            touches_ground: false,
         };
         trial.restart_time_limit();
         Ok(trial)
@@ -229,9 +236,8 @@ impl<N: Navigator> Trial<N> {
 
     /// Takes a scan at the robot's pose, out to the navigator's range.
     pub fn look(&mut self) {
-        self.look_as_far_as(self.navigator.sight_m());
         // A scan without any return would mean a blind sensor, not a drop all around.
-        if self.scan.points.is_empty() {
+        if !self.look_as_far_as(self.navigator.sight_m()) {
             self.look_far();
         }
     }
@@ -243,23 +249,28 @@ impl<N: Navigator> Trial<N> {
         }
     }
 
-    fn look_as_far_as(&mut self, sight_m: f64) {
+    /// Returns whether the sensor saw anything.
+    fn look_as_far_as(&mut self, sight_m: f64) -> bool {
         if sight_m <= 0.0 {
-            return;
+            return false;
         }
-        let state = self.husky.state();
-        let sensor_pose = self.sensor.config().pose_on(state.position, state.yaw_rad, &state.attitude);
-        let scene = Scene { caster: &self.caster, solids: self.objects.solids() };
-        self.sensor.scan_within(sight_m, &scene, &sensor_pose, self.seed, self.tick, &mut self.scan);
         let RobotConfig { length_m, width_m, .. } = *self.husky.config();
         let outline_m = DVec2::new(length_m, width_m);
-        self.sensor.add_self_returns(outline_m, self.seed, self.tick, &mut self.scan.points);
+        let scene = Scene { caster: &self.caster, solids: self.objects.solids() };
+        let view = View { scene, sight_m, outline_m, seed: self.seed, tick: self.tick };
+        self.reality.look(&self.sensor, view, &mut self.scan)
     }
 
-    /// Lets the navigator decide on the last scan.
+    /// Lets the navigator decide on the last scan. If none has arrived, the last decision holds.
     pub fn plan(&mut self) -> Decision {
-        let pose = self.pose();
-        let elapsed = Duration::from_secs_f64(self.period_s());
+        let sees = self.navigator.sight_m() > 0.0;
+        let Some((pose, periods)) = self.reality.begin_decision(self.tick, sees) else {
+            if self.decision.activity == Activity::Arrived {
+                self.decision.activity = Activity::Searching;
+            }
+            return self.decision;
+        };
+        let elapsed = Duration::from_secs_f64(self.period_s() * f64::from(periods));
         self.decision = self.navigator.navigate(&self.scan.points, &pose, &self.target(), elapsed);
         self.decision
     }
@@ -278,6 +289,9 @@ impl<N: Navigator> Trial<N> {
             Activity::Driving | Activity::Backtracking | Activity::Searching => self.drive(command),
         };
         self.tick += 1;
+        if let Some((before, after)) = self.reality.correct(self.tick) {
+            self.navigator.relocalise(&before, &after);
+        }
         let here_m = self.husky.state().position;
         self.outcome = self.outcome.or_else(|| self.progress.check(here_m, self.tick));
         self.outcome
@@ -287,23 +301,25 @@ impl<N: Navigator> Trial<N> {
         let command = DriveCommand { speed_m_s: command.linear_m_s, turn_rate_rad_s: command.angular_rad_s };
         let dt_s = self.period_s() / f64::from(MOTION_STEPS);
         for _ in 0..MOTION_STEPS {
+            let obeyed = self.reality.obeyed(command);
             let field = self.caster.field();
             let here_m = self.husky.state().position;
             self.objects.walk(dt_s, field, here_m, |solid| self.body.is_clear_of(self.husky.state(), solid));
             let solids = self.objects.solids();
             let footing = Footing { field, solids };
-            if let Err(error) = self.husky.step(command, dt_s, &footing) {
+            if let Err(error) = self.husky.step(obeyed, dt_s, &footing) {
                 return Some(match error {
                     DriveError::LeftTerrain { .. } => Outcome::LeftTerrain,
                     DriveError::NotFinite { .. } => Outcome::NoSubgoal,
                 });
             }
+            self.reality.moved(&self.husky);
             let sample = sample_of(&self.husky);
             self.metrics.record(sample, dt_s);
             self.digest.add(&sample, self.husky.state().yaw_rad);
             let state = self.husky.state();
             self.contact = self.body.contact_with(solids, state).or_else(|| {
-                let touches = self.touches_ground;
+                let touches = self.husky.motion().touches_ground;
                 touches.then(|| self.body.contact_with_ground(field, &footing, state)).flatten()
             });
             if let Some(contact) = self.contact {
@@ -357,9 +373,13 @@ impl<N: Navigator> Trial<N> {
     /// # Errors
     /// [`TrialError::OffTerrain`]; nothing then changes.
     pub fn set_start(&mut self, start: StartPose) -> Result<(), TrialError> {
+        let motion = self.husky.motion().clone();
         let objects = Objects::new(self.objects.list().to_vec(), self.caster.field());
-        self.husky = place(self.caster.field(), objects.solids(), self.husky.config().clone(), start)?;
+        let husky = place(self.caster.field(), objects.solids(), self.husky.config().clone(), start)?;
+        self.husky = husky.with_motion(motion);
         self.objects = objects;
+        self.reality.restart(self.seed, &self.husky);
+        self.decision = Decision { activity: Activity::Searching, command: Command::STOP };
         self.start = start;
         self.passed = 0;
         self.tick = 0;
@@ -422,7 +442,8 @@ impl<N: Navigator> Trial<N> {
         &self.navigator
     }
 
-    /// The last scan, in the sensor frame of the pose before the last motion.
+    /// The last scan that arrived, in the sensor frame of the pose before the last motion, unless scans are
+    /// late.
     pub fn scan(&self) -> &Scan {
         &self.scan
     }
@@ -447,15 +468,20 @@ impl<N: Navigator> Trial<N> {
         self.husky.state()
     }
 
-    /// The robot's pose.
+    /// The robot's true pose.
     pub fn pose(&self) -> Pose {
-        let state = self.husky.state();
-        Pose::from_roll_pitch_yaw(
-            self.husky.position(),
-            state.attitude.roll_rad,
-            state.attitude.pitch_rad,
-            state.yaw_rad,
-        )
+        pose_of(&self.husky)
+    }
+
+    /// The pose that the robot believes, in whose frame the goal is reached. A scan that arrives late comes
+    /// with the one that was believed when it was taken.
+    pub fn believed_pose(&self) -> Pose {
+        self.reality.believed_pose(self.tick)
+    }
+
+    /// Distance from where the robot truly is to the goal, seen from above, metres.
+    pub fn true_distance_to_goal_m(&self) -> f64 {
+        (self.goal_m - self.husky.state().position).length()
     }
 
     /// x, y, z in metres; roll, pitch, yaw in radians; speed in m/s and turn rate in rad/s.

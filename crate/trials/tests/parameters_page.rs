@@ -5,6 +5,7 @@
 
 use mapless::PlannerConfig;
 use mapless_parameters::{Check, Kind, Value};
+use mapless_trials::RealityConfig;
 use mapless_trials::parameters::{Valued, groups};
 use mapless_world::{RobotConfig, SensorConfig};
 
@@ -57,7 +58,8 @@ fn must_be(check: Check) -> String {
 
 fn page() -> String {
     let mut page = INTRODUCTION.to_owned();
-    for group in groups(&PlannerConfig::default(), &SensorConfig::default(), &RobotConfig::default()) {
+    let (sensor, robot) = (SensorConfig::default(), RobotConfig::default());
+    for group in groups(&PlannerConfig::default(), &sensor, &robot, &RealityConfig::default()) {
         page += &format!("\n## `{}`: {}\n\n", group.table, group.title);
         page += "| key | unit | default | paper | range | must be | what it does |\n|---|---|---|---|---|---|---|\n";
         for Valued { parameter, value } in group.parameters {

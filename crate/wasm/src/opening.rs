@@ -85,7 +85,7 @@ pub struct ScenarioRead {
     waypoints: Vec<Place>,
     goal: Goal,
     seed: f64,
-    /// Its tables `planner`, `sensor` and `robot` as written, where they are there.
+    /// Its tables `planner`, `sensor`, `robot` and `reality` as written, where they are there.
     overrides: Overrides,
 }
 
@@ -97,7 +97,7 @@ pub struct ScenarioRead {
 pub fn read_scenario(file: &str, text: &str) -> Result<Ts<ScenarioRead>, JsError> {
     let scenario = Scenario::parse(file, text)?;
     let mut written: Table = mapless_toml::from_str(text)?;
-    written.retain(|key, _| ["planner", "sensor", "robot"].contains(&key));
+    written.retain(|key, _| ["planner", "sensor", "robot", "reality"].contains(&key));
     give(&ScenarioRead {
         terrain: scenario.terrain,
         start: scenario.start.into(),

@@ -75,3 +75,18 @@ fn ml_gives_the_native_digest() {
 fn vta_gives_the_native_digest() {
     check("vta");
 }
+
+fn check_in_the_field(name: &str) {
+    let scenario = SCENARIOS.iter().find(|scenario| scenario.name == name).unwrap();
+    scenario.check_in_the_field().unwrap();
+}
+
+#[wasm_bindgen_test]
+fn gsb_in_the_field_gives_the_native_digest() {
+    check_in_the_field("gsb");
+}
+
+#[wasm_bindgen_test]
+fn ht_in_the_field_gives_the_native_digest() {
+    check_in_the_field("ht");
+}

@@ -5,13 +5,15 @@ use crate::attitude::{Attitude, world_from_body};
 use crate::caster::{Caster, Fan};
 use crate::objects::{NearSolids, Solid};
 use crate::random;
+use crate::returns::is_noticed;
+use crate::sensing_config::SensingConfig;
 use crate::sensor_pose::SensorPose;
 use glam::{DVec2, DVec3, Vec3};
 use mapless_parameters::{ConfigError, parameters};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 parameters! {
-    /// Rings, mounting, resolution and faults of the sensor.
+    /// Rings, mounting, resolution and noise of the sensor.
     pub struct SensorConfig {
         /// Time between two scans; 0.1 s at 10 Hz.
         period_s: f64 = 0.1, paper 0.1, unit "s", range [0.05, 0.5], check Within(0.001, 10.0);
@@ -29,11 +31,6 @@ parameters! {
         range_noise_m: f64 = 0.02, unit "m", range [0.0, 0.5], check Within(0.0, 1.0);
         /// Share of returns that are lost at random.
         dropout_probability: f64 = 0.0, range [0.0, 1.0], check Within(0.0, 1.0);
-        /// Share of beams that end early, on rain, dust or insects: anywhere before what they would hit, and
-        /// within 7 m.
-        stray_probability: f64 = 0.0, range [0.0, 0.1], check Within(0.0, 1.0);
-        /// Returns on the robot itself in each scan: anywhere above its outline, up to the sensor's height.
-        self_returns: usize = 0, range [0, 100], check Within(0.0, 10_000.0);
         /// Nothing nearer is reported.
         min_range_m: f64 = 0.5, unit "m", range [0.0, 4.9], check NotNegative;
         /// Nothing farther is reported.
@@ -129,6 +126,7 @@ impl<'a> Scene<'a> {
 #[derive(Clone, Debug)]
 pub struct Lidar {
     config: SensorConfig,
+    sensing: SensingConfig,
     /// (sine, cosine) of each column's azimuth.
     azimuths: Vec<(f64, f64)>,
     /// (sine, cosine) of each ring's elevation.
@@ -154,7 +152,33 @@ impl Lidar {
             .collect();
         let elevations =
             (0..config.rings).map(|ring| libm::sincos(config.ring_elevation_rad(ring))).collect();
-        Ok(Self { config, azimuths, elevations })
+        Ok(Self { config, sensing: SensingConfig::default(), azimuths, elevations })
+    }
+
+    /// The same sensor in the field.
+    ///
+    /// # Errors
+    /// [`ConfigError`] when the configuration is not valid.
+    pub fn in_the_field(self, sensing: SensingConfig) -> Result<Self, ConfigError> {
+        sensing.validate("reality.sensing")?;
+        Ok(Self { sensing, ..self })
+    }
+
+    /// Where the sensor truly is on a robot that stands at `position` with heading `yaw_rad`: its mount may
+    /// be off from that of the configuration.
+    #[must_use]
+    pub fn true_pose_on(&self, position: DVec2, yaw_rad: f64, attitude: &Attitude) -> SensorPose {
+        let told = self.config.pose_on(position, yaw_rad, attitude);
+        let SensingConfig { mount_roll_rad, mount_pitch_rad, mount_height_m, .. } = self.sensing;
+        if [mount_roll_rad, mount_pitch_rad, mount_height_m].iter().all(|&off| off == 0.0) {
+            return told;
+        }
+        let robot_up = world_from_body(yaw_rad, attitude).z_axis;
+        let off = Attitude { height_m: 0.0, roll_rad: mount_roll_rad, pitch_rad: mount_pitch_rad };
+        SensorPose {
+            position: told.position + robot_up * mount_height_m,
+            world_from_sensor: told.world_from_sensor * world_from_body(0.0, &off),
+        }
     }
 
     /// The configuration.
@@ -182,10 +206,24 @@ impl Lidar {
         tick: u64,
         scan: &mut Scan,
     ) {
-        let config = &self.config;
+        self.scan_along(sight_m, scene, |_| *pose, seed, tick, scan);
+    }
+
+    /// As [`Lidar::scan_within`], from a moving sensor: each column is fired from the pose for the share of
+    /// the revolution that has passed then, from above 0 to 1, and its points are in the frame of that pose.
+    pub fn scan_along(
+        &self,
+        sight_m: f64,
+        scene: &Scene<'_>,
+        fired_from: impl Fn(f64) -> SensorPose,
+        seed: u64,
+        tick: u64,
+        scan: &mut Scan,
+    ) {
+        let (config, sensing) = (&self.config, &self.sensing);
         // Noise may bring a return nearer.
         let sight_m = sight_m + NOISE_DEVIATIONS * config.range_noise_m;
-        let sight_m = if config.stray_probability > 0.0 { sight_m.max(STRAY_RANGE_M) } else { sight_m };
+        let sight_m = if sensing.stray_probability > 0.0 { sight_m.max(STRAY_RANGE_M) } else { sight_m };
         let reach_m = config.max_range_m.min(sight_m);
         let beams = self.azimuths.len() * self.elevations.len();
         scan.ranges_m.clear();
@@ -193,24 +231,39 @@ impl Lidar {
         scan.ranges_m.reserve(beams);
         scan.points.reserve(beams);
         let scan_key = random::key(seed, tick);
-        let near = NearSolids::new(scene.solids, pose, reach_m);
+        let near = NearSolids::new(scene.solids, &fired_from(1.0), reach_m);
         let mut in_plane = Vec::new();
-        for &(sin_azimuth, cos_azimuth) in &self.azimuths {
-            let mut fan = Fan::new(scene.caster, pose, sin_azimuth, cos_azimuth);
-            near.in_plane(&fan, &mut in_plane);
+        for (column, &(sin_azimuth, cos_azimuth)) in self.azimuths.iter().enumerate() {
+            if self.is_blocked(sin_azimuth, cos_azimuth) {
+                scan.ranges_m.resize((column + 1) * self.elevations.len(), f32::NAN);
+                continue;
+            }
+            let pose = fired_from((column + 1) as f64 / self.azimuths.len() as f64);
+            let mut fan = Fan::new(scene.caster, &pose, sin_azimuth, cos_azimuth);
+            near.in_plane(&pose, &fan, &mut in_plane);
             for &(sin_elevation, cos_elevation) in &self.elevations {
-                let solid_m = near.cast(&in_plane, fan.direction(sin_elevation, cos_elevation), reach_m);
+                let solid_m =
+                    NearSolids::cast(&in_plane, &pose, fan.direction(sin_elevation, cos_elevation), reach_m);
                 let ground_m = fan.cast(sin_elevation, cos_elevation, solid_m.unwrap_or(reach_m));
                 let true_range_m = ground_m.or(solid_m);
                 let beam_key = random::key(scan_key, scan.ranges_m.len() as u64);
+                let beam =
+                    DVec3::new(cos_elevation * cos_azimuth, cos_elevation * sin_azimuth, sin_elevation);
+                let true_range_m = true_range_m.filter(|&range_m| {
+                    let (origin, along) = (pose.position, pose.world_from_sensor * beam);
+                    sensing.weakest_return <= 0.0
+                        || is_noticed(
+                            sensing,
+                            scene.caster.field(),
+                            origin,
+                            along,
+                            range_m,
+                            random::key(beam_key, 4),
+                        )
+                });
                 let true_range_m = self.stray(true_range_m, beam_key).or(true_range_m);
                 match true_range_m.and_then(|range_m| self.measure(range_m, beam_key)) {
                     Some(range_m) => {
-                        let beam = DVec3::new(
-                            cos_elevation * cos_azimuth,
-                            cos_elevation * sin_azimuth,
-                            sin_elevation,
-                        );
                         scan.ranges_m.push(range_m as f32);
                         scan.points.push((beam * range_m).as_vec3());
                     }
@@ -220,11 +273,22 @@ impl Lidar {
         }
     }
 
+    /// Whether something before the lens takes the returns of the column at the azimuth with this sine and
+    /// cosine.
+    fn is_blocked(&self, sin_azimuth: f64, cos_azimuth: f64) -> bool {
+        let SensingConfig { blocked_azimuth_rad, blocked_width_rad, .. } = self.sensing;
+        if blocked_width_rad <= 0.0 {
+            return false;
+        }
+        let (sin, cos) = libm::sincos(blocked_azimuth_rad);
+        cos * cos_azimuth + sin * sin_azimuth >= libm::cos(blocked_width_rad / 2.0)
+    }
+
     /// Range of a stray return, if the beam has one.
     fn stray(&self, true_range_m: Option<f64>, beam_key: u64) -> Option<f64> {
-        let config = &self.config;
-        let is_stray = config.stray_probability > 0.0
-            && random::uniform(random::key(beam_key, 2)) <= config.stray_probability;
+        let (config, stray_probability) = (&self.config, self.sensing.stray_probability);
+        let is_stray =
+            stray_probability > 0.0 && random::uniform(random::key(beam_key, 2)) <= stray_probability;
         is_stray.then(|| {
             let end_m = true_range_m.unwrap_or(STRAY_RANGE_M).min(STRAY_RANGE_M);
             let share = random::uniform(random::key(beam_key, 3));
@@ -239,13 +303,21 @@ impl Lidar {
         let mount = Attitude { height_m: 0.0, roll_rad: config.roll_rad, pitch_rad: config.pitch_rad };
         let sensor_from_robot = world_from_body(config.yaw_rad, &mount).transpose();
         let mount_m = config.place_on_robot_m();
-        for index in 0..config.self_returns {
+        for index in 0..self.sensing.self_returns {
             // Beams have the keys from 0.
             let mut places = random::Sequence::new(random::key(scan_key, u64::MAX - index as u64));
             let mut between = |half_m: f64| places.between([-half_m, half_m]);
             let (x, y) = (between(0.5 * outline_m.x), between(0.5 * outline_m.y));
             let place_m = DVec3::new(x, y, places.share() * config.height_m);
             points_m.push((sensor_from_robot * (place_m - mount_m)).as_vec3());
+        }
+    }
+
+    /// Adds a point at the origin for every beam without a return, if the driver does so.
+    pub fn add_zeros(&self, scan: &mut Scan) {
+        if self.sensing.zeros {
+            let lost = scan.ranges_m.iter().filter(|range_m| range_m.is_nan()).count();
+            scan.points.resize(scan.points.len() + lost, Vec3::ZERO);
         }
     }
 

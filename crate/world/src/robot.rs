@@ -3,7 +3,9 @@
 
 use crate::attitude::{Attitude, attitude_on, world_from_body};
 use crate::ground::Ground;
+use crate::motion_config::MotionConfig;
 use crate::robot_config::RobotConfig;
+use crate::slip::{BodyMotion, body_motion};
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
@@ -72,7 +74,12 @@ pub enum DriveError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     config: RobotConfig,
+    motion: MotionConfig,
     state: RobotState,
+    /// What the wheels do, as the motion of a body that does not slip.
+    wheels: DriveCommand,
+    /// Speed of the body to its left, in m/s.
+    aside_m_s: f64,
 }
 
 impl Robot {
@@ -89,7 +96,27 @@ impl Robot {
         let attitude =
             attitude_on(footing, position, yaw_rad, &config).ok_or(DriveError::LeftTerrain { position })?;
         let state = RobotState { position, yaw_rad, speed_m_s: 0.0, turn_rate_rad_s: 0.0, attitude };
-        Ok(Self { config, state })
+        let motion = MotionConfig::default();
+        Ok(Self { config, motion, state, wheels: DriveCommand::default(), aside_m_s: 0.0 })
+    }
+
+    /// The same robot with a drive and a ground that are not ideal. The configuration must have been
+    /// validated.
+    #[must_use]
+    pub fn with_motion(self, motion: MotionConfig) -> Self {
+        Self { motion, ..self }
+    }
+
+    /// What drive and ground do to a commanded motion.
+    #[must_use]
+    pub fn motion(&self) -> &MotionConfig {
+        &self.motion
+    }
+
+    /// What the wheels do, as the motion of a body that does not slip: what wheel odometry measures.
+    #[must_use]
+    pub fn wheels(&self) -> DriveCommand {
+        self.wheels
     }
 
     /// The robot's dimensions and limits.
@@ -138,24 +165,42 @@ impl Robot {
             return Err(DriveError::NotFinite { speed_m_s, turn_rate_rad_s, dt_s });
         }
         let (config, state) = (&self.config, &self.state);
-        let speed = approach(
-            state.speed_m_s,
-            speed_m_s.clamp(-config.max_speed_m_s, config.max_speed_m_s),
-            config.max_acceleration_m_s2 * dt_s,
-        );
-        let turn_rate = approach(
-            state.turn_rate_rad_s,
-            turn_rate_rad_s.clamp(-config.max_turn_rate_rad_s, config.max_turn_rate_rad_s),
-            config.max_turn_acceleration_rad_s2 * dt_s,
-        );
-        let half_turn = (state.turn_rate_rad_s + turn_rate) / 4.0 * dt_s;
-        let way = (state.speed_m_s + speed) / 2.0 * dt_s * libm::cos(state.attitude.pitch_rad);
+        let load = 1.0 + self.motion.payload;
+        let wheels = DriveCommand {
+            speed_m_s: approach(
+                self.wheels.speed_m_s,
+                speed_m_s.clamp(-config.max_speed_m_s, config.max_speed_m_s),
+                config.max_acceleration_m_s2 / load * dt_s,
+            ),
+            turn_rate_rad_s: approach(
+                self.wheels.turn_rate_rad_s,
+                turn_rate_rad_s.clamp(-config.max_turn_rate_rad_s, config.max_turn_rate_rad_s),
+                config.max_turn_acceleration_rad_s2 / load * dt_s,
+            ),
+        };
+        let before = BodyMotion {
+            velocity_m_s: DVec2::new(state.speed_m_s, self.aside_m_s),
+            turn_rate_rad_s: state.turn_rate_rad_s,
+        };
+        let unslipped = BodyMotion {
+            velocity_m_s: DVec2::new(wheels.speed_m_s, 0.0),
+            turn_rate_rad_s: wheels.turn_rate_rad_s,
+        };
+        let after = body_motion(&self.motion, unslipped, &state.attitude, before, dt_s);
+        let half_turn = (before.turn_rate_rad_s + after.turn_rate_rad_s) / 4.0 * dt_s;
+        let mean_m_s = (before.velocity_m_s + after.velocity_m_s) / 2.0;
+        let way = mean_m_s.x * dt_s * libm::cos(state.attitude.pitch_rad);
+        let aside = mean_m_s.y * dt_s * libm::cos(state.attitude.roll_rad);
         let (sin, cos) = libm::sincos(state.yaw_rad + half_turn);
-        let position = state.position + DVec2::new(cos, sin) * (way * chord_ratio(half_turn));
+        let chord = chord_ratio(half_turn);
+        let position =
+            state.position + DVec2::new(cos, sin) * (way * chord) + DVec2::new(-sin, cos) * (aside * chord);
         let yaw_rad = state.yaw_rad + 2.0 * half_turn;
         let attitude =
             attitude_on(footing, position, yaw_rad, config).ok_or(DriveError::LeftTerrain { position })?;
-        self.state = RobotState { position, yaw_rad, speed_m_s: speed, turn_rate_rad_s: turn_rate, attitude };
+        let (speed_m_s, turn_rate_rad_s) = (after.velocity_m_s.x, after.turn_rate_rad_s);
+        self.state = RobotState { position, yaw_rad, speed_m_s, turn_rate_rad_s, attitude };
+        (self.wheels, self.aside_m_s) = (wheels, after.velocity_m_s.y);
         Ok(())
     }
 }

@@ -57,14 +57,14 @@ export interface Experiment {
   readonly seed: number;
   readonly preset: Preset;
   readonly learning: Learning;
-  /** Tables `planner`, `sensor` and `robot`. */
+  /** Tables `planner`, `sensor`, `robot` and `reality`. */
   readonly overrides: Overrides;
 }
 
 /** How the first visit begins. */
 export const FIRST_SETUP: Setup = { preset: 'default', learning: 'fixed', overrides: {} };
 
-export const OVERRIDDEN = ['planner', 'sensor', 'robot'] as const;
+export const OVERRIDDEN = ['planner', 'sensor', 'robot', 'reality'] as const;
 export const PRESETS: readonly Preset[] = ['default', 'paper'];
 export const LEARNING: readonly Learning[] = ['fixed', 'once', 'every_scan'];
 

@@ -284,8 +284,8 @@ export interface Stroke {
 }
 
 /**
- * Parameters by the names and tables of scenario files: nothing but `planner`, `sensor` and `robot`, and
- * within them what differs.
+ * Parameters by the names and tables of scenario files: nothing but `planner`, `sensor`, `robot` and
+ * `reality`, and within them what differs.
  */
 export type Overrides = { readonly [key: string]: OverrideValue | Overrides };
 
@@ -416,7 +416,7 @@ export interface ScenarioRead {
     goal: Goal;
     seed: number;
     /**
-     * Its tables `planner`, `sensor` and `robot` as written, where they are there.
+     * Its tables `planner`, `sensor`, `robot` and `reality` as written, where they are there.
      */
     overrides: Overrides;
 }

@@ -58,8 +58,8 @@ export interface Spread {
 }
 
 /**
- * Parameters by the names and tables of scenario files: nothing but `planner`, `sensor` and `robot`, and
- * within them what differs.
+ * Parameters by the names and tables of scenario files: nothing but `planner`, `sensor`, `robot` and
+ * `reality`, and within them what differs.
  */
 export type Overrides = { readonly [key: string]: OverrideValue | Overrides };
 

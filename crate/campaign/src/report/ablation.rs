@@ -5,8 +5,8 @@ use std::fmt::{self, Write as _};
 
 use mapless::PlannerConfig;
 use mapless_figures::plot::{Line, Plot, Scale};
-use mapless_trials::current_path;
 use mapless_trials::parameters::groups;
+use mapless_trials::{RealityConfig, current_path};
 use mapless_world::{RobotConfig, SensorConfig};
 
 use super::comparison::{Contest, EVEN, contests};
@@ -79,7 +79,8 @@ fn name(path: &str) -> String {
 fn purpose(path: &str) -> Option<&'static str> {
     let path = current_path(path);
     let (table, name) = path.rsplit_once('.')?;
-    let groups = groups(&PlannerConfig::default(), &SensorConfig::default(), &RobotConfig::default());
+    let (sensor, robot) = (SensorConfig::default(), RobotConfig::default());
+    let groups = groups(&PlannerConfig::default(), &sensor, &robot, &RealityConfig::default());
     let parameters = groups.into_iter().find(|group| group.table == table)?.parameters;
     parameters.iter().map(|valued| valued.parameter).find(|one| one.name == name).map(|one| one.text)
 }

@@ -7,6 +7,8 @@ pub(crate) const RENAMED_KEYS: &[Rename] = &[
     Rename::new("planner.period_s", "sensor.period_s"),
     ticks("planner.ground.memory_ticks", "planner.elevation_window.memory_s"),
     ticks("planner.decision.look_ticks", "planner.decision.spin_recovery_s"),
+    Rename::new("sensor.stray_probability", "reality.sensing.stray_probability"),
+    Rename::new("sensor.self_returns", "reality.sensing.self_returns"),
     Rename::new("planner.robot_width_m", "planner.robot.width_m"),
     Rename::new("planner.wheelbase_m", "planner.robot.wheelbase_m"),
     Rename::new("planner.track_m", "planner.robot.track_m"),
@@ -62,7 +64,7 @@ mod tests {
     const SCENARIO: &str = "terrain = \"a.toml\"\nstart = [1, 2, 0]\ngoal = [3, 4]\nseed = 7\n";
 
     /// Every key that ever had another name, with a value that is not the default.
-    const OLD: &str = "[planner]\nperiod_s = 0.2\nrobot_width_m = 0.7\nwheelbase_m = 0.6\ntrack_m = 0.65\n\
+    const OLD: &str = "[sensor]\nstray_probability = 0.01\nself_returns = 3\n[planner]\nperiod_s = 0.2\nrobot_width_m = 0.7\nwheelbase_m = 0.6\ntrack_m = 0.65\n\
         [planner.limits]\nroll_rad = 0.5\npitch_rad = 0.6\n\
         [planner.mount]\nforward_m = 0.1\nheight_m = 0.9\n\
         [planner.ground]\ncell_m = 0.25\nradius_m = 8\nmemory_ticks = 200\ncurvature_per_m = 0.7\n\
@@ -81,7 +83,8 @@ mod tests {
         reverse_price = 3\nclearance_m = 0.8\nmin_reach_m = 2\n\
         [planner.decision]\ncorrection_weight = 0.5\nspin_recovery_s = 6\n\
         [planner.controller]\nrotate_in_place_rad = 0.7\nspin_turn_rate_rad_s = 0.6\nregulate_from_utilisation = 0.4\n\
-        min_speed_share = 0.3\n";
+        min_speed_share = 0.3\n\
+        [reality.sensing]\nstray_probability = 0.01\nself_returns = 3\n";
 
     fn groups(scenario: &Scenario) -> Vec<Group> {
         parameters::values(scenario, scenario, Preset::Default).unwrap()

@@ -6,8 +6,8 @@ use toml::Table;
 use tsify::Tsify;
 use wasm_bindgen::prelude::JsError;
 
-/// Parameters by the names and tables of scenario files: nothing but `planner`, `sensor` and `robot`, and
-/// within them what differs.
+/// Parameters by the names and tables of scenario files: nothing but `planner`, `sensor`, `robot` and
+/// `reality`, and within them what differs.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, Tsify)]
 #[serde(transparent)]
 #[tsify(hashmap_as_object, type = "{ readonly [key: string]: OverrideValue | Overrides }")]

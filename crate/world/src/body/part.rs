@@ -12,41 +12,48 @@ pub(super) struct Part {
     pub(super) half_m: DVec3,
 }
 
-/// Two shapes this near to each other touch, metres. The search slows down where they only graze.
+/// Two shapes this near to each other touch, metres.
 const TOUCH_M: f64 = 1e-3;
-/// The search ends when a round moves its point by less than this, metres.
-const STILL_M: f64 = 1e-7;
+/// Shapes that graze each other by less than a millimetre may take more; they are then apart.
 const ROUNDS: usize = 200;
 
 impl Part {
     /// A point of the solid that the part touches, with the robot's origin and rotation in the world; `None`
     /// if they are apart.
     ///
-    /// The nearest points of two convex shapes, by projecting on one and the other in turn (Cheney and
-    /// Goldstein, "Proximity maps for convex sets", 1959, <https://doi.org/10.1090/S0002-9939-1959-0105008-8>).
+    /// Points of two convex shapes are brought together by reflecting at one and the other in turn (Douglas
+    /// and Rachford 1956; for convex sets Bauschke, Combettes and Luke 2004,
+    /// <https://doi.org/10.1016/j.jat.2004.02.006>), until they meet or a plane lies between the shapes.
     pub(super) fn touches(&self, origin_m: DVec3, rotation: &DMat3, solid: &Solid) -> Option<DVec3> {
         let centre_m = origin_m + *rotation * self.centre_m;
         let reach_m = self.half_m.length() + solid.bounding_radius_m();
         if centre_m.distance_squared(solid.centre_m) > reach_m * reach_m {
             return None;
         }
-        let nearest = |point: DVec3| {
-            let own = rotation.transpose() * (point - centre_m);
-            centre_m + *rotation * own.clamp(-self.half_m, self.half_m)
-        };
-        let mut point_m = solid.nearest(centre_m);
+        let mut point_m = centre_m;
         for _ in 0..ROUNDS {
-            let own_m = nearest(point_m);
-            let next_m = solid.nearest(own_m);
-            if next_m.distance(own_m) < TOUCH_M {
-                return Some(next_m);
+            let own_m = centre_m + *rotation * self.clamped(rotation.transpose() * (point_m - centre_m));
+            let solid_m = solid.nearest(2.0 * own_m - point_m);
+            let gap_m = solid_m - own_m;
+            if gap_m.length() < TOUCH_M {
+                return Some(solid_m);
             }
-            if next_m.distance(point_m) < STILL_M {
+            let farthest_m = centre_m + *rotation * self.farthest(rotation.transpose() * gap_m);
+            if gap_m.dot(solid.farthest(-gap_m) - farthest_m) > 0.0 {
                 return None;
             }
-            point_m = next_m;
+            point_m += gap_m;
         }
         None
+    }
+
+    fn clamped(&self, own_m: DVec3) -> DVec3 {
+        own_m.clamp(-self.half_m, self.half_m)
+    }
+
+    /// The point that is farthest along a direction, both in the part's own frame.
+    fn farthest(&self, direction: DVec3) -> DVec3 {
+        self.half_m * direction.signum()
     }
 }
 

@@ -99,6 +99,21 @@ impl Solid {
         self.centre_m + self.in_world_axes(inside)
     }
 
+    /// The point of the solid that is farthest along `direction`.
+    #[must_use]
+    pub fn farthest(&self, direction: DVec3) -> DVec3 {
+        let along = self.in_own_axes(direction);
+        let farthest = match self.shape {
+            Shape::Cuboid { half_m, .. } => half_m * along.signum(),
+            Shape::Cylinder { radius_m, half_height_m } => {
+                let side = along.truncate().normalize_or_zero() * radius_m;
+                side.extend(half_height_m * along.z.signum())
+            }
+            Shape::Ball { radius_m } => along.normalize_or_zero() * radius_m,
+        };
+        self.centre_m + self.in_world_axes(farthest)
+    }
+
     /// World height of the top above a place seen from above, metres; `None` beside the solid.
     #[must_use]
     pub fn top_at_m(&self, place_m: DVec2) -> Option<f64> {
@@ -238,7 +253,7 @@ mod tests {
         }
 
         #[test]
-        fn nothing_in_the_solid_is_nearer(
+        fn nothing_in_the_solid_is_nearer_or_farther_along(
             kind in 0u8..3, x in 0.05..1.0f64, y in 0.05..1.0f64, z in 0.05..1.0f64, yaw_rad in -3.2..3.2f64,
             from in prop::array::uniform3(-3.0..3.0f64), other in prop::array::uniform3(-1.0..1.0f64),
         ) {
@@ -248,6 +263,10 @@ mod tests {
             let within = solid.nearest(solid.centre_m + DVec3::from(other));
             prop_assert!(solid.nearest(nearest).distance(nearest) < 1e-9, "it lies in the solid");
             prop_assert!(point.distance(nearest) <= point.distance(within) + 1e-9);
+            let along = DVec3::from(from);
+            let farthest = solid.farthest(along);
+            prop_assert!(solid.nearest(farthest).distance(farthest) < 1e-9, "it lies in the solid");
+            prop_assert!(within.dot(along) <= farthest.dot(along) + 1e-9);
         }
 
         #[test]
