@@ -1,4 +1,4 @@
-import { expect, state, test, until } from './page.ts';
+import { expect, openLab, state, test, until } from './page.ts';
 
 test('returns in rain and on the robot are counted in the key, which follows the layers', async ({ mapless: page }) => {
   const key = page.locator('#return-key');
@@ -21,4 +21,16 @@ test('returns in rain and on the robot are counted in the key, which follows the
   await page.evaluate(() => window.mapless?.setOverrides({}));
   await page.evaluate(() => window.mapless?.step());
   await expect(key).toBeHidden();
+});
+
+test('a mount is chosen in the drawer, and the robot drives with it', async ({ mapless: page }) => {
+  await openLab(page, 'Parameters');
+  await page.getByRole('heading', { name: 'Sensor mount' }).click();
+  await page.getByRole('button', { name: '15° down' }).click();
+  await until(page, (now) => JSON.stringify(now.overrides) === '{"sensor":{"pitch_rad":-0.2618}}' && now.v_m_s > 0.2);
+  await page.getByRole('button', { name: 'Upside down' }).click();
+  await until(page, (now) => now.overrides.sensor !== undefined && !('pitch_rad' in Object(now.overrides.sensor)));
+  await until(page, (now) => now.v_m_s > 0.2);
+  await page.getByRole('button', { name: 'Level' }).click();
+  await until(page, (now) => Object.keys(now.overrides).length === 0);
 });

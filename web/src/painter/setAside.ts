@@ -11,12 +11,12 @@ const VERTEX = /* glsl */ `
 attribute float kind;
 uniform float scale;
 uniform float pixel;
-varying float form;
+flat varying float form;
 void main() {
   form = kind;
   vec4 view = viewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * view;
-  gl_PointSize = clamp(scale * 0.16 / -view.z, 7.0 * pixel, 18.0 * pixel);
+  gl_PointSize = clamp(scale * 0.12 / -view.z, 6.0 * pixel, 16.0 * pixel);
 }
 `;
 
@@ -25,7 +25,7 @@ uniform vec3 strayColour;
 uniform vec3 bodyColour;
 uniform vec3 overheadColour;
 uniform vec3 edgeColour;
-varying float form;
+flat varying float form;
 void main() {
   vec2 at = 2.0 * gl_PointCoord - 1.0;
   // How far from the line of the form: a cross, a square, a triangle.
