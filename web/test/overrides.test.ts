@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { countOverrides, override, sectionsOf, withOverride } from '../src/experiment/overrides.ts';
 import { complaintAbout, label, type ParameterGroup } from '../src/experiment/parameters.ts';
+import { withMount } from '../src/lab/mount.ts';
 
 test('a value is set, counted, found and taken away, and the record before stays as it was', () => {
   const none = {};
@@ -64,4 +65,10 @@ test('names are plain words', () => {
   assert.equal(label('max_slope_rad'), 'max slope');
   assert.equal(label('max_acceleration_m_s2'), 'max acceleration');
   assert.equal(label('inducing_spacing_length_scales'), 'inducing spacing');
+});
+
+test('a mount takes the place of the one before and leaves the rest', () => {
+  const before = { sensor: { rings: 32, height_m: 1.2, pitch_rad: 0.1 } };
+  assert.deepEqual(withMount(before, { pitch_rad: -0.2618 }), { sensor: { rings: 32, pitch_rad: -0.2618 } });
+  assert.deepEqual(withMount({ sensor: { left_m: 0.2 } }, {}), {});
 });

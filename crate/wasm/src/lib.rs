@@ -8,6 +8,7 @@ mod objects;
 mod opening;
 mod parameters;
 mod places;
+mod returns;
 mod session;
 mod shared;
 mod stroke;
@@ -18,9 +19,10 @@ pub use objects::{ObjectList, Solid, SolidList};
 pub use opening::{Learning, Preset, ScenarioRead, SessionOptions, TextFile, read_scenario};
 pub use parameters::{Parameter, ParameterGroup, ParameterKind};
 pub use places::{Goal, Heading, Place, Route};
+pub use returns::SetAside;
 pub use session::{
-    Activity, Frame, FrameBuffers, ImageSize, Point, Scene, SegmentDemands, SensorPose, Session, Standing,
-    Tick, TiltLimits, Timeline, Velocity,
+    Activity, Frame, FrameBuffers, ImageSize, Mount, Point, Scene, SegmentDemands, SensorPose, Session,
+    Standing, Tick, TiltLimits, Timeline, Velocity,
 };
 pub use shared::{Metrics, Outcome, OverrideValue, Overrides, Pose};
 pub use stroke::{Stroke, StrokeKind};

@@ -5,11 +5,13 @@ mod scene;
 mod tick;
 
 pub use frame::{Frame, FrameBuffers, Point, SensorPose, Timeline};
-pub use scene::{ImageSize, Scene, SegmentDemands, TiltLimits};
+pub use scene::{ImageSize, Mount, Scene, SegmentDemands, TiltLimits};
 pub use tick::{Activity, Standing, Tick, Velocity};
 
 use glam::DVec2;
 use mapless::gp::learning::LearningMode;
+use mapless::skyline::scan_filter::ReturnKind;
+use mapless::terrain::mount_misfit::MountMisfit;
 use mapless_terrain::{Stroke as Brushes, StrokeTable};
 use mapless_trials::{History, Preset, Scenario, StartPose, Trial};
 use mapless_world::{HeightField, SampleRect};
@@ -52,19 +54,41 @@ struct Moment {
     trial: Trial,
     /// Where the last scan was taken: the robot has moved on since.
     scanned_from: mapless_world::SensorPose,
+    /// Whether the planner has seen the last scan.
+    is_planned: bool,
+    /// What is wrong with the mount of the sensor, by the first scan.
+    mount_misfit: Option<String>,
 }
 
 impl Moment {
     fn new(trial: Trial) -> Self {
         let scanned_from = sensor_pose(&trial);
-        let mut moment = Self { trial, scanned_from };
-        moment.sense();
+        let mut moment = Self { trial, scanned_from, is_planned: false, mount_misfit: None };
+        moment.begin();
         moment
+    }
+
+    /// Takes the first scan. The robot is more likely to stand on level ground here than farther on.
+    fn begin(&mut self) {
+        self.sense();
+        let (scan, sensor) = (self.trial.scan(), &self.trial.planner_config().sensor);
+        self.mount_misfit = MountMisfit::of(&scan.points, sensor).map(|misfit| misfit.to_string());
     }
 
     fn sense(&mut self) {
         self.scanned_from = sensor_pose(&self.trial);
         self.trial.look_far();
+        self.is_planned = false;
+    }
+
+    fn plan(&mut self) {
+        self.trial.plan();
+        self.is_planned = true;
+    }
+
+    /// What the planner took each point of the last scan for; empty if it has not seen that scan.
+    fn return_kinds(&self) -> &[ReturnKind] {
+        if self.is_planned { self.trial.step().return_kinds } else { &[] }
     }
 }
 
@@ -149,7 +173,7 @@ impl Session {
     fn begin_from(&mut self, start: StartPose) -> Result<(), JsError> {
         self.now.trial.set_start(start)?;
         (self.history, self.ground_changed) = (None, false);
-        self.now.sense();
+        self.now.begin();
         Ok(())
     }
 

@@ -123,12 +123,16 @@ export class App {
       segments,
       subgoals,
       stop_reason: stopReason,
+      set_aside: setAside,
+      mount_misfit: mountMisfit,
       waypoints_passed: waypointsPassed,
       ...rest
     } = frame;
     return {
       ...rest,
       stopReason,
+      setAside,
+      mountMisfit,
       waypointsPassed,
       scenario: info.scenario,
       preset: info.preset,

@@ -11,17 +11,21 @@ import type { Overrides } from '../experiment/overrides.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
 import { readExperiment, readStroke } from '../experiment/readExperiment.ts';
 import type { Setting } from '../experiment/setting.ts';
-import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Frame, SessionInfo, SetAside } from '../protocol/simulationProtocol.ts';
 import type { App } from './app.ts';
 
 /** Arrays and what only drawing needs stay out. */
 type Drawn = 'buffers' | 'trail' | 'rows' | 'anew' | 'ahead' | 'path' | 'sensor' | 'segments' | 'subgoals';
 
 /** What the page shows, as plain data. */
-export type MaplessState = Omit<Frame, Drawn | 'stop_reason' | 'waypoints_passed'> &
+export type MaplessState = Omit<Frame, Drawn | 'stop_reason' | 'set_aside' | 'mount_misfit' | 'waypoints_passed'> &
   Pick<SessionInfo, 'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'waypoints' | 'goal' | 'overrides'> & {
     /** Why the planner stopped, where it did. */
     readonly stopReason: string | undefined;
+    /** How many returns of the last scan the planner set aside, by kind. */
+    readonly setAside: SetAside;
+    /** Where the ground in the first scan does not fit the mount of the sensor: what to do about it. */
+    readonly mountMisfit: string | undefined;
     readonly waypointsPassed: number;
     readonly playing: boolean;
     readonly speed: number;

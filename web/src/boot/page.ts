@@ -22,6 +22,7 @@ import { OUTCOME_WORDS, StatusPanel } from '../inspector/status.ts';
 import type { Lab } from '../lab/lab.ts';
 import { Measure } from '../measurements/measurements.ts';
 import { watchFaults, watchGraphics } from '../notices/faults.ts';
+import { MountNotice } from '../notices/mountNotice.ts';
 import { Notice } from '../notices/notice.ts';
 import { keepOffline } from '../offline/register.ts';
 import { published } from '../run/published.ts';
@@ -33,6 +34,7 @@ import { begin, leadOut } from './welcome.ts';
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
 const notice = new Notice();
+const mountNotice = new MountNotice(notice);
 const roll = new AttitudeInstrument(ROLL);
 const pitch = new AttitudeInstrument(PITCH);
 element('attitude').append(roll.element, pitch.element);
@@ -106,6 +108,7 @@ const app = new App(core, {
   },
   frame(frame) {
     stage?.frame(frame);
+    mountNotice.show(frame);
     timeline.show(frame);
     lab?.frame(frame);
     inspector.frame(frame);

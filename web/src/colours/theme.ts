@@ -22,6 +22,10 @@ export interface Theme {
   readonly variance: readonly Rgb[];
   readonly returnNear: Rgb;
   readonly returnFar: Rgb;
+  /** Returns that the planner sets aside. */
+  readonly returnStray: Rgb;
+  readonly returnBody: Rgb;
+  readonly returnOverhead: Rgb;
 }
 
 const scheme = window.matchMedia('(prefers-color-scheme: dark)');
@@ -45,6 +49,9 @@ export function readTheme(): Theme {
     variance: [0, 1, 2].map((step) => colour(`variance-${step}`)),
     returnNear: colour('return-near'),
     returnFar: colour('return-far'),
+    returnStray: colour('return-stray'),
+    returnBody: colour('return-body'),
+    returnOverhead: colour('return-overhead'),
   };
 }
 

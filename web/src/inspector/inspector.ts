@@ -14,6 +14,7 @@ import { bindPointing, bindStepping } from './bindPointing.ts';
 import { DecisionPanel } from './decision.ts';
 import { DetailCard } from './detail.ts';
 import { LayersPanel } from './layersPanel.ts';
+import { ReturnKey } from './returnKey.ts';
 import { neighbour, VarianceImage } from './varianceImage.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
@@ -38,8 +39,10 @@ export class Inspector implements TourHost {
     element('candidate-count'),
     this.#selection,
   );
+  readonly #returnKey = new ReturnKey();
   readonly #layers = new LayersPanel((layers) => {
     this.#stage?.layers(layers);
+    this.#returnKey.hide(layers.points === 'none');
     this.#watch();
   });
   #imageInSight = false;
@@ -79,6 +82,7 @@ export class Inspector implements TourHost {
 
   frame(frame: Frame): void {
     this.#image.show(frame);
+    this.#returnKey.show(frame.set_aside);
     this.#decision.show(frame);
     this.#selection.show(frame);
   }

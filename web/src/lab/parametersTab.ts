@@ -7,6 +7,7 @@ import { complaintAbout, type ParameterGroup } from '../experiment/parameters.ts
 import type { Learning } from '../experiment/setting.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Tab } from './lab.ts';
+import { type MountPreset, mountOf, presetButtons, withMount } from './mount.ts';
 import { ParameterField } from './parameterField.ts';
 
 /** This one is chosen in the bar; the field here and the bar are the same setting. */
@@ -69,20 +70,20 @@ export class ParametersTab implements Tab {
   }
 
   #build(groups: readonly ParameterGroup[]): void {
-    const [open, focused] = [new Set(this.#openTables()), document.activeElement?.id];
-    if (open.size === 0) open.add('sensor');
+    const [open, focused] = [new Set(this.#openTitles()), document.activeElement?.id];
+    if (open.size === 0 && groups[0]) open.add(groups[0].title);
     // What people try first stands first: the world's faults, then the planner in the order of the method.
-    const ordered = [...groups].sort(
-      (a, b) => Number(a.table.startsWith('planner')) - Number(b.table.startsWith('planner')),
-    );
-    this.#sections = ordered.map((group) => this.#section(group, open.has(group.table)));
+    const ordered = groups
+      .flatMap(mountOf)
+      .sort((a, b) => Number(a.table.startsWith('planner')) - Number(b.table.startsWith('planner')));
+    this.#sections = ordered.map((group) => this.#section(group, open.has(group.title)));
     this.#list.replaceChildren(...this.#sections.map(({ element }) => element));
     if (focused) document.getElementById(focused)?.focus();
     this.#find();
   }
 
-  #openTables(): string[] {
-    return this.#sections.filter(({ element }) => element.open).map(({ group }) => group.table);
+  #openTitles(): string[] {
+    return this.#sections.filter(({ element }) => element.open).map(({ group }) => group.title);
   }
 
   #section(group: ParameterGroup, open: boolean): Section {
@@ -95,6 +96,7 @@ export class ParametersTab implements Tab {
     );
     const element = html('details', 'parameter-group', [
       html('summary', '', [html('h3', '', [group.title]), count]),
+      ...presetButtons(group, (mount) => void this.#mount(mount)),
       ...fields.map((field) => field.element),
     ]);
     element.open = open;
@@ -111,6 +113,12 @@ export class ParametersTab implements Tab {
       return;
     }
     await this.#apply(withOverride(info.overrides, table, name, value), path);
+  }
+
+  /** Mounts the sensor anew; what else was changed stays. */
+  async #mount(mount: MountPreset): Promise<void> {
+    const overrides = this.#app.info?.overrides;
+    if (overrides) await this.#apply(withMount(overrides, mount), undefined);
   }
 
   /** Tries other values; a message of the core is shown at the field it speaks of, and nothing changes. */

@@ -104,9 +104,9 @@ export class Bands {
     if (uniforms?.lineColour) uniforms.lineColour.value = this.#lineColour;
   }
 
-  session({ image, occupancy_radius_m, sensor_height_m }: Scenery): void {
+  session({ image, occupancy_radius_m, mount }: Scenery): void {
     this.#radius_m = occupancy_radius_m;
-    this.#sensor.position.set(0, 0, sensor_height_m);
+    this.#sensor.position.set(mount.forward_m, mount.left_m, mount.height_m);
     this.#sensor.scale.setScalar(occupancy_radius_m);
     const lattice = `${image.columns} ${image.rows} ${image.rings}`;
     if (lattice === this.#lattice) return;

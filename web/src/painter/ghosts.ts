@@ -1,6 +1,7 @@
 /** Other robots on the same course: translucent, each in its colour with its trail. */
 
 import { Group, Mesh, MeshStandardMaterial } from 'three';
+import type { Mount } from '../protocol/simulationProtocol.ts';
 import { Husky } from './husky.ts';
 import type { GhostStep } from './painterProtocol.ts';
 import { Route } from './route.ts';
@@ -18,7 +19,7 @@ export class Ghosts {
   #ghosts: Ghost[] = [];
 
   /** Takes these in place of those before, each in its colour. */
-  set(colours: readonly string[], sensorHeight_m: number): void {
+  set(colours: readonly string[], mount: Mount | undefined): void {
     for (const { husky, look, route } of this.#ghosts) {
       this.group.remove(husky.group, route.line);
       husky.group.traverse((part) => {
@@ -35,7 +36,7 @@ export class Ghosts {
         roughness: 0.7,
       });
       const husky = new Husky();
-      husky.mast(sensorHeight_m);
+      if (mount) husky.mount(mount);
       husky.group.traverse((part) => {
         if (part instanceof Mesh) part.material = look;
       });

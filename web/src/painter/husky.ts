@@ -10,12 +10,13 @@ import {
   MeshStandardMaterial,
   TorusGeometry,
 } from 'three';
-import type { Pose } from '../protocol/simulationProtocol.ts';
+import type { Mount, Pose } from '../protocol/simulationProtocol.ts';
 
 const WHEEL_RADIUS_M = 0.165;
 const HALF_WHEELBASE_M = 0.256;
 const HALF_TRACK_M = 0.2855;
 const WHEEL_WIDTH_M = 0.115;
+const DECK_M = 0.36;
 
 const material = (colour: number, roughness: number, metalness = 0) =>
   new MeshStandardMaterial({ color: colour, roughness, metalness, flatShading: true });
@@ -29,10 +30,12 @@ const LENS = material(0x0a1a22, 0.15, 0.4);
 export class Husky {
   readonly group = new Group();
   readonly #wheels: Group[] = [];
+  readonly #mast = new Group();
 
   constructor() {
     this.group.rotation.order = 'ZYX';
     this.#chassis();
+    this.group.add(this.#mast);
     for (const x of [HALF_WHEELBASE_M, -HALF_WHEELBASE_M]) {
       for (const y of [HALF_TRACK_M, -HALF_TRACK_M]) this.#wheel(x, y);
     }
@@ -52,11 +55,8 @@ export class Husky {
     }
   }
 
-  #add(geometry: BufferGeometry, look: MeshStandardMaterial, x: number, y: number, z: number): Mesh {
-    const mesh = new Mesh(geometry, look);
-    mesh.position.set(x, y, z);
-    this.group.add(mesh);
-    return mesh;
+  #add(geometry: BufferGeometry, look: MeshStandardMaterial, x: number, y: number, z: number): void {
+    add(this.group, geometry, look, x, y, z);
   }
 
   #chassis(): void {
@@ -84,23 +84,38 @@ export class Husky {
     }
   }
 
-  /** Puts the sensor on its mast. */
-  mast(sensorHeight_m: number): void {
-    const puck_m = 0.072;
-    const plate_m = sensorHeight_m - puck_m / 2 - 0.012;
-    const post_m = plate_m - 0.36;
-    for (const x of [0.11, -0.11]) {
-      for (const y of [0.13, -0.13]) {
-        this.#add(new BoxGeometry(0.028, 0.028, post_m), STEEL, x, y, 0.36 + post_m / 2);
+  /** Puts the sensor where it is mounted and as it is turned there, with a mast under it. */
+  mount({ forward_m, left_m, height_m, roll_rad, pitch_rad, yaw_rad }: Mount): void {
+    this.#mast.traverse((part) => {
+      if (part instanceof Mesh) part.geometry.dispose();
+    });
+    const mast = this.#mast.clear();
+    mast.position.set(forward_m, left_m, 0);
+    // Half the sensor's height, and a little room: turned it takes more.
+    const turned = Math.abs(Math.sin(pitch_rad)) + Math.abs(Math.sin(roll_rad));
+    const plate_m = height_m - 0.048 - 0.06 * Math.min(turned, 1);
+    const post_m = plate_m - DECK_M;
+    if (post_m > 0) {
+      for (const x of [0.11, -0.11]) {
+        for (const y of [0.13, -0.13]) {
+          add(mast, new BoxGeometry(0.028, 0.028, post_m), STEEL, x, y, DECK_M + post_m / 2);
+        }
       }
+      add(mast, new BoxGeometry(0.29, 0.33, 0.022), BLACK, 0, 0, plate_m - 0.006);
     }
-    this.#add(new BoxGeometry(0.29, 0.33, 0.022), BLACK, 0, 0, plate_m - 0.006);
+    const sensor = new Group();
+    sensor.position.set(0, 0, height_m);
+    sensor.rotation.set(roll_rad, -pitch_rad, yaw_rad, 'ZYX');
     const upright = (geometry: CylinderGeometry, look: MeshStandardMaterial, z: number) => {
-      this.#add(geometry, look, 0, 0, z).rotation.x = Math.PI / 2;
+      add(sensor, geometry, look, 0, 0, z).rotation.x = Math.PI / 2;
     };
-    upright(new CylinderGeometry(0.052, 0.052, 0.018, 24), STEEL, sensorHeight_m - 0.028);
-    upright(new CylinderGeometry(0.0515, 0.0515, 0.038, 24), LENS, sensorHeight_m);
-    upright(new CylinderGeometry(0.048, 0.052, 0.018, 24), STEEL, sensorHeight_m + 0.028);
+    upright(new CylinderGeometry(0.052, 0.052, 0.018, 24), STEEL, -0.028);
+    upright(new CylinderGeometry(0.0515, 0.0515, 0.038, 24), LENS, 0);
+    upright(new CylinderGeometry(0.048, 0.052, 0.018, 24), STEEL, 0.028);
+    // Its socket tells where up is, the cable where behind is.
+    upright(new CylinderGeometry(0.03, 0.036, 0.014, 24), BLACK, -0.042);
+    add(sensor, new BoxGeometry(0.03, 0.014, 0.014), BLACK, -0.06, 0, -0.028);
+    mast.add(sensor);
   }
 
   #wheel(x: number, y: number): void {
@@ -127,6 +142,13 @@ export class Husky {
     this.#wheels.push(wheel);
     this.group.add(wheel);
   }
+}
+
+function add(to: Group, geometry: BufferGeometry, look: MeshStandardMaterial, x: number, y: number, z: number): Mesh {
+  const mesh = new Mesh(geometry, look);
+  mesh.position.set(x, y, z);
+  to.add(mesh);
+  return mesh;
 }
 
 /** A convex outline in x and z, anticlockwise as seen from the right, across `width_m`. */

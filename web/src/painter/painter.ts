@@ -95,7 +95,7 @@ export class Painter {
     this.#overlays = new Overlays(theme, FIRST_LAYERS, this.#height);
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
     this.#scene.add(this.#relief.mesh, this.#husky.group);
-    this.#marks.add(this.#ahead.line, this.#waypoints.group, this.#route.line, this.#returns.points);
+    this.#marks.add(this.#ahead.line, this.#waypoints.group, this.#route.line, this.#returns.group);
     this.#marks.add(this.#subgoals.group, this.#places.group, this.#overlays.group, this.#ghosts.group);
     this.#theme(theme);
     this.#warmUp();
@@ -142,7 +142,7 @@ export class Painter {
         this.#relief.brush(message.at, message.from, message.radius_m);
         break;
       case 'ghosts':
-        this.#ghosts.set(message.colours, this.#scenery?.sensor_height_m ?? 0);
+        this.#ghosts.set(message.colours, this.#scenery?.mount);
         break;
       case 'ghostSteps':
         this.#ghosts.show(message.steps);
@@ -162,7 +162,7 @@ export class Painter {
   }
 
   #arrange(scenery: Scenery, ground: Ground | undefined): void {
-    if (!this.#scenery) this.#husky.mast(scenery.sensor_height_m);
+    this.#husky.mount(scenery.mount);
     this.#scenery = scenery;
     if (ground) {
       this.#relief.ground(new HeightField(ground));
@@ -227,7 +227,7 @@ export class Painter {
       const [east, north] = [pose.x - before.x, pose.y - before.y];
       this.#husky.roll(east * Math.cos(pose.yaw) + north * Math.sin(pose.yaw), wrap(pose.yaw - before.yaw));
     }
-    this.#sensor.copy(sensorAt(pose, this.#scenery?.sensor_height_m ?? 0));
+    this.#sensor.copy(sensorAt(pose, this.#scenery?.mount));
     this.#relief.robot(pose.x, pose.y, pose.yaw, this.#scenery?.occupancy_radius_m ?? 0);
   }
 
@@ -240,7 +240,7 @@ export class Painter {
     this.#camera.updateProjectionMatrix();
     // Returns keep a size in metres.
     const heightAtOneMetre = 2 * Math.tan((this.#camera.fov * Math.PI) / 360);
-    this.#returns.scale((height * pixelRatio) / heightAtOneMetre);
+    this.#returns.scale((height * pixelRatio) / heightAtOneMetre, pixelRatio);
     this.#fits = true;
   }
 

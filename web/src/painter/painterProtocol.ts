@@ -12,7 +12,7 @@ const SCENERY = [
   'goal',
   'limits',
   'occupancy_radius_m',
-  'sensor_height_m',
+  'mount',
   'image',
 ] as const satisfies readonly (keyof SessionInfo)[];
 

@@ -5,6 +5,7 @@ import {
   BufferGeometry,
   Color,
   DynamicDrawUsage,
+  Group,
   Points,
   ShaderMaterial,
   Vector2,
@@ -12,10 +13,12 @@ import {
 } from 'three';
 import { VIRIDIS } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
+import { isSetAside } from '../protocol/simulationProtocol.ts';
 import { FARTHEST_RANGE_M, POINT_COLOURS, type PointColours } from '../scene/layers.ts';
 import type { Seen } from './painterProtocol.ts';
 import { colour } from './relief.ts';
 import { scaleTexture } from './scaleTexture.ts';
+import { SetAsideReturns } from './setAside.ts';
 
 const CAPACITY = 28_800;
 
@@ -57,7 +60,9 @@ void main() {
 `;
 
 export class Returns {
-  readonly points: Points<BufferGeometry, ShaderMaterial>;
+  readonly group = new Group();
+  readonly #points: Points<BufferGeometry, ShaderMaterial>;
+  readonly #setAside = new SetAsideReturns(CAPACITY);
   readonly #positions: BufferAttribute;
 
   constructor() {
@@ -83,44 +88,65 @@ export class Returns {
         farColour: { value: new Color() },
       },
     });
-    this.points = new Points(geometry, material);
-    this.points.frustumCulled = false;
+    this.#points = new Points(geometry, material);
+    this.#points.frustumCulled = false;
+    // After the others: nothing covers them.
+    this.#setAside.points.renderOrder = 1;
+    this.group.add(this.#points, this.#setAside.points);
   }
 
   theme(theme: Theme): void {
-    this.points.material.uniforms.nearColour?.value.copy(colour(theme.returnNear));
-    this.points.material.uniforms.farColour?.value.copy(colour(theme.returnFar));
-    const { colours } = this.points.material.uniforms;
+    this.#setAside.theme(theme);
+    this.#points.material.uniforms.nearColour?.value.copy(colour(theme.returnNear));
+    this.#points.material.uniforms.farColour?.value.copy(colour(theme.returnFar));
+    const { colours } = this.#points.material.uniforms;
     colours?.value?.dispose();
     // The end that is nearest to the ground's own lightness is left out.
     if (colours) colours.value = scaleTexture(theme.dark ? VIRIDIS.slice(2) : VIRIDIS.slice(0, -1));
   }
 
   /** Device pixels that one metre has, one metre away: points keep a size in metres. */
-  scale(pixels: number): void {
-    const { scale } = this.points.material.uniforms;
+  scale(pixels: number, pixelRatio: number): void {
+    this.#setAside.scale(pixels, pixelRatio);
+    const { scale } = this.#points.material.uniforms;
     if (scale) scale.value = pixels;
   }
 
   colours(by: PointColours): void {
-    this.points.visible = by !== 'none';
-    const { mode } = this.points.material.uniforms;
+    this.group.visible = by !== 'none';
+    const { mode } = this.#points.material.uniforms;
     if (mode) mode.value = POINT_COLOURS.indexOf(by);
   }
 
   /** Colours by height run from the lowest to the highest ground. */
   heights(min_m: number, max_m: number): void {
-    this.points.material.uniforms.heights?.value.set(min_m, Math.max(max_m, min_m + 0.1));
+    this.#points.material.uniforms.heights?.value.set(min_m, Math.max(max_m, min_m + 0.1));
   }
 
   show({ buffers, returns, sensor }: Seen, radius_m: number): void {
-    const shown = Math.min(returns, CAPACITY);
-    this.#positions.array.set(buffers.points.subarray(0, 3 * shown));
+    const places = this.#positions.array;
+    let shown = 0;
+    this.#setAside.clear();
+    for (let at = 0; at < Math.min(returns, CAPACITY); at += 1) {
+      const x = buffers.points[3 * at] ?? 0;
+      const y = buffers.points[3 * at + 1] ?? 0;
+      const z = buffers.points[3 * at + 2] ?? 0;
+      const kind = buffers.return_kinds[at] ?? 0;
+      if (isSetAside(kind)) {
+        this.#setAside.add(x, y, z, kind);
+      } else {
+        places[shown] = x;
+        places[shown + 1] = y;
+        places[shown + 2] = z;
+        shown += 3;
+      }
+    }
+    this.#setAside.show();
     this.#positions.clearUpdateRanges();
-    this.#positions.addUpdateRange(0, 3 * shown);
+    this.#positions.addUpdateRange(0, shown);
     this.#positions.needsUpdate = true;
-    this.points.geometry.setDrawRange(0, shown);
-    const { uniforms } = this.points.material;
+    this.#points.geometry.setDrawRange(0, shown / 3);
+    const { uniforms } = this.#points.material;
     uniforms.sensor?.value.copy(sensor.position);
     uniforms.up?.value.copy(sensor.z_axis);
     if (uniforms.radius) uniforms.radius.value = radius_m;

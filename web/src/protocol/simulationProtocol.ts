@@ -17,6 +17,7 @@ import type {
   GroundPatch,
   Overrides,
   Scene,
+  SetAside,
   Timeline,
 } from '../wasm/mapless_wasm.js';
 
@@ -28,11 +29,13 @@ export type {
   Ground,
   GroundPatch,
   Metrics,
+  Mount,
   Outcome,
   PathPoint,
   Pose,
   Segment,
   SensorPose,
+  SetAside,
   Subgoal,
   Timeline,
   Verdict,
@@ -51,6 +54,17 @@ export interface SessionInfo extends Setting, Scene {
 /** What `FrameBuffers.kinds` says of a column, by its number. */
 export const COLUMN_KINDS = ['ground', 'unknown', 'wall'] as const;
 export type ColumnKind = (typeof COLUMN_KINDS)[number];
+
+/** What `FrameBuffers.return_kinds` says of a return, by its number. */
+export const RETURN_KINDS = ['surface', 'invalid', 'far', 'body', 'stray', 'overhead'] as const;
+/** Those that the planner sets aside, as the page names them. */
+export const SET_ASIDE = ['stray', 'body', 'overhead'] as const satisfies readonly (keyof SetAside)[];
+export type SetAsideKind = (typeof SET_ASIDE)[number];
+
+/** Whether the planner sets returns with this number aside. */
+export function isSetAside(kind: number): boolean {
+  return (SET_ASIDE as readonly string[]).includes(RETURN_KINDS[kind] ?? '');
+}
 
 /** The terms of a subgoal's cost. The paper has the first three. */
 export const TERMS = [

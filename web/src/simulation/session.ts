@@ -166,6 +166,7 @@ export class Session {
     const { columns, rows, rings } = this.#info.image;
     return {
       points: new Float32Array(3 * MAX_RETURNS),
+      return_kinds: new Uint8Array(MAX_RETURNS),
       observed: new Float32Array(columns * rings),
       occupancy: new Float32Array(columns * rows),
       variance: new Float32Array(columns * rows),

@@ -193,7 +193,7 @@ export class Stage {
   #height = (x: number, y: number): number => this.#field?.height(x, y) ?? 0;
 
   #sensorOf(robot: Pose): Vector {
-    return sensorAt(robot, this.#info?.sensor_height_m ?? 0);
+    return sensorAt(robot, this.#info?.mount);
   }
 
   #resize(): void {

@@ -171,6 +171,11 @@ export interface Frame {
      * Points in `FrameBuffers.points`.
      */
     returns: number;
+    set_aside: SetAside;
+    /**
+     * Where the ground in the first scan does not fit the mount of the sensor: what to do about it.
+     */
+    mount_misfit: string | undefined;
     /**
      * Where the scan was taken.
      */
@@ -214,6 +219,24 @@ export type Outcome = "running" | "reached" | "tilt_limit" | "stuck" | "no_subgo
 export interface TiltLimits {
     roll_rad: number;
     pitch_rad: number;
+}
+
+/**
+ * How many returns of the last scan the planner set aside, by kind.
+ */
+export interface SetAside {
+    /**
+     * Rain, dust, insects, multipath.
+     */
+    stray: number;
+    /**
+     * The robot itself.
+     */
+    body: number;
+    /**
+     * What the robot can pass below.
+     */
+    overhead: number;
 }
 
 /**
@@ -384,6 +407,11 @@ export interface FrameBuffers {
      */
     points: Float32Array<ArrayBuffer>;
     /**
+     * What the planner took each of them for: 0 surface, 1 invalid, 2 far, 3 the robot itself, 4 stray,
+     * 5 overhead.
+     */
+    return_kinds: Uint8Array<ArrayBuffer>;
+    /**
      * Observed occupancy in metres, azimuth-major from straight behind over the right, lowest ring first;
      * NaN without a return.
      */
@@ -449,10 +477,7 @@ export interface Scene {
      * Radius of the occupancy surface: what lies farther is not looked at.
      */
     occupancy_radius_m: number;
-    /**
-     * The sensor's height above the ground contact, along the body's z axis.
-     */
-    sensor_height_m: number;
+    mount: Mount;
     image: ImageSize;
     demands: SegmentDemands;
 }
@@ -594,6 +619,30 @@ export interface SensorPose {
     x_axis: Point;
     y_axis: Point;
     z_axis: Point;
+}
+
+/**
+ * Where the sensor sits on the robot and how it is turned there, as the planner is told.
+ */
+export interface Mount {
+    /**
+     * Ahead of the point on the ground between the wheels.
+     */
+    forward_m: number;
+    left_m: number;
+    /**
+     * Above the ground contact, along the body's z axis.
+     */
+    height_m: number;
+    /**
+     * Left side up; π upside down. The mount is turned by yaw, pitch, roll.
+     */
+    roll_rad: number;
+    /**
+     * Nose-up.
+     */
+    pitch_rad: number;
+    yaw_rad: number;
 }
 
 /**

@@ -10,6 +10,7 @@ use super::Session;
 use super::tick::{Activity, Velocity};
 use crate::decision::{self, PathPoint, Segment, Subgoal};
 use crate::objects::Solid;
+use crate::returns::{self, SetAside};
 use crate::shared::{Metrics, Outcome, Pose, give, read};
 
 /// Everything that one tick saw, decided and did. At tick 0 there is a scan but no decision yet.
@@ -27,6 +28,9 @@ pub struct Frame {
     command: Velocity,
     /// Points in `FrameBuffers.points`.
     returns: usize,
+    set_aside: SetAside,
+    /// Where the ground in the first scan does not fit the mount of the sensor: what to do about it.
+    mount_misfit: Option<String>,
     /// Where the scan was taken.
     sensor: SensorPose,
     /// Share of the prior variance above which space counts as free.
@@ -52,6 +56,11 @@ pub struct FrameBuffers {
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Float32Array<ArrayBuffer>")]
     points: Float32Array,
+    /// What the planner took each of them for: 0 surface, 1 invalid, 2 far, 3 the robot itself, 4 stray,
+    /// 5 overhead.
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Uint8Array<ArrayBuffer>")]
+    return_kinds: Uint8Array,
     /// Observed occupancy in metres, azimuth-major from straight behind over the right, lowest ring first;
     /// NaN without a return.
     #[serde(with = "serde_wasm_bindgen::preserve")]
@@ -131,6 +140,7 @@ impl Session {
         self.look_again()?;
         let buffers = read(buffers)?;
         let returns = self.fill_points(&buffers.points);
+        self.fill_return_kinds(&buffers.return_kinds);
         self.fill_profile(&buffers);
         if surfaces {
             self.fill_surfaces(&buffers);
@@ -149,6 +159,8 @@ impl Session {
             omega_rad_s: robot.turn_rate_rad_s,
             command: step.command.into(),
             returns,
+            set_aside: SetAside::of(self.now.return_kinds()),
+            mount_misfit: self.now.mount_misfit.clone(),
             sensor: self.now.scanned_from.into(),
             threshold: trial.planner_config().perception.variance_threshold,
             segments: if decided { decision::segments(&step) } else { Vec::new() },
@@ -189,6 +201,14 @@ impl Session {
         }
         self.send(out);
         self.scratch.len() / 3
+    }
+
+    fn fill_return_kinds(&self, out: &Uint8Array) {
+        let kinds = self.now.return_kinds().iter().take(out.length() as usize);
+        let codes: Vec<u8> = kinds.map(|&kind| returns::code(kind)).collect();
+        // What no planner has seen yet counts as a surface.
+        out.fill(0, codes.len() as u32, out.length());
+        out.subarray(0, codes.len() as u32).copy_from(&codes);
     }
 
     fn fill_profile(&mut self, buffers: &FrameBuffers) {

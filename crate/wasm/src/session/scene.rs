@@ -1,5 +1,6 @@
 //! What changes only between trials and with the route.
 
+use mapless::SensorModel;
 use mapless::skyline::columns::COLUMNS;
 use serde::Serialize;
 use tsify::{Ts, Tsify};
@@ -23,10 +24,37 @@ pub struct Scene {
     limits: TiltLimits,
     /// Radius of the occupancy surface: what lies farther is not looked at.
     occupancy_radius_m: f64,
-    /// The sensor's height above the ground contact, along the body's z axis.
-    sensor_height_m: f64,
+    mount: Mount,
     image: ImageSize,
     demands: SegmentDemands,
+}
+
+/// Where the sensor sits on the robot and how it is turned there, as the planner is told.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Mount {
+    /// Ahead of the point on the ground between the wheels.
+    forward_m: f64,
+    left_m: f64,
+    /// Above the ground contact, along the body's z axis.
+    height_m: f64,
+    /// Left side up; π upside down. The mount is turned by yaw, pitch, roll.
+    roll_rad: f64,
+    /// Nose-up.
+    pitch_rad: f64,
+    yaw_rad: f64,
+}
+
+impl From<&SensorModel> for Mount {
+    fn from(sensor: &SensorModel) -> Self {
+        Self {
+            forward_m: sensor.forward_m,
+            left_m: sensor.left_m,
+            height_m: sensor.height_m,
+            roll_rad: sensor.roll_rad,
+            pitch_rad: sensor.pitch_rad,
+            yaw_rad: sensor.yaw_rad,
+        }
+    }
 }
 
 /// How far the robot may tilt.
@@ -76,7 +104,7 @@ impl Session {
                 pitch_rad: config.robot.pitch_limit_rad,
             },
             occupancy_radius_m: config.perception.surface_radius_m,
-            sensor_height_m: config.sensor.height_m,
+            mount: Mount::from(&config.sensor),
             image: ImageSize { columns: COLUMNS, rows: grid.rows(), rings: grid.rings() },
             demands: SegmentDemands {
                 robot_width_m: config.robot.width_m,

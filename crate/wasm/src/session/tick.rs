@@ -159,7 +159,7 @@ impl Session {
     fn plan(&mut self) {
         let tick = self.now.trial.ticks();
         self.history.get_or_insert_with(|| History::new(COPY_EVERY_TICKS, MOST_COPIES, tick, &self.now));
-        self.now.trial.plan();
+        self.now.plan();
     }
 
     /// Moves the robot. In the recorded past what was changed then is changed again; says whether it was.

@@ -1,0 +1,54 @@
+/** The mount of the sensor as a group of its own in the table of parameters, with mounts to choose from. */
+
+import { html } from '../base/dom.ts';
+import { type Overrides, type OverrideValue, withOverride } from '../experiment/overrides.ts';
+import type { ParameterGroup } from '../experiment/parameters.ts';
+import type { Mount } from '../protocol/simulationProtocol.ts';
+
+const TITLE = 'Sensor mount';
+const NAMES: readonly string[] = [
+  'height_m',
+  'forward_m',
+  'left_m',
+  'roll_rad',
+  'pitch_rad',
+  'yaw_rad',
+] satisfies (keyof Mount)[];
+
+/** What differs from the mount that the scenario has. */
+export type MountPreset = Partial<Mount>;
+
+const PRESETS: readonly (readonly [string, MountPreset])[] = [
+  ['Level', {}],
+  ['15° down', { pitch_rad: -0.2618 }],
+  ['Upside down', { roll_rad: Math.PI }],
+  ['Mast of 1.7 m', { height_m: 1.7 }],
+];
+
+/** The group in two where it has the mount in it. */
+export function mountOf(group: ParameterGroup): ParameterGroup[] {
+  if (group.table !== 'sensor') return [group];
+  const isMount = ({ name }: { name: string }) => NAMES.includes(name);
+  return [
+    { ...group, parameters: group.parameters.filter((one) => !isMount(one)) },
+    { ...group, title: TITLE, parameters: group.parameters.filter(isMount) },
+  ];
+}
+
+/** Mounts the sensor so; whatever else is overridden stays. */
+export function withMount(overrides: Overrides, mount: MountPreset): Overrides {
+  const values: Record<string, OverrideValue | undefined> = mount;
+  return NAMES.reduce((all, name) => withOverride(all, 'sensor', name, values[name]), overrides);
+}
+
+/** A row of buttons, for the group of the mount. */
+export function presetButtons(group: ParameterGroup, choose: (mount: MountPreset) => void): HTMLElement[] {
+  if (group.title !== TITLE) return [];
+  const buttons = PRESETS.map(([name, mount]) => {
+    const button = html('button', 'plain', [name]);
+    button.type = 'button';
+    button.addEventListener('click', () => choose(mount));
+    return button;
+  });
+  return [html('div', 'lab-row mount-presets', buttons)];
+}
