@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use glam::DVec2;
-use mapless_baselines::{NavigatorKind, OracleConfig, PlanPose, shortest_path};
+use mapless_baselines::{KnownWorld, NavigatorKind, OracleConfig, PlanPose, shortest_path};
 use mapless_tests::scenarios_text;
 use mapless_trials::{LoadedScenario, Outcome, Scenario, Trial};
 use mapless_world::{RobotConfig, attitude_on};
@@ -64,9 +64,14 @@ fn driving_straight_at_the_goal_fails() {
 #[test]
 fn a_safe_path_to_the_goal_exists() {
     for (name, LoadedScenario { scenario, terrain }) in LOADED.iter() {
-        let Scenario { start, goal_m, robot, .. } = scenario;
+        let Scenario { start, goal_m, .. } = scenario;
         let from = PlanPose { position_m: start.position_m, yaw_rad: start.heading_rad };
-        let path = shortest_path(&terrain.field, robot, from, *goal_m, &OracleConfig::default());
+        let path = shortest_path(
+            &KnownWorld::new(&terrain.field, scenario),
+            from,
+            *goal_m,
+            &OracleConfig::default(),
+        );
         let length_m = path.unwrap_or_else(|error| panic!("{name}: {error}")).length_m;
         let straight_m = from.position_m.distance(*goal_m);
         assert!(length_m < 1.5 * straight_m, "{name}: a detour of {length_m} m");

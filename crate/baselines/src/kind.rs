@@ -9,6 +9,7 @@ use mapless_world::HeightField;
 
 use crate::cloud::MapError;
 use crate::ground_truth_planner::{GroundTruthPlanner, Truth};
+use crate::known_world::KnownWorld;
 use crate::oracle::{Oracle, OracleConfig};
 use crate::putn::{Putn, PutnConfig};
 use crate::route::{RouteNavigator, RoutePlanner, Straight};
@@ -119,20 +120,19 @@ impl NavigatorKind {
         seed: u64,
     ) -> Result<Box<dyn Navigator>, BuildError> {
         let map = |error| BuildError::Map { kind: self, error };
+        let world = || KnownWorld::new(field, scenario);
         Ok(match self {
             Self::Mapless(_) if truth == Truth::None => Box::new(Planner::new(config)?),
-            Self::Mapless(_) => Box::new(GroundTruthPlanner::new(config, truth, field.clone())?),
+            Self::Mapless(_) => Box::new(GroundTruthPlanner::new(config, truth, world().surface())?),
             _ if truth != Truth::None => return Err(BuildError::PerceivesNothing(self)),
             Self::Direct => along(Straight, &config),
-            Self::Vgf => along(Vgf::new(field, &VgfConfig::published()).map_err(map)?, &config),
-            Self::VgfTuned => along(Vgf::new(field, &VgfConfig::tuned()).map_err(map)?, &config),
+            Self::Vgf => along(Vgf::new(&world().surface(), &VgfConfig::published()).map_err(map)?, &config),
+            Self::VgfTuned => along(Vgf::new(&world().surface(), &VgfConfig::tuned()).map_err(map)?, &config),
             Self::Putn => {
-                along(Putn::new(field, PutnConfig::default(), config.robot, seed).map_err(map)?, &config)
+                let surface = world().surface();
+                along(Putn::new(&surface, PutnConfig::default(), config.robot, seed).map_err(map)?, &config)
             }
-            Self::Oracle => {
-                let (field, robot) = (field.clone(), scenario.robot.clone());
-                along(Oracle { field, robot, config: OracleConfig::default() }, &config)
-            }
+            Self::Oracle => along(Oracle { world: world(), config: OracleConfig::default() }, &config),
         })
     }
 }

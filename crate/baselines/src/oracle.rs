@@ -3,7 +3,7 @@
 //! It is A* on a lattice of positions and headings: places of a square grid with sixteen headings each. A
 //! motion goes straight along a heading, bends into one of the next two to either side, or turns on the spot
 //! to the next. Along every motion the robot's attitude on the true ground is checked every 0.125 m and 0.1
-//! rad: roll and pitch must stay a margin inside the limits. The grid's first axis runs from start to goal,
+//! rad: roll and pitch must stay a margin inside the limits, and the body clear of what stands there. The grid's first axis runs from start to goal,
 //! so that both are places of it and the straight line is one of its paths.
 //!
 //! The cost is the length seen from above, plus 0.1 m for each heading turned on the spot, which avoids
@@ -21,8 +21,9 @@ use lattice::{Lattice, Node};
 pub use planner::Oracle;
 pub(crate) use safe_poses::SafePoses;
 
+use crate::known_world::KnownWorld;
 use glam::DVec2;
-use mapless_world::{ConfigError, HeightField, RobotConfig};
+use mapless_world::ConfigError;
 use pathfinding::directed::astar::astar;
 
 /// Parameters of the oracle.
@@ -32,11 +33,16 @@ pub struct OracleConfig {
     pub cell_m: f64,
     /// Roll and pitch stay this much inside the robot's limits, radians.
     pub margin_rad: f64,
+    /// Everything keeps this far from what stands on the ground, metres: poses are checked at steps, and no
+    /// controller keeps exactly to a path.
+    pub clearance_m: f64,
+    /// Belly and bumpers keep this far from the ground, metres.
+    pub ground_clearance_m: f64,
 }
 
 impl Default for OracleConfig {
     fn default() -> Self {
-        Self { cell_m: 0.5, margin_rad: 0.08 }
+        Self { cell_m: 0.5, margin_rad: 0.08, clearance_m: 0.1, ground_clearance_m: 0.03 }
     }
 }
 
@@ -114,19 +120,18 @@ pub enum OracleError {
     },
 }
 
-/// The shortest safe path over `field` from a pose to a place. A goal nearer than half a cell counts as
+/// The shortest safe path in `world` from a pose to a place. A goal nearer than half a cell counts as
 /// reached.
 ///
 /// # Errors
 /// [`OracleError`]: no path, start or goal off the terrain or too steep, or a bad configuration.
 pub fn shortest_path(
-    field: &HeightField,
-    robot: &RobotConfig,
+    world: &KnownWorld,
     start: PlanPose,
     goal_m: DVec2,
     config: &OracleConfig,
 ) -> Result<OraclePath, OracleError> {
-    let safe_poses = SafePoses::new(field, robot, config)?;
+    let safe_poses = SafePoses::new(world, config)?;
     safe_poses.search(start, goal_m, config.cell_m)
 }
 

@@ -4,12 +4,13 @@
 //! goal roughly, the others any direction. Tasks that the oracle cannot solve are drawn again, so every task
 //! has a safe path. Task K of a seed is the same however many tasks there are.
 
+use crate::known_world::KnownWorld;
 use crate::oracle::{OracleConfig, OracleError, OraclePath, PlanPose, SafePoses};
 use glam::DVec2;
-use mapless_terrain::generate::{Difficulty, terrain_recipe};
+use mapless_terrain::generate::{Family, terrain_recipe};
 use mapless_terrain::{Fault, Terrain, TerrainError, load_recipe};
-use mapless_world::RobotConfig;
 use mapless_world::random::{Sequence, key};
+use mapless_world::{Object, Objects, RobotConfig, SensorConfig};
 use std::f64::consts::TAU;
 use std::fmt;
 use std::str::FromStr;
@@ -20,6 +21,8 @@ const APART_M: [f64; 2] = [35.0, 75.0];
 const BORDER_M: f64 = 5.0;
 /// The least distance asked for is at most this share of the terrain's side.
 const MOST_SHARE: f64 = 0.95;
+/// Nobody walks off this near to the start, metres.
+const ALONE_M: f64 = 2.0;
 /// Pairs of start and goal tried before the terrain is given up.
 const PLACES: u32 = 1000;
 /// Terrains tried before a task is given up.
@@ -28,8 +31,8 @@ const MOST_DRAWN: u32 = 100;
 /// The name of a task: `hard-1-0007` is task 7 of seed 1.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct TaskName {
-    /// How hard its terrain is to cross.
-    pub difficulty: Difficulty,
+    /// What its terrain is like.
+    pub family: Family,
     /// Seed of all tasks of a kind.
     pub seed: u64,
     /// Its number, from 1 to [`MOST`](Self::MOST).
@@ -46,11 +49,23 @@ pub struct NoTaskName {
 impl TaskName {
     /// The largest number of a task: names have four digits for it.
     pub const MOST: u32 = 9999;
+
+    /// Whether belly, bumpers and steps count: where there are obstacles, ditches among them.
+    fn touches_ground(self) -> bool {
+        !matches!(self.family, Family::Ground(_))
+    }
+
+    /// What the oracle knows of the task's terrain.
+    fn world(self, terrain: &Terrain) -> KnownWorld {
+        let objects = Objects::new(terrain.objects.clone(), &terrain.field);
+        let (robot, sensor) = (RobotConfig::default(), SensorConfig::default());
+        KnownWorld::of(&terrain.field, &objects, &robot, &sensor, self.touches_ground())
+    }
 }
 
 impl fmt::Display for TaskName {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}-{}-{:04}", self.difficulty, self.seed, self.index)
+        write!(out, "{}-{}-{:04}", self.family, self.seed, self.index)
     }
 }
 
@@ -60,9 +75,9 @@ impl FromStr for TaskName {
     fn from_str(text: &str) -> Result<Self, NoTaskName> {
         let read = || {
             let mut parts = text.splitn(3, '-');
-            let difficulty = parts.next()?.parse().ok()?;
+            let family = parts.next()?.parse().ok()?;
             let seed = parts.next()?.parse().ok()?;
-            Some(Self { difficulty, seed, index: parts.next()?.parse().ok()? })
+            Some(Self { family, seed, index: parts.next()?.parse().ok()? })
         };
         // Every task has one name: a plus sign or further zeros are refused.
         let named = read().filter(|name| (1..=Self::MOST).contains(&name.index) && name.to_string() == text);
@@ -116,18 +131,25 @@ impl Task {
     /// # Errors
     /// [`TaskError::Unsolved`] when a hundred draws bring none with a safe path.
     pub fn generate(name: TaskName) -> Result<Self, TaskError> {
-        let TaskName { difficulty, seed, index } = name;
-        let (robot, config) = (RobotConfig::default(), OracleConfig::default());
+        let TaskName { family, seed, index } = name;
+        let config = OracleConfig::default();
         for drawn in 1..=MOST_DRAWN {
-            let place = key(key(seed, difficulty as u64), u64::from(index));
+            let place = key(key(seed, family.index()), u64::from(index));
             let terrain_seed = key(place, u64::from(drawn));
-            let recipe = terrain_recipe(&name.to_string(), difficulty, terrain_seed);
+            let recipe = terrain_recipe(&name.to_string(), family, terrain_seed);
             let no_import =
                 &mut |_: &str, _: &_| Err(Fault::Read { reason: "expected no import".to_owned() });
             let terrain = load_recipe(&format!("{name}.toml"), recipe.as_bytes(), no_import)?;
-            let safe_poses = SafePoses::new(&terrain.field, &robot, &config)?;
+            let world = name.world(&terrain);
+            let safe_poses = SafePoses::new(&world, &config)?;
             let mut draw = Sequence::new(key(terrain_seed, 1));
             let Some((start, goal_m)) = start_and_goal(&safe_poses, &mut draw) else { continue };
+            let sets_out_at_start = |object: &Object| {
+                object.walk().is_some() && object.place_m().distance(start.position_m) < ALONE_M
+            };
+            if terrain.objects.iter().any(sets_out_at_start) {
+                continue;
+            }
             let Ok(path) = safe_poses.search(start, goal_m, config.cell_m) else { continue };
             let straight_is_safe = safe_poses.straight_is_safe(start.position_m, goal_m);
             return Ok(Self {
@@ -155,12 +177,14 @@ impl Task {
     #[must_use]
     pub fn scenario(&self, terrain: &str) -> String {
         let (PlanPose { position_m: start, yaw_rad }, goal) = (self.start, self.goal_m);
+        let reality =
+            if self.name.touches_ground() { "\n[reality.motion]\ntouches_ground = true\n" } else { "" };
         format!(
             "# Generated. The oracle's path is {:.1} m long, the straight way {:.1} m.\n\
              terrain = {terrain:?}\n\
              start = [{:.2}, {:.2}, {yaw_rad:.3}]\n\
              goal = [{:.2}, {:.2}]\n\
-             seed = {}\n",
+             seed = {}\n{reality}",
             self.path.length_m,
             self.straight_m(),
             start.x,
@@ -206,8 +230,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_task_has_one_name(kind in 0..3_usize, seed: u64, index in 1..=TaskName::MOST) {
-            let name = TaskName { difficulty: Difficulty::ALL[kind], seed, index };
+        fn a_task_has_one_name(kind in 0..Family::ALL.len(), seed: u64, index in 1..=TaskName::MOST) {
+            let name = TaskName { family: Family::ALL[kind], seed, index };
             prop_assert_eq!(name.to_string().parse(), Ok(name));
         }
     }
@@ -235,14 +259,14 @@ mod tests {
 
     #[test]
     fn a_task_is_the_same_twice_and_its_path_is_safe() {
-        for difficulty in Difficulty::ALL {
-            let name = TaskName { difficulty, seed: 3, index: 2 };
+        for family in Family::ALL {
+            let name = TaskName { family, seed: 3, index: 2 };
             let task = Task::generate(name).unwrap();
             assert_eq!(task, Task::generate(name).unwrap());
             assert_ne!(task.recipe, Task::generate(TaskName { index: 1, ..name }).unwrap().recipe);
             assert!((APART_M[0]..=APART_M[1]).contains(&task.straight_m()));
-            let (robot, config) = (RobotConfig::default(), OracleConfig::default());
-            let path = shortest_path(&task.terrain.field, &robot, task.start, task.goal_m, &config);
+            let world = name.world(&task.terrain);
+            let path = shortest_path(&world, task.start, task.goal_m, &OracleConfig::default());
             assert_eq!(path, Ok(task.path));
         }
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use mapless::PlannerConfig;
-use mapless_baselines::{OracleConfig, PlanPose, Truth, shortest_path};
+use mapless_baselines::{KnownWorld, OracleConfig, PlanPose, Truth, shortest_path};
 use mapless_trials::{LoadedScenario, Scenario};
 
 use crate::error::{CampaignError, CampaignFault};
@@ -53,13 +53,18 @@ impl Route {
     /// Length of the shortest safe path; `None` if the oracle finds none, or if there are waypoints, which it
     /// does not support. Slow.
     pub(crate) fn oracle_length_m(&self) -> Option<f64> {
-        let LoadedScenario { scenario: Scenario { start, waypoints_m, goal_m, robot, .. }, terrain } =
-            &self.loaded;
+        let LoadedScenario { scenario, terrain } = &self.loaded;
+        let Scenario { start, waypoints_m, goal_m, .. } = scenario;
         if !waypoints_m.is_empty() {
             return None;
         }
         let start = PlanPose { position_m: start.position_m, yaw_rad: start.heading_rad };
-        let path = shortest_path(&terrain.field, robot, start, *goal_m, &OracleConfig::default());
+        let path = shortest_path(
+            &KnownWorld::new(&terrain.field, scenario),
+            start,
+            *goal_m,
+            &OracleConfig::default(),
+        );
         path.ok().map(|path| path.length_m)
     }
 }

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use indicatif::ProgressIterator as _;
 use mapless_baselines::{Task, TaskName};
-use mapless_terrain::generate::Difficulty;
+use mapless_terrain::generate::Family;
 use summary::Summary;
 
 use crate::parsers;
@@ -25,9 +25,9 @@ pub(crate) struct Args {
     /// Seed of the tasks. Task K of a seed is the same whatever the count.
     #[arg(long)]
     seed: u64,
-    /// How steep and rough the terrains are.
-    #[arg(long, value_parser = parsers::difficulty())]
-    difficulty: Difficulty,
+    /// What the terrains are like: bare ground from easy to hard, or obstacles.
+    #[arg(long, alias = "difficulty", value_parser = parsers::family())]
+    family: Family,
     /// Number of tasks.
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=i64::from(TaskName::MOST)))]
     count: u32,
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let mut summary = Summary::default();
     // Indicatif draws only on a terminal.
     for index in (1..=args.count).progress_count(args.count.into()) {
-        let task = Task::generate(TaskName { difficulty: args.difficulty, seed: args.seed, index })?;
+        let task = Task::generate(TaskName { family: args.family, seed: args.seed, index })?;
         let file = format!("{}.toml", task.name);
         write(&terrains.join(&file), &task.recipe)?;
         write(&args.out.join(&file), &task.scenario(&format!("{TERRAIN}/{file}")))?;
@@ -92,11 +92,12 @@ fn write(path: &Path, text: &str) -> anyhow::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mapless_baselines::{OracleConfig, PlanPose, shortest_path};
+    use mapless_baselines::{KnownWorld, OracleConfig, PlanPose, shortest_path};
+    use mapless_terrain::generate::Difficulty;
     use mapless_trials::LoadedScenario;
 
     fn args(out: &Path, count: u32) -> Args {
-        Args { seed: 5, difficulty: Difficulty::Moderate, count, out: out.to_owned() }
+        Args { seed: 5, family: Family::Ground(Difficulty::Moderate), count, out: out.to_owned() }
     }
 
     /// Every file below a folder with its contents, in order of name.
@@ -129,7 +130,8 @@ mod tests {
                 PlanPose { position_m: scenario.start.position_m, yaw_rad: scenario.start.heading_rad };
             let config = OracleConfig::default();
             let path =
-                shortest_path(&terrain.field, &scenario.robot, start, scenario.goal_m, &config).unwrap();
+                shortest_path(&KnownWorld::new(&terrain.field, &scenario), start, scenario.goal_m, &config)
+                    .unwrap();
             assert!(path.length_m >= start.position_m.distance(scenario.goal_m) - 1e-9);
         }
         let same = ["moderate-5-0001.toml", "terrain/moderate-5-0001.toml"];

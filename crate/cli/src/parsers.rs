@@ -3,7 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use mapless::gp::learning::LearningMode;
 use mapless_baselines::{NavigatorKind, Truth};
-use mapless_terrain::generate::Difficulty;
+use mapless_terrain::generate::Family;
 use mapless_trials::Preset;
 
 /// Parses the name of a configuration of the mapless planner, for `--planner` where baselines do not apply.
@@ -27,8 +27,7 @@ pub(crate) fn learning() -> impl TypedValueParser<Value = LearningMode> {
     PossibleValuesParser::new(["fixed", "once", "every_scan"]).try_map(|name| name.parse::<LearningMode>())
 }
 
-/// Parses the name of a difficulty, for `--difficulty`.
-pub(crate) fn difficulty() -> impl TypedValueParser<Value = Difficulty> {
-    PossibleValuesParser::new(Difficulty::ALL.map(Difficulty::name))
-        .try_map(|name| name.parse::<Difficulty>())
+/// Parses the name of a family of generated terrains, for `--family`.
+pub(crate) fn family() -> impl TypedValueParser<Value = Family> {
+    PossibleValuesParser::new(Family::ALL.map(Family::name)).try_map(|name| name.parse::<Family>())
 }

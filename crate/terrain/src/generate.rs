@@ -3,17 +3,21 @@
 //! A terrain is a square of 50 to 80 m with one to three kinds of landform: hills and basins, ridges with
 //! passes, valleys with fords, terraces with ramps, craters and ditches, rough ground. A difficulty sets the
 //! slope of their flanks, their number and the roughness. A bank too steep to climb closes the terrain,
-//! because no planner can see that a world ends. The same seed and difficulty give the same recipe, to the
-//! byte.
+//! because no planner can see that a world ends. A [`Family`] is one of these difficulties, or has obstacles
+//! on ground that is gentle, or on ground of any difficulty (`mixed`). The same seed and family give the same
+//! recipe, to the byte.
 
+mod family;
 mod landforms;
+mod obstacles;
 mod writer;
+
+pub use family::{Difficulty, Family, UnknownFamily};
 
 use glam::DVec2;
 use landforms::{LANDFORMS, Site};
 use mapless_world::random::{Sequence, key};
-use std::fmt::{self, Write as _};
-use std::str::FromStr;
+use std::fmt::Write as _;
 use writer::Writer;
 
 /// The bank along the border: Gaussian, half of it inside.
@@ -21,17 +25,6 @@ const BANK_HEIGHT_M: f64 = 2.5;
 const BANK_WIDTH_M: f64 = 0.6;
 /// Within this distance of the border the ground belongs to the bank, metres.
 pub const BANK_REACH_M: f64 = 2.0;
-
-/// How hard a generated terrain is to cross.
-#[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd)]
-pub enum Difficulty {
-    /// Little is steeper than a Husky may roll.
-    Easy,
-    /// Many flanks have to be gone around.
-    Moderate,
-    /// Most flanks have to be gone around, and the ground between is rough.
-    Hard,
-}
 
 /// The parameters of a difficulty. Slopes are rise over run, drawn for every landform.
 struct Level {
@@ -72,83 +65,54 @@ const LEVELS: [Level; 3] = [
     },
 ];
 
-impl Difficulty {
-    /// All of them, easy first.
-    pub const ALL: [Self; 3] = [Self::Easy, Self::Moderate, Self::Hard];
-
-    /// The name in files and on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Easy => "easy",
-            Self::Moderate => "moderate",
-            Self::Hard => "hard",
-        }
-    }
-
-    fn level(self) -> &'static Level {
-        match self {
-            Self::Easy => &LEVELS[0],
-            Self::Moderate => &LEVELS[1],
-            Self::Hard => &LEVELS[2],
-        }
-    }
-}
-
-impl fmt::Display for Difficulty {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-/// A name that is no difficulty.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("difficulty \"{name}\": expected easy, moderate or hard")]
-pub struct UnknownDifficulty {
-    /// The name.
-    pub name: String,
-}
-
-impl FromStr for Difficulty {
-    type Err = UnknownDifficulty;
-
-    fn from_str(name: &str) -> Result<Self, UnknownDifficulty> {
-        let found = Self::ALL.into_iter().find(|difficulty| difficulty.name() == name);
-        found.ok_or_else(|| UnknownDifficulty { name: name.to_owned() })
-    }
-}
+/// Ground of gentle slopes under obstacles.
+const GENTLE: Level =
+    Level { flank: [0.0, 0.0], density: 0.0, kinds: [0, 0], swell_m: [0.3, 1.0], roughness_m: [0.01, 0.03] };
+/// Side of the terrains with obstacles, metres.
+const OBSTACLE_SIDE_M: [u32; 2] = [45, 55];
+/// Spacing of samples where ditches have to be resolved, metres.
+const DITCH_CELL_M: f64 = 0.1;
 
 /// A recipe for [`crate::load_recipe`], with a name of one's own.
 #[must_use]
-pub fn terrain_recipe(name: &str, difficulty: Difficulty, seed: u64) -> String {
-    let level = difficulty.level();
-    let mut draw = Sequence::new(key(seed, difficulty as u64));
-    let side_m = f64::from(draw.whole([50, 80]));
-    let cell_m = if draw.happens(0.5) { 0.2 } else { 0.25 };
+pub fn terrain_recipe(name: &str, family: Family, seed: u64) -> String {
+    let mut draw = Sequence::new(key(seed, family.index()));
+    let level = match family {
+        Family::Ground(difficulty) => &LEVELS[difficulty as usize],
+        Family::Mixed => &LEVELS[draw.whole([0, LEVELS.len() as u32 - 1]) as usize],
+        _ => &GENTLE,
+    };
+    let is_bare = matches!(family, Family::Ground(_));
+    let side_m = f64::from(draw.whole(if is_bare { [50, 80] } else { OBSTACLE_SIDE_M }));
+    let mut cell_m = if draw.happens(0.5) { 0.2 } else { 0.25 };
+    if family == Family::Ditches {
+        cell_m = DITCH_CELL_M;
+    }
 
     let mut left: Vec<usize> = (0..LANDFORMS.len()).collect();
     let count = draw.whole(level.kinds);
     let chosen: Vec<usize> =
         (0..count).map(|_| left.remove(draw.whole([0, left.len() as u32 - 1]) as usize)).collect();
     let mut tables = Writer::default();
-    let site = Site { side_m, flank: level.flank, share: level.density / f64::from(count) };
+    let site = Site { side_m, flank: level.flank, share: level.density / f64::from(count.max(1)) };
     for &index in &chosen {
         (LANDFORMS[index].shape)(&site, &mut draw, &mut tables);
     }
     tables.noise(draw.between(level.swell_m), draw.between([25.0, 40.0]), 2);
     tables.noise(draw.between(level.roughness_m), draw.between([2.5, 4.0]), 2);
+    let obstacles = obstacles::of(family, side_m, &mut draw, &mut tables);
 
     let corners = [[0.0, 0.0], [side_m, 0.0], [side_m, side_m], [0.0, side_m]].map(DVec2::from_array);
     for index in 0..4 {
         tables.ridge(&[corners[index], corners[(index + 1) % 4]], &[BANK_HEIGHT_M; 2], BANK_WIDTH_M);
     }
 
-    let kinds: Vec<&str> = chosen.iter().map(|&index| LANDFORMS[index].name).collect();
+    let kinds: Vec<&str> = chosen.iter().map(|&index| LANDFORMS[index].name).chain(obstacles).collect();
     let mut recipe = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(
         recipe,
-        "name = {name:?}\ndescription = \"Generated, {difficulty}: {}.\"\nsize_m = [{side_m:.1}, {side_m:.1}]\n\
+        "name = {name:?}\ndescription = \"Generated, {family}: {}.\"\nsize_m = [{side_m:.1}, {side_m:.1}]\n\
          cell_m = {cell_m}\nseed = {}\n",
         kinds.join(", "),
         key(seed, 0) >> 32

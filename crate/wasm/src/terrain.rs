@@ -1,7 +1,7 @@
 //! Terrains: reading them, generating them, and their heights as a grid.
 
 use js_sys::{Float32Array, Uint8Array};
-use mapless_terrain::generate::{Difficulty, terrain_recipe};
+use mapless_terrain::generate::{Family, terrain_recipe};
 use mapless_terrain::{Fault, Grid, Import, Imported, Terrain, load_recipe};
 use mapless_world::{HeightField, SampleRect};
 use serde::{Deserialize, Serialize};
@@ -142,14 +142,14 @@ pub struct LevelPlaces {
     goal: Place,
 }
 
-/// The recipe of a generated terrain; `difficulty` is `easy`, `moderate` or `hard`.
+/// The recipe of a generated terrain of a family, such as `hard` or `rocks`.
 ///
 /// # Errors
-/// An unknown difficulty.
+/// An unknown family.
 #[wasm_bindgen]
-pub fn generated_recipe(difficulty: &str, seed: u32) -> Result<String, JsError> {
-    let difficulty: Difficulty = difficulty.parse()?;
-    Ok(terrain_recipe(&format!("{difficulty} {seed}"), difficulty, seed.into()))
+pub fn generated_recipe(family: &str, seed: u32) -> Result<String, JsError> {
+    let family: Family = family.parse()?;
+    Ok(terrain_recipe(&format!("{family} {seed}"), family, seed.into()))
 }
 
 /// What a recipe imports; nothing where it imports nothing.

@@ -444,7 +444,8 @@ fn generated_terrains_have_places_to_start_from() {
     let places = got(level_places(terrain(&recipe)));
     assert!(number(&places, "goal.x") - number(&places, "start.x") > 10.0, "{}", json(places));
     assert!(
-        message(generated_recipe("gruesome", 3).unwrap_err()).contains("expected easy, moderate or hard")
+        message(generated_recipe("gruesome", 3).unwrap_err())
+            .contains("expected one of easy, moderate, hard, rocks")
     );
 }
 

@@ -1,9 +1,10 @@
 //! Safe poses of a robot on known ground.
 
 use super::{OracleConfig, OracleError, PlanPose};
+use crate::known_world::KnownWorld;
 use glam::DVec2;
 use mapless_parameters::{Check, ConfigError, Value};
-use mapless_world::{HeightField, RobotConfig, attitude_on};
+use mapless_world::{Body, Footing, HeightField, RobotConfig, RobotState, Solid, attitude_on};
 use std::f64::consts::TAU;
 
 /// Headings checked before a place counts as too steep, or as safe with every heading.
@@ -11,54 +12,109 @@ const CHECKED_HEADINGS: u32 = 16;
 /// Attitudes are checked at this spacing along the straight line, metres.
 const STRAIGHT_STEP_M: f64 = 0.125;
 
-/// The ground, and the tilt allowed on it.
+/// Solids are looked up in squares of this side, metres.
+const SQUARE_M: f64 = 2.0;
+
+/// A known world, and what is safe in it.
 pub(crate) struct SafePoses<'a> {
-    field: &'a HeightField,
-    robot: &'a RobotConfig,
+    world: &'a KnownWorld,
+    /// With the oracle's margins.
+    body: Body,
     max_roll_rad: f64,
     max_pitch_rad: f64,
     /// For each cell of the ground whether the robot is safe anywhere in it with every heading, because no
-    /// ground within reach of its wheels is steep. It spares most of the attitudes.
+    /// ground within reach of its wheels is steep. It spares most of the attitudes. Solids are looked up
+    /// beside.
     gentle: Vec<bool>,
+    /// For each square of the terrain, row by row from the south-west, what a robot in it may touch.
+    near: Vec<Vec<Solid>>,
+    squares: usize,
 }
 
 impl<'a> SafePoses<'a> {
-    pub(crate) fn new(
-        field: &'a HeightField,
-        robot: &'a RobotConfig,
-        config: &OracleConfig,
-    ) -> Result<Self, OracleError> {
+    pub(crate) fn new(world: &'a KnownWorld, config: &OracleConfig) -> Result<Self, OracleError> {
+        let robot = &world.robot;
         robot.validate("robot")?;
         let place = "oracle";
         Check::Within(0.1, 10.0).require(place, "cell_m", Value::Number(config.cell_m))?;
-        Check::NotNegative.require(place, "margin_rad", Value::Number(config.margin_rad))?;
+        for (name, value) in [
+            ("margin_rad", config.margin_rad),
+            ("clearance_m", config.clearance_m),
+            ("ground_clearance_m", config.ground_clearance_m),
+        ] {
+            Check::NotNegative.require(place, name, Value::Number(value))?;
+        }
         let least_rad = robot.roll_limit_rad.min(robot.pitch_limit_rad);
         let is_inside = config.margin_rad < least_rad;
         let expected = "less than the robot's tilt limits";
         ConfigError::require(is_inside, place, "margin_rad", config.margin_rad, expected)?;
         let max_roll_rad = robot.roll_limit_rad - config.margin_rad;
         let max_pitch_rad = robot.pitch_limit_rad - config.margin_rad;
-        let gentle = gentle_cells(field, robot, safe_gradient(max_roll_rad, max_pitch_rad));
-        Ok(Self { field, robot, max_roll_rad, max_pitch_rad, gentle })
-    }
-
-    pub(crate) fn extent_m(&self) -> DVec2 {
-        self.field.extent_m()
-    }
-
-    /// Whether the robot is safe at a pose: wheels on the terrain, roll and pitch within the allowed.
-    pub(super) fn is_safe(&self, position_m: DVec2, yaw_rad: f64) -> bool {
-        if self.is_gentle(position_m) {
-            return true;
-        }
-        attitude_on(self.field, position_m, yaw_rad, self.robot).is_some_and(|attitude| {
-            attitude.roll_rad.abs() <= self.max_roll_rad && attitude.pitch_rad.abs() <= self.max_pitch_rad
+        let outline_m = DVec2::new(robot.length_m, robot.width_m) + 2.0 * config.clearance_m;
+        let wheels_m = DVec2::new(robot.wheelbase_m, robot.track_m);
+        let gradient = safe_gradient(max_roll_rad, max_pitch_rad);
+        let gentle = if world.touches_ground {
+            let gradient = gradient.min(clear_gradient(robot, config.ground_clearance_m));
+            gentle_cells(&world.field, outline_m, gradient)
+        } else {
+            gentle_cells(&world.field, wheels_m, gradient)
+        };
+        let squares = (world.field.extent_m() / SQUARE_M).ceil().max(DVec2::ONE);
+        let reach_m = outline_m.length() / 2.0;
+        let near_square = |index: usize| {
+            let (column, row) = ((index % squares.x as usize) as f64, (index / squares.x as usize) as f64);
+            let low_m = DVec2::new(column, row) * SQUARE_M;
+            let may_touch = |solid: &&Solid| {
+                let centre_m = solid.centre_m.truncate();
+                let beside_m = centre_m - centre_m.clamp(low_m, low_m + SQUARE_M);
+                beside_m.length() <= solid.bounding_radius_m() + reach_m
+            };
+            world.solids.iter().filter(may_touch).copied().collect()
+        };
+        Ok(Self {
+            world,
+            body: world.body.clone().with_margin(config.clearance_m, config.ground_clearance_m),
+            max_roll_rad,
+            max_pitch_rad,
+            gentle,
+            near: (0..squares.x as usize * squares.y as usize).map(near_square).collect(),
+            squares: squares.x as usize,
         })
     }
 
+    pub(crate) fn extent_m(&self) -> DVec2 {
+        self.world.field.extent_m()
+    }
+
+    /// What a robot at a place on the terrain may touch.
+    fn near(&self, position_m: DVec2) -> &[Solid] {
+        let square = (position_m / SQUARE_M).max(DVec2::ZERO);
+        self.near.get(square.y as usize * self.squares + square.x as usize).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether the robot is safe at a pose: wheels on the terrain, roll and pitch within the allowed, the body
+    /// clear of everything.
+    pub(super) fn is_safe(&self, position_m: DVec2, yaw_rad: f64) -> bool {
+        let KnownWorld { field, robot, touches_ground, .. } = self.world;
+        let solids = self.near(position_m);
+        if solids.is_empty() && self.is_gentle(position_m) {
+            return true;
+        }
+        let footing = Footing { field, solids };
+        let Some(attitude) = attitude_on(&footing, position_m, yaw_rad, robot) else { return false };
+        if attitude.roll_rad.abs() > self.max_roll_rad || attitude.pitch_rad.abs() > self.max_pitch_rad {
+            return false;
+        }
+        let state =
+            RobotState { position: position_m, yaw_rad, speed_m_s: 1.0, turn_rate_rad_s: 0.0, attitude };
+        self.body.contact_with(solids, &state).is_none()
+            && (!touches_ground || self.body.contact_with_ground(field, &footing, &state).is_none())
+    }
+
     fn is_gentle(&self, position_m: DVec2) -> bool {
-        let grid = position_m / self.field.cell_m();
-        let columns = self.field.columns() - 1;
+        let field = &self.world.field;
+        let grid = position_m / field.cell_m();
+        let columns = field.columns() - 1;
         if !(grid.x >= 0.0 && grid.y >= 0.0) {
             return false;
         }
@@ -68,14 +124,15 @@ impl<'a> SafePoses<'a> {
 
     pub(super) fn check_start(&self, start: PlanPose) -> Result<(), OracleError> {
         let PlanPose { position_m, yaw_rad } = start;
-        if !yaw_rad.is_finite() || attitude_on(self.field, position_m, yaw_rad, self.robot).is_none() {
+        let KnownWorld { field, robot, .. } = self.world;
+        if !yaw_rad.is_finite() || attitude_on(field, position_m, yaw_rad, robot).is_none() {
             return Err(self.off_terrain("start", position_m));
         }
         if self.is_safe(position_m, yaw_rad) { Ok(()) } else { Err(self.too_steep("start", position_m)) }
     }
 
     pub(super) fn check_goal(&self, goal_m: DVec2) -> Result<(), OracleError> {
-        if !self.field.contains(goal_m) {
+        if !self.world.field.contains(goal_m) {
             return Err(self.off_terrain("goal", goal_m));
         }
         if headings_rad().any(|yaw_rad| self.is_safe(goal_m, yaw_rad)) {
@@ -128,9 +185,20 @@ fn safe_gradient(max_roll_rad: f64, max_pitch_rad: f64) -> f64 {
     low
 }
 
-/// For each cell whether the ground is at most as steep as `gradient` wherever a wheel of a robot in the cell
-/// may be.
-fn gentle_cells(field: &HeightField, robot: &RobotConfig, gradient: f64) -> Vec<bool> {
+/// A gradient such that neither belly nor bumpers of a robot touch ground that is nowhere steeper: under the
+/// belly there may be a crest, before the bumper a rise while the wheels go down.
+fn clear_gradient(robot: &RobotConfig, ground_clearance_m: f64) -> f64 {
+    let belly =
+        (robot.ground_clearance_m - ground_clearance_m) / (robot.wheelbase_m.max(robot.track_m) / 2.0);
+    let overhang_m = (robot.length_m - robot.wheelbase_m) / 2.0;
+    let bumper =
+        (robot.overhang_clearance_m - ground_clearance_m) / (2.0 * overhang_m).max(f64::MIN_POSITIVE);
+    belly.min(bumper).max(0.0)
+}
+
+/// For each cell whether the ground is at most as steep as `gradient` wherever a robot in the cell may touch it,
+/// whose wheels or body fill this length and width.
+fn gentle_cells(field: &HeightField, outline_m: DVec2, gradient: f64) -> Vec<bool> {
     let (columns, rows) = (field.columns() - 1, field.rows() - 1);
     let heights_m = field.heights_m();
     let most_m2 = (gradient * field.cell_m()) * (gradient * field.cell_m());
@@ -145,7 +213,7 @@ fn gentle_cells(field: &HeightField, robot: &RobotConfig, gradient: f64) -> Vec<
             gentle.push(east + north <= most_m2);
         }
     }
-    let reach_m = DVec2::new(robot.wheelbase_m, robot.track_m).length() / 2.0;
+    let reach_m = outline_m.length() / 2.0;
     let reach = (reach_m / field.cell_m()).ceil() as usize;
     for row in 0..rows {
         shrink(&mut gentle, row * columns, 1, columns, reach);

@@ -1,13 +1,13 @@
 use core::time::Duration;
 
 use super::*;
-use crate::{RouteNavigator, Task, TaskName};
+use crate::{NavigatorKind, RouteNavigator, Task, TaskName};
 use glam::DVec3;
 use mapless::Pose;
 use mapless::{Goal, PlannerConfig};
-use mapless_terrain::generate::Difficulty;
-use mapless_trials::Navigator as _;
-use mapless_world::{DriveCommand, Robot, attitude_on};
+use mapless_terrain::generate::{Difficulty, Family};
+use mapless_trials::{Navigator as _, Outcome, Scenario, Trial};
+use mapless_world::{DriveCommand, HeightField, Robot, RobotConfig, attitude_on};
 use proptest::prelude::*;
 
 /// A square of 40 m with a height for each place.
@@ -25,8 +25,12 @@ const START: PlanPose = PlanPose { position_m: DVec2::new(5.0, 20.0), yaw_rad: 0
 const PERIOD: Duration = Duration::from_millis(100);
 const GOAL_M: DVec2 = DVec2::new(35.0, 21.0);
 
+fn bare(field: &HeightField) -> KnownWorld {
+    KnownWorld::bare(field, &RobotConfig::default())
+}
+
 fn path(field: &HeightField) -> Result<OraclePath, OracleError> {
-    shortest_path(field, &RobotConfig::default(), START, GOAL_M, &OracleConfig::default())
+    shortest_path(&bare(field), START, GOAL_M, &OracleConfig::default())
 }
 
 fn within_limits(field: &HeightField, path: &OraclePath) -> bool {
@@ -41,7 +45,7 @@ fn within_limits(field: &HeightField, path: &OraclePath) -> bool {
 /// Drives the path with the kinematic Husky; returns where it ended and its largest tilt utilisation.
 fn drive(field: &HeightField, start: PlanPose, goal_m: DVec2) -> (DVec2, f64) {
     let robot = RobotConfig::default();
-    let oracle = Oracle { field: field.clone(), robot: robot.clone(), config: OracleConfig::default() };
+    let oracle = Oracle { world: bare(field), config: OracleConfig::default() };
     let mut driver = RouteNavigator::new(oracle, &PlannerConfig::default());
     let mut husky = Robot::new(robot.clone(), field, start.position_m, start.yaw_rad).unwrap();
     let mut worst: f64 = 0.0;
@@ -150,7 +154,7 @@ fn places_and_values_are_checked() {
     let field = ground(|_, _| 0.0);
     let robot = RobotConfig::default();
     let search = |start: PlanPose, goal_m, config: OracleConfig| {
-        shortest_path(&field, &robot, start, goal_m, &config).unwrap_err()
+        shortest_path(&KnownWorld::bare(&field, &robot), start, goal_m, &config).unwrap_err()
     };
     let ok = OracleConfig::default();
     let off = PlanPose { position_m: DVec2::new(0.1, 5.0), ..START };
@@ -170,7 +174,7 @@ fn places_and_values_are_checked() {
         search(START, GOAL_M, wide).to_string().starts_with("oracle.margin_rad = 0.6: expected less than")
     );
     let far = HeightField::new(3, 3, 1000.0, vec![0.0; 9]).unwrap();
-    let error = shortest_path(&far, &robot, START, GOAL_M, &ok).unwrap_err();
+    let error = shortest_path(&KnownWorld::bare(&far, &robot), START, GOAL_M, &ok).unwrap_err();
     assert!(matches!(error, OracleError::TooLarge { .. }), "{error}");
 }
 
@@ -179,7 +183,7 @@ fn a_goal_at_the_start_is_reached() {
     let field = ground(|_, _| 0.0);
     let goal_m = START.position_m + DVec2::new(0.1, 0.0);
     let config = OracleConfig::default();
-    let path = shortest_path(&field, &RobotConfig::default(), START, goal_m, &config).unwrap();
+    let path = shortest_path(&bare(&field), START, goal_m, &config).unwrap();
     assert_eq!((path.poses, path.length_m), (vec![START], 0.0));
 }
 
@@ -189,8 +193,8 @@ fn its_path_can_be_driven() {
     assert!(end_m.distance(GOAL_M) <= PlannerConfig::default().goal_tolerance_m, "{end_m}");
     assert!(worst < 1.0, "{worst}");
     for index in 1..=2 {
-        for difficulty in Difficulty::ALL {
-            let task = Task::generate(TaskName { difficulty, seed: 9, index }).unwrap();
+        for family in Difficulty::ALL.map(Family::Ground) {
+            let task = Task::generate(TaskName { family, seed: 9, index }).unwrap();
             let (end_m, worst) = drive(&task.terrain.field, task.start, task.goal_m);
             println!("{}: at most {worst:.2} of a limit", task.name);
             assert!(
@@ -200,6 +204,21 @@ fn its_path_can_be_driven() {
             );
             assert!(worst < 1.0, "{}: {worst}", task.name);
         }
+    }
+}
+
+#[test]
+fn its_path_among_obstacles_can_be_driven() {
+    // Nobody with a map knows where people will walk.
+    for family in [Family::Rocks, Family::Posts, Family::Walls, Family::Ditches, Family::Mixed] {
+        let task = Task::generate(TaskName { family, seed: 9, index: 1 }).unwrap();
+        let scenario = Scenario::parse("task.toml", &task.scenario("terrain.toml")).unwrap();
+        let scenario = scenario.on_terrain(&task.terrain.objects);
+        let field = task.terrain.field.clone();
+        let oracle = NavigatorKind::Oracle.build(&field, &scenario, 1).unwrap();
+        let mut trial = Trial::with_navigator(field, &scenario, oracle, 1).unwrap();
+        while trial.tick().is_none() {}
+        assert_eq!(trial.outcome(), Some(Outcome::Reached), "{}: {:?}", task.name, trial.contact());
     }
 }
 
@@ -236,8 +255,8 @@ proptest! {
         places in prop::collection::vec((0.0..40.0f64, 0.0..40.0f64, -3.2..3.2f64), 200),
     ) {
         let field = hilly(&hills);
-        let robot = RobotConfig::default();
-        let safe_poses = SafePoses::new(&field, &robot, &OracleConfig::default()).unwrap();
+        let (robot, world) = (RobotConfig::default(), bare(&field));
+        let safe_poses = SafePoses::new(&world, &OracleConfig::default()).unwrap();
         for (x, y, yaw_rad) in places {
             let at_m = DVec2::new(x, y);
             let safe = attitude_on(&field, at_m, yaw_rad, &robot)

@@ -22,7 +22,7 @@ use crate::files::write_atomically;
 use crate::results::Manifest;
 use crate::row::TrialRow;
 use comparison::EVEN;
-use mapless_terrain::generate::Difficulty;
+use mapless_terrain::generate::Family;
 use mapless_trials::statistics as stats;
 
 /// Folder of pages, figures and rows beside `RESULTS.md`.
@@ -101,12 +101,12 @@ impl Results {
         route.split_once('-').map_or(route, |(begin, _)| begin)
     }
 
-    /// Every group once, in the order of their names; difficulties begin with the easiest.
+    /// Every group once, in the order of their names; families of generated tasks in their own.
     fn groups(&self) -> Vec<&str> {
         let mut groups: Vec<&str> =
             self.manifest.routes.iter().map(|route| self.group(&route.name)).collect();
         groups.sort_unstable_by_key(|group| {
-            (Difficulty::ALL.iter().position(|difficulty| difficulty.name() == *group), *group)
+            (Family::ALL.iter().position(|family| family.name() == *group), *group)
         });
         groups.dedup();
         groups

@@ -7,8 +7,8 @@ fn no_import(_: &str, _: &Import) -> Result<Grid, Fault> {
     Err(Fault::Read { reason: "no imports".to_owned() })
 }
 
-fn field(difficulty: Difficulty, seed: u64) -> HeightField {
-    let recipe = terrain_recipe("x", difficulty, seed);
+fn field(family: Family, seed: u64) -> HeightField {
+    let recipe = terrain_recipe("x", family, seed);
     let terrain = load_recipe("x.toml", recipe.as_bytes(), &mut no_import);
     terrain.unwrap_or_else(|error| panic!("{error}\n{recipe}")).field
 }
@@ -17,9 +17,9 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
     #[test]
     fn every_seed_makes_a_terrain(seed in any::<u64>()) {
-        for difficulty in Difficulty::ALL {
-            let extent_m = field(difficulty, seed).extent_m();
-            prop_assert!((50.0 - 1e-9..=80.0 + 1e-9).contains(&extent_m.x));
+        for family in Family::ALL {
+            let extent_m = field(family, seed).extent_m();
+            prop_assert!((45.0 - 1e-9..=80.0 + 1e-9).contains(&extent_m.x));
             prop_assert_eq!(extent_m.x, extent_m.y);
         }
     }
@@ -27,7 +27,7 @@ proptest! {
 
 #[test]
 fn a_seed_repeats_and_differs_from_others() {
-    let recipe = |difficulty, seed| terrain_recipe("x", difficulty, seed);
+    let recipe = |difficulty, seed| terrain_recipe("x", Family::Ground(difficulty), seed);
     assert_eq!(recipe(Difficulty::Hard, 7), recipe(Difficulty::Hard, 7));
     assert_ne!(recipe(Difficulty::Hard, 7), recipe(Difficulty::Hard, 8));
     assert_ne!(recipe(Difficulty::Hard, 7), recipe(Difficulty::Easy, 7));
@@ -35,14 +35,15 @@ fn a_seed_repeats_and_differs_from_others() {
 
 #[test]
 fn names_are_quoted_and_read_back() {
-    let recipe = terrain_recipe("a \"b\"", Difficulty::Easy, 1);
+    let recipe = terrain_recipe("a \"b\"", Family::Ground(Difficulty::Easy), 1);
     let terrain = load_recipe("x.toml", recipe.as_bytes(), &mut no_import).unwrap();
     assert_eq!(terrain.name, "a \"b\"");
-    for difficulty in Difficulty::ALL {
-        assert_eq!(difficulty.name().parse(), Ok(difficulty));
+    for family in Family::ALL {
+        assert_eq!(family.name().parse(), Ok(family));
     }
-    let error = "harsh".parse::<Difficulty>().unwrap_err();
-    assert_eq!(error.to_string(), "difficulty \"harsh\": expected easy, moderate or hard");
+    let error = "harsh".parse::<Family>().unwrap_err();
+    let expected = "expected one of easy, moderate, hard, rocks, posts, walls, ditches, mixed, movers";
+    assert_eq!(error.to_string(), format!("family \"harsh\": {expected}"));
 }
 
 /// Over many terrains a harder level is steeper by every measure.
@@ -50,7 +51,11 @@ fn names_are_quoted_and_read_back() {
 fn harder_is_steeper() {
     let mean = |difficulty, measure: &dyn Fn(&SlopeDistribution) -> f64| {
         (0..12)
-            .map(|seed| measure(&SlopeDistribution::of(&field(difficulty, seed), BANK_REACH_M).unwrap()))
+            .map(|seed| {
+                measure(
+                    &SlopeDistribution::of(&field(Family::Ground(difficulty), seed), BANK_REACH_M).unwrap(),
+                )
+            })
             .sum::<f64>()
             / 12.0
     };
@@ -70,7 +75,7 @@ fn harder_is_steeper() {
 /// The same text on every target: its bytes are those of the first time.
 #[test]
 fn a_recipe_is_what_it_was() {
-    let recipe = terrain_recipe("x", Difficulty::Moderate, 1);
+    let recipe = terrain_recipe("x", Family::Ground(Difficulty::Moderate), 1);
     let sum = recipe.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     });

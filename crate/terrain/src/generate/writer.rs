@@ -73,6 +73,63 @@ impl Writer {
         self.number("smoothing_m", smoothing_m);
     }
 
+    pub(super) fn rock(&mut self, at: DVec2, radius_m: f64, sunk_m: f64) {
+        self.object("rock");
+        self.point("at", at);
+        self.number("radius_m", radius_m);
+        self.number("sunk_m", sunk_m);
+    }
+
+    pub(super) fn post(&mut self, at: DVec2, radius_m: f64, height_m: f64) {
+        self.object("post");
+        self.point("at", at);
+        self.number("radius_m", radius_m);
+        self.number("height_m", height_m);
+    }
+
+    pub(super) fn wall(&mut self, from: DVec2, to: DVec2, height_m: f64) {
+        self.object("wall");
+        self.point("from", from);
+        self.point("to", to);
+        self.number("height_m", height_m);
+    }
+
+    /// `through` is the direction in which it is driven through.
+    pub(super) fn gate(&mut self, at: DVec2, through: DVec2, width_m: f64, height_m: f64) {
+        self.object("gate");
+        self.point("at", at);
+        self.number("yaw_rad", libm::atan2(through.y, through.x));
+        self.number("width_m", width_m);
+        self.number("height_m", height_m);
+    }
+
+    /// A post of this radius and height that walks to a place and back.
+    pub(super) fn walker(
+        &mut self,
+        at: DVec2,
+        [radius_m, height_m]: [f64; 2],
+        to: DVec2,
+        speed_m_s: f64,
+        starts_within_m: Option<f64>,
+    ) {
+        self.post(at, radius_m, height_m);
+        let starts = starts_within_m.map(|near_m| format!(", starts_within_m = {near_m:.2}"));
+        self.entry(
+            "walk",
+            &format!(
+                "{{ path = [[{:.2}, {:.2}]], speed_m_s = {speed_m_s:.2}{} }}",
+                to.x,
+                to.y,
+                starts.unwrap_or_default()
+            ),
+        );
+    }
+
+    fn object(&mut self, kind: &str) {
+        self.table("objects");
+        self.entry("kind", &format!("{kind:?}"));
+    }
+
     fn table(&mut self, kind: &str) {
         let gap = if self.0.is_empty() { "" } else { "\n" };
         // Writing to a string cannot fail.

@@ -2,7 +2,7 @@
 
 use super::canvas::MAX_TOUCHED_SAMPLES;
 use super::*;
-use crate::generate::{Difficulty, terrain_recipe};
+use crate::generate::{Family, terrain_recipe};
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -356,8 +356,8 @@ fn shipped_and_generated_terrains_touch_few_samples() {
         }
     }
     assert!(texts.len() >= 5);
-    for difficulty in Difficulty::ALL {
-        texts.extend((0..4).map(|seed| terrain_recipe("a", difficulty, seed)));
+    for family in Family::ALL {
+        texts.extend((0..4).map(|seed| terrain_recipe("a", family, seed)));
     }
     for text in texts {
         let samples = effort(&text);

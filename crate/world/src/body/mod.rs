@@ -92,6 +92,29 @@ impl Body {
         }
     }
 
+    /// Height of its highest point over the ground between its wheels, metres.
+    #[must_use]
+    pub fn height_m(&self) -> f64 {
+        self.parts().map(|part| part.centre_m.z + part.half_m.z).fold(0.0, f64::max)
+    }
+
+    /// The same body, `beside_m` larger to all sides and `below_m` lower under deck and overhangs: for plans
+    /// that keep away from things.
+    #[must_use]
+    pub fn with_margin(mut self, beside_m: f64, below_m: f64) -> Self {
+        let beside = DVec3::new(beside_m, beside_m, 0.0);
+        let [ahead, behind] = &mut self.overhangs;
+        for part in [&mut self.deck, ahead, behind] {
+            part.half_m.z += below_m / 2.0;
+            part.centre_m.z -= below_m / 2.0;
+        }
+        let [ahead, behind] = &mut self.overhangs;
+        for part in [&mut self.deck, &mut self.mast, ahead, behind].into_iter().chain(&mut self.wheels) {
+            part.half_m += beside;
+        }
+        self
+    }
+
     /// Whether a solid lies clear of the body of a robot in this state.
     #[must_use]
     pub fn is_clear_of(&self, state: &RobotState, solid: &Solid) -> bool {

@@ -63,7 +63,16 @@ impl Objects {
 
     /// The solids that walk, where they are now.
     pub fn moving(&self) -> impl Iterator<Item = &Solid> {
-        self.solids.iter().filter(|solid| self.movers.iter().any(|mover| mover.object == solid.object))
+        self.solids.iter().filter(|solid| self.walks(solid))
+    }
+
+    /// The solids that stay where they are.
+    pub fn standing(&self) -> impl Iterator<Item = &Solid> {
+        self.solids.iter().filter(|solid| !self.walks(solid))
+    }
+
+    fn walks(&self, solid: &Solid) -> bool {
+        self.movers.iter().any(|mover| mover.object == solid.object)
     }
 
     /// Puts everything anew on ground that has changed.
