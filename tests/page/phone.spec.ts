@@ -145,7 +145,8 @@ function misplaced(page: Page, wholly: boolean): Promise<string[]> {
   return page.evaluate((wholly) => {
     window.scrollTo(0, 0);
     const parts = '.bar, .stage, .timeline';
-    const things = ':is(button, select, a, label, .scrub, .scene-caption, .brush, .detail, .result, .notice)';
+    const things =
+      ':is(button, select, a, label, .scrub, .scene-caption, .brush, .detail, .result, .notice, .return-key)';
     const name = ({ id, className, textContent }: Element) => id || textContent?.trim() || className;
     const shown = [...document.querySelectorAll(`:is(${parts}) ${things}`)].flatMap((one) => {
       // A label stands for its control; what is scrolled out of the row of tools is out of the way.
@@ -213,6 +214,11 @@ for (const [width, height] of [
     await page.locator('#result-words').evaluate((words) => words.replaceChildren('Tilt limit exceeded'));
     await page.locator('#result').evaluate((result) => result.removeAttribute('hidden'));
     expect(await found(), 'the result').toEqual([]);
+    await page.locator('#result').evaluate((result) => result.setAttribute('hidden', ''));
+    await page.locator('#return-key, #return-key li').evaluateAll((parts) => {
+      for (const part of parts) part.removeAttribute('hidden');
+    });
+    expect(await found(), 'the key of the returns').toEqual([]);
     for (const id of ['preset', 'learning']) expect(await readable(page, id), id).toBe(true);
     await page.keyboard.press('p');
     const close = await page.locator('.lab-close').boundingBox();

@@ -30,7 +30,13 @@ test('a mount is chosen in the drawer, and the robot drives with it', async ({ m
   await until(page, (now) => JSON.stringify(now.overrides) === '{"sensor":{"pitch_rad":-0.2618}}' && now.v_m_s > 0.2);
   await page.getByRole('button', { name: 'Upside down' }).click();
   await until(page, (now) => now.overrides.sensor !== undefined && !('pitch_rad' in Object(now.overrides.sensor)));
+  const roll = page.getByRole('spinbutton', { name: 'roll', exact: true });
+  await expect(roll).toHaveValue('3.1416');
   await until(page, (now) => now.v_m_s > 0.2);
+  // As shown it is a little more than half a turn; as meant it is half a turn.
+  await roll.fill('-3.1416');
+  await roll.blur();
+  await until(page, (now) => JSON.stringify(now.overrides) === `{"sensor":{"roll_rad":${-Math.PI}}}`);
   await page.getByRole('button', { name: 'Level' }).click();
   await until(page, (now) => Object.keys(now.overrides).length === 0);
 });

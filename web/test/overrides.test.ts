@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { countOverrides, override, sectionsOf, withOverride } from '../src/experiment/overrides.ts';
-import { complaintAbout, label, type ParameterGroup } from '../src/experiment/parameters.ts';
+import { complaintAbout, label, type ParameterGroup, shown } from '../src/experiment/parameters.ts';
 import { withMount } from '../src/lab/mount.ts';
 
 test('a value is set, counted, found and taken away, and the record before stays as it was', () => {
@@ -67,8 +67,34 @@ test('names are plain words', () => {
   assert.equal(label('inducing_spacing_length_scales'), 'inducing spacing');
 });
 
+test('angles are shown with four decimals at most, other values as they are', () => {
+  assert.equal(shown(Math.PI, 'rad'), '3.1416');
+  assert.equal(shown([-Math.PI, 0.05], 'rad'), '-3.1416, 0.05');
+  assert.equal(shown(0.00001234, 'm'), '0.00001234');
+});
+
+/** The group of a scenario whose own mount is this. */
+function mountGroup(values: Record<string, number>): ParameterGroup {
+  const parameters = Object.entries(values).map(([name, value]) => ({
+    name,
+    value,
+    kind: 'number',
+    unit: '',
+    text: '',
+  }));
+  return { table: 'sensor', title: 'Sensor mount', parameters } as ParameterGroup;
+}
+
 test('a mount takes the place of the one before and leaves the rest', () => {
-  const before = { sensor: { rings: 32, height_m: 1.2, pitch_rad: 0.1 } };
-  assert.deepEqual(withMount(before, { pitch_rad: -0.2618 }), { sensor: { rings: 32, pitch_rad: -0.2618 } });
-  assert.deepEqual(withMount({ sensor: { left_m: 0.2 } }, {}), {});
+  const own = mountGroup({ height_m: 0.6, left_m: 0, roll_rad: 0, pitch_rad: 0 });
+  const before = { sensor: { rings: 32, height_m: 1.2, roll_rad: 3 } };
+  const down = { roll_rad: 0, pitch_rad: -0.2618 };
+  assert.deepEqual(withMount(before, down, own), { sensor: { rings: 32, pitch_rad: -0.2618 } });
+  assert.deepEqual(withMount({ sensor: { left_m: 0.2 } }, { roll_rad: 0, pitch_rad: 0 }, own), {});
+});
+
+test('a level mount is level where that of the scenario is tilted', () => {
+  const own = mountGroup({ roll_rad: 0, pitch_rad: -0.3 });
+  assert.deepEqual(withMount({}, { roll_rad: 0, pitch_rad: 0 }, own), { sensor: { pitch_rad: 0 } });
+  assert.deepEqual(withMount({ sensor: { roll_rad: 1 } }, { roll_rad: 0, pitch_rad: -0.3 }, own), {});
 });

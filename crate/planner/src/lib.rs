@@ -37,6 +37,21 @@
 //! # Ok::<(), mapless::ConfigError>(())
 //! ```
 //!
+//! Another sensor or robot starts from one that is known, and its fields are set. A struct expression does not
+//! compile outside this crate, because later versions may add fields.
+//!
+//! ```
+//! # use mapless::{Planner, PlannerConfig, RobotModel, SensorModel};
+//! let mut sensor = SensorModel::vlp16();
+//! sensor.rings = 32;
+//! sensor.lowest_elevation_rad = -25_f64.to_radians();
+//! sensor.highest_elevation_rad = 15_f64.to_radians();
+//! sensor.height_m = 1.1;
+//! sensor.pitch_rad = -5_f64.to_radians(); // mounted nose-down
+//! let planner = Planner::new(PlannerConfig::for_robot(sensor, RobotModel::husky()))?;
+//! # Ok::<(), mapless::ConfigError>(())
+//! ```
+//!
 //! # What it takes
 //!
 //! | | type | unit and frame |

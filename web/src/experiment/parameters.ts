@@ -11,11 +11,12 @@ export function label(name: string): string {
   return name.replace(UNITS, '').replaceAll('_', ' ');
 }
 
-/** A value as it is written in a field or a sentence. */
-export function shown(value: OverrideValue): string {
+/** A value as it is written in a field or a sentence; angles have four decimals at most. */
+export function shown(value: OverrideValue, unit = ''): string {
   if (typeof value === 'boolean') return value ? 'on' : 'off';
   if (typeof value === 'string') return value.replaceAll('_', ' ');
-  return typeof value === 'number' ? String(value) : value.join(', ');
+  const rounded = (one: unknown) => String(unit === 'rad' && typeof one === 'number' ? Number(one.toFixed(4)) : one);
+  return typeof value === 'number' ? rounded(value) : value.map(rounded).join(', ');
 }
 
 /** The parameter that a message of the core complains about, as `table.name`. */

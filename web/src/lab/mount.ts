@@ -15,14 +15,16 @@ const NAMES: readonly string[] = [
   'yaw_rad',
 ] satisfies (keyof Mount)[];
 
-/** What differs from the mount that the scenario has. */
+/** What a mount to try sets; the rest is as the scenario has it. */
 export type MountPreset = Partial<Mount>;
 
+const LEVEL: MountPreset = { roll_rad: 0, pitch_rad: 0 };
+
 const PRESETS: readonly (readonly [string, MountPreset])[] = [
-  ['Level', {}],
-  ['15° down', { pitch_rad: -0.2618 }],
-  ['Upside down', { roll_rad: Math.PI }],
-  ['Mast of 1.7 m', { height_m: 1.7 }],
+  ['Level', LEVEL],
+  ['15° down', { ...LEVEL, pitch_rad: -0.2618 }],
+  ['Upside down', { ...LEVEL, roll_rad: Math.PI }],
+  ['Mast of 1.7 m', { ...LEVEL, height_m: 1.7 }],
 ];
 
 /** The group in two where it has the mount in it. */
@@ -35,10 +37,13 @@ export function mountOf(group: ParameterGroup): ParameterGroup[] {
   ];
 }
 
-/** Mounts the sensor so; whatever else is overridden stays. */
-export function withMount(overrides: Overrides, mount: MountPreset): Overrides {
+/** Mounts the sensor so; whatever else is overridden stays. `group` has the values of the scenario itself. */
+export function withMount(overrides: Overrides, mount: MountPreset, group: ParameterGroup): Overrides {
   const values: Record<string, OverrideValue | undefined> = mount;
-  return NAMES.reduce((all, name) => withOverride(all, 'sensor', name, values[name]), overrides);
+  return group.parameters.reduce(
+    (all, { name, value }) => withOverride(all, group.table, name, values[name] === value ? undefined : values[name]),
+    overrides,
+  );
 }
 
 /** A row of buttons, for the group of the mount. */

@@ -21,6 +21,8 @@ export class ParameterField {
   readonly #angle = html('span', 'parameter-unit');
   readonly #fault = html('p', 'parameter-fault');
   readonly #words: string;
+  /** What holds; the fields may show it rounded. */
+  #values: readonly (number | string | boolean)[] = [];
 
   constructor(table: string, parameter: Parameter, events: FieldEvents) {
     this.path = `${table}.${parameter.name}`;
@@ -68,8 +70,9 @@ export class ParameterField {
     const values = Array.isArray(now) ? now : [now];
     for (const [index, input] of this.#inputs.entries()) {
       if (input instanceof HTMLInputElement && input.type === 'checkbox') input.checked = now === true;
-      else input.value = String(values[index]);
+      else input.value = written(values[index] ?? '', this.#parameter);
     }
+    this.#values = values;
     this.#reset.hidden = value === undefined;
     this.element.classList.toggle('is-changed', value !== undefined);
     const angles = this.#parameter.unit === 'rad' ? values.map((angle) => degrees(Number(angle), 1)).join(', ') : '';
@@ -90,7 +93,7 @@ export class ParameterField {
   }
 
   #changed(events: FieldEvents): void {
-    const values = this.#inputs.map((input) => read(input, this.#parameter));
+    const values = this.#inputs.map((input, index) => this.#read(input, this.#values[index]));
     const bad = values.find((value) => typeof value === 'number' && !Number.isFinite(value));
     if (bad !== undefined) {
       this.complain('Expected a number.');
@@ -100,6 +103,18 @@ export class ParameterField {
     const own = JSON.stringify(value) === JSON.stringify(this.#parameter.value);
     events.change(own ? undefined : value);
   }
+
+  /** What somebody entered; a number that reads like the one that holds, or like an end of the range, is that one. */
+  #read(input: Input, held: number | string | boolean | undefined): number | string | boolean {
+    const exact = [held, ...(this.#parameter.range ?? [])];
+    const meant = exact.find((one) => typeof one === 'number' && written(one, this.#parameter) === input.value);
+    return meant ?? read(input, this.#parameter);
+  }
+}
+
+/** What a field holds for a value. */
+function written(value: number | string | boolean, { unit }: Parameter): string {
+  return typeof value === 'number' ? shown(value, unit) : String(value);
 }
 
 function read(input: Input, { kind }: Parameter): number | string | boolean {
@@ -133,9 +148,9 @@ function makeInputs(parameter: Parameter, path: string): Input[] {
 }
 
 /** What is usual, what holds by itself and what the paper says, in one line. */
-function facts(parameter: Parameter): string {
-  const own = `Default ${shown(parameter.value)}`;
-  const paper = parameter.paper === undefined ? 'paper: not given' : `paper ${shown(parameter.paper)}`;
-  const usual = parameter.range ? `usual ${parameter.range.join(' to ')}` : undefined;
-  return [own, paper, usual].filter((fact) => fact !== undefined).join(' · ');
+function facts({ value, paper, range, unit }: Parameter): string {
+  const own = `Default ${shown(value, unit)}`;
+  const papers = paper === undefined ? 'paper: not given' : `paper ${shown(paper, unit)}`;
+  const usual = range ? `usual ${range.map((end) => shown(end, unit)).join(' to ')}` : undefined;
+  return [own, papers, usual].filter((fact) => fact !== undefined).join(' · ');
 }

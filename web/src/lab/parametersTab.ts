@@ -96,7 +96,7 @@ export class ParametersTab implements Tab {
     );
     const element = html('details', 'parameter-group', [
       html('summary', '', [html('h3', '', [group.title]), count]),
-      ...presetButtons(group, (mount) => void this.#mount(mount)),
+      ...presetButtons(group, (mount) => void this.#mount(mount, group)),
       ...fields.map((field) => field.element),
     ]);
     element.open = open;
@@ -116,9 +116,9 @@ export class ParametersTab implements Tab {
   }
 
   /** Mounts the sensor anew; what else was changed stays. */
-  async #mount(mount: MountPreset): Promise<void> {
+  async #mount(mount: MountPreset, group: ParameterGroup): Promise<void> {
     const overrides = this.#app.info?.overrides;
-    if (overrides) await this.#apply(withMount(overrides, mount), undefined);
+    if (overrides) await this.#apply(withMount(overrides, mount, group), undefined);
   }
 
   /** Tries other values; a message of the core is shown at the field it speaks of, and nothing changes. */
