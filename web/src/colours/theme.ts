@@ -20,6 +20,8 @@ export interface Theme {
   /** What stands on the ground, and what walks on it. */
   readonly object: Rgb;
   readonly mover: Rgb;
+  /** An object in hand. */
+  readonly held: Rgb;
   readonly contour: Rgb;
   /** From observed (low variance) to free (high variance). */
   readonly variance: readonly Rgb[];
@@ -50,6 +52,7 @@ export function readTheme(): Theme {
     rock: colour('relief-rock'),
     object: colour('object'),
     mover: colour('mover'),
+    held: colour('accent-fill'),
     contour: colour('relief-contour'),
     variance: [0, 1, 2].map((step) => colour(`variance-${step}`)),
     returnNear: colour('return-near'),

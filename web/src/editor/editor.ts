@@ -9,7 +9,7 @@ import {
   tidyHeading,
   tidyPlace,
 } from '../experiment/experiment.ts';
-import type { WorldObject } from '../experiment/objects.ts';
+import { tidyObject, type WorldObject } from '../experiment/objects.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Heading, Place } from '../experiment/place.ts';
 import type {
@@ -161,10 +161,16 @@ export class Editor {
 
   /** Other objects in place of those there are, which `change` is given once all changes before are made. */
   setObjects(change: (objects: readonly WorldObject[]) => readonly WorldObject[]): Promise<void> {
-    return this.#edit(
-      () => ({ objects: change(this.#core.info()?.objects ?? []) }),
-      ({ objects = [] }) => ({ type: 'objects', objects }),
-    );
+    const tidy = () => {
+      const [before, ground] = [this.#core.info()?.objects ?? [], this.#core.ground()];
+      if (!ground) throw new Error('There is no ground yet.');
+      const { columns, rows, cell_m } = ground;
+      // What did not change stays as it was written.
+      const keep = (object: WorldObject) =>
+        before.includes(object) ? object : tidyObject(object, (columns - 1) * cell_m, (rows - 1) * cell_m);
+      return { objects: change(before).map(keep) };
+    };
+    return this.#edit(tidy, ({ objects = [] }) => ({ type: 'objects', objects }));
   }
 
   /** Begins a stroke: `touch` it, then `end` it. Everything else waits until it has ended. */

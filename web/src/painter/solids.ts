@@ -56,7 +56,7 @@ export class Solids {
   theme(theme: Theme): void {
     this.#stands = colour(theme.object);
     this.#walksIn = colour(theme.mover);
-    this.#heldIn = colour(theme.accent);
+    this.#heldIn = colour(theme.held);
     this.#draw();
     this.#drawWalks();
   }

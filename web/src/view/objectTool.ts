@@ -10,7 +10,6 @@ import {
   placeOf,
   resized,
   sizeWords,
-  tidyObject,
   turned,
   type WorldObject,
   withEnd,
@@ -279,22 +278,14 @@ export class ObjectTool {
     const made = makeObject(this.#kind, from, heading_rad, end);
     this.#set((objects) => {
       this.#held = objects.length;
-      return [...objects, this.#tidy(made)];
+      return [...objects, made];
     }, 'placed');
   }
 
   #alter(change: (object: WorldObject) => WorldObject): void {
     const held = this.#held;
     if (held === undefined) return;
-    this.#set(
-      (objects) => objects.map((object, index) => (index === held ? this.#tidy(change(object)) : object)),
-      'is now',
-    );
-  }
-
-  #tidy(object: WorldObject): WorldObject {
-    const { field } = this.#stage;
-    return field ? tidyObject(object, field.width_m, field.depth_m) : object;
+    this.#set((objects) => objects.map((object, index) => (index === held ? change(object) : object)), 'is now');
   }
 
   #set(change: ChangeObjects, what: string): void {
