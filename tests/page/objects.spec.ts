@@ -219,7 +219,7 @@ test('a link, the next visit and files keep them', async ({ mapless: page, brows
 plain.describe('with a finger', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 
-  test('a rock is placed by a tap, dragged, sized and deleted', async ({ mapless: page }) => {
+  test('a rock is placed by a tap, sized, deleted, brought back and dragged', async ({ mapless: page }) => {
     await shortCourse(page, 6);
     await still(page);
     await press(page.locator('label.tool', { hasText: 'Objects' }));
@@ -234,14 +234,14 @@ plain.describe('with a finger', () => {
     await still(page);
     await press(button(page, 'Smaller'));
     await until(page, ({ objects }) => objects[0]?.kind === 'rock' && objects[0].radius_m < 0.5);
-    await still(page);
-    const [rock] = await objectsOf(page);
-    await drag(page, [await within(view(page), 0.5, 0.48), await within(view(page), 0.7, 0.52)]);
-    await until(page, ({ objects }) => placeOf(objects[0])?.[0] !== placeOf(rock)?.[0]);
-    await still(page);
     await press(button(page, 'Delete'));
     await count(page, 0);
     await press(button(page, 'Undo'));
     await count(page, 1);
+    await still(page);
+    const [rock] = await objectsOf(page);
+    // The last of all: the browser may take a tap right after a drag for the end of a fling.
+    await drag(page, [await within(view(page), 0.5, 0.48), await within(view(page), 0.7, 0.52)]);
+    await until(page, ({ objects }) => placeOf(objects[0])?.[0] !== placeOf(rock)?.[0]);
   });
 });
