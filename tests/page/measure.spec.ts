@@ -200,7 +200,7 @@ test('the digest goes to the clipboard, the paper’s numbers stand beside the r
   await page.evaluate(() => window.mapless?.setGoal({ x: 30, y: 20 }));
   await expect(paper).toBeHidden();
   await expect(page.locator('.plot-paper')).toHaveCount(0);
-  await expect(lesson).toHaveText('Changed: ground, start or route are no longer the scenario’s.');
+  await expect(lesson).toHaveText('Changed: ground, objects, start or route are no longer the scenario’s.');
   await page.evaluate(() => window.mapless?.undo());
   await expect(paper).toBeVisible();
   await expect(lesson).toContainText('too steep');

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { readExperiment } from '../src/experiment/readExperiment.ts';
 import { recipeFile, scenarioFile, strokeKeys } from '../src/experiment/scenarioFiles.ts';
-import { EXPERIMENT, STROKE } from './example.ts';
+import { EXPERIMENT, OBJECTS, STROKE } from './example.ts';
 
 /** The document with one part replaced, by the path of its keys. */
 function changed(path: readonly (string | number)[], value: unknown): unknown {
@@ -70,6 +70,30 @@ test('endless nesting and too many touches are refused', () => {
   assert.throws(() => readExperiment(changed(['strokes'], many)), /strokes = "55000 touches": expected at most 50000/);
   assert.throws(() => readExperiment(null), /version = absent/);
   assert.throws(() => readExperiment('{}'), /version = absent/);
+});
+
+test('objects of every kind are read as they were written, and written as the command line reads them', () => {
+  const experiment = { ...EXPERIMENT, objects: OBJECTS };
+  assert.deepEqual(readExperiment(JSON.parse(JSON.stringify(experiment))), experiment);
+  const scenario = scenarioFile(experiment, 'terrain.toml');
+  assert.equal(scenario.split('\n[[objects]]\n').length, OBJECTS.length + 1);
+  assert.ok(scenario.includes('[[objects]]\nkind = "wall"\nfrom = [1, 2]\nto = [4, 2]\nheight_m = 1\n'), scenario);
+  assert.ok(scenario.includes('\nwalk = { path = [[5, 5]], speed_m_s = 0.8 }\n'), scenario);
+  // The terrain may list some.
+  assert.ok(scenarioFile({ ...EXPERIMENT, objects: [] }, 'terrain.toml').includes('\nobjects = []\n'));
+  assert.ok(!scenarioFile(EXPERIMENT, 'terrain.toml').includes('objects'));
+});
+
+test('objects that make no sense are refused in words', () => {
+  const refused = (object: unknown, why: RegExp) =>
+    assert.throws(() => readExperiment({ ...EXPERIMENT, objects: [object] }), why);
+  refused({ kind: 'tree' }, /^Error: objects\[0\]\.kind = "tree": expected post or box or rock/);
+  refused({ kind: 'rock', at: [1, 2] }, /objects\[0\]\.radius_m = absent/);
+  refused({ kind: 'rock', at: [1], radius_m: 1 }, /objects\[0\]\.at = \[1\]: expected 2 numbers/);
+  refused({ kind: 'rock', at: [-1, 2], radius_m: 1 }, /objects\[0\]\.at\[0\] = -1: expected a number from 0/);
+  refused({ kind: 'rock', at: [1, 2], radius_m: 1, walk: {} }, /objects\[0\]\.walk = \{\}: expected one of the keys/);
+  refused({ kind: 'post', at: [1, 2], radius_m: 1, height_m: 1, walk: { path: [], speed_m_s: 1 } }, /1 to 100 points/);
+  assert.throws(() => readExperiment({ ...EXPERIMENT, objects: new Array(1001).fill(OBJECTS[0]) }), /at most 1000/);
 });
 
 test('strokes and scenarios are written as the command line reads them', () => {

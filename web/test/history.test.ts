@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Editor } from '../src/editor/editor.ts';
+import type { WorldObject } from '../src/experiment/objects.ts';
 import type { Command, Ground, GroundPatch, SessionInfo, Source } from '../src/protocol/simulationProtocol.ts';
 import { EXPERIMENT } from './example.ts';
 
@@ -119,6 +120,28 @@ test('another start, route or ground is not the scenario’s any more, until it 
   }
   await core.editor.change({ preset: 'paper' });
   assert.equal(core.editor.asItComes, true);
+});
+
+test('objects share the history, and are taken back without loading where it is known what stood there', async () => {
+  const core = new Core();
+  const post = { kind: 'post', at: [1.004, 2], radius_m: 0.2, height_m: 1 } as const satisfies WorldObject;
+  core.info = { objects: [] } as unknown as SessionInfo;
+  await core.editor.open(SOURCE, false, false);
+  core.asked.length = 0;
+  await core.editor.setObjects((objects) => [...objects, { ...post, at: [...post.at] }]);
+  assert.deepEqual(core.editor.experiment?.objects, [{ ...post, at: [1, 2] }]);
+  assert.equal(core.editor.asItComes, false);
+  await core.editor.undo();
+  assert.equal(core.editor.experiment?.objects, undefined);
+  assert.equal(core.editor.asItComes, true);
+  await core.editor.redo();
+  assert.deepEqual(core.asked, ['objects', 'objects', 'objects']);
+  // Of an experiment that says its objects it is not known what stands there without them.
+  await core.editor.open({ experiment: { ...SOURCE.experiment, objects: [] } }, true, false);
+  core.asked.length = 0;
+  await core.editor.undo();
+  await core.editor.undo();
+  assert.deepEqual(core.asked, ['objects', 'load']);
 });
 
 test('settings and other terrains are undone by loading', async () => {

@@ -3,7 +3,7 @@ import { test } from 'node:test';
 import { deflateRawSync } from 'node:zlib';
 import type { Experiment } from '../src/experiment/experiment.ts';
 import { carriesExperiment, experimentIn, linkTo, MAX_LINK_CHARACTERS } from '../src/experiment/link.ts';
-import { EXPERIMENT } from './example.ts';
+import { EXPERIMENT, OBJECTS } from './example.ts';
 
 const ADDRESS = 'https://example.org/mapless/#old';
 
@@ -31,6 +31,8 @@ test('a link gives the same experiment back', async () => {
   assert.deepEqual(await experimentIn(hashOf(link)), EXPERIMENT);
   const turned: Experiment = { ...EXPERIMENT, goal: { x: 14, y: 57, heading_rad: -1.571 } };
   assert.deepEqual(await experimentIn(hashOf(await linkTo(ADDRESS, turned))), turned);
+  const furnished: Experiment = { ...EXPERIMENT, objects: OBJECTS };
+  assert.deepEqual(await experimentIn(hashOf(await linkTo(ADDRESS, furnished))), furnished);
 });
 
 test('a recipe fits into a chat message, and so does an afternoon of sculpting', async () => {

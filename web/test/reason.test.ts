@@ -33,6 +33,14 @@ test('names the angle that broke its limit', () => {
   assert.match(reason(frame({ outcome: 'tilt_limit', metrics: steep }), info), /^Pitch came to 45\.8°/);
 });
 
+test('names what the body touched, and where', () => {
+  const touched = frame({ outcome: 'collision', stop_reason: 'the body ran into post 1 at (3.00, 4.00) m' });
+  assert.equal(reason(touched, info), 'The body ran into post 1 at (3.00, 4.00) m.');
+  assert.equal(standing(touched, true), 'Collided');
+  assert.equal(standing(frame({ outcome: 'high_centred' }), true), 'High-centred');
+  assert.equal(standing(frame({ outcome: 'step' }), true), 'Stopped by a step');
+});
+
 test('passes on why the planner stopped', () => {
   const stopped = frame({ outcome: 'no_subgoal', stop_reason: 'no subgoal found after looking around' });
   assert.equal(reason(stopped, info), 'No subgoal found after looking around.');

@@ -7,6 +7,7 @@ use toml::Table;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
+use crate::objects::ObjectList;
 use crate::places::{Goal, Heading, Place};
 use crate::shared::{Overrides, give};
 use crate::terrain::TerrainFiles;
@@ -87,6 +88,9 @@ pub struct ScenarioRead {
     seed: f64,
     /// Its tables `planner`, `sensor`, `robot` and `reality` as written, where they are there.
     overrides: Overrides,
+    /// Absent where the scenario stands on what its terrain lists.
+    #[tsify(optional)]
+    objects: Option<ObjectList>,
 }
 
 /// Reads a scenario file.
@@ -105,5 +109,6 @@ pub fn read_scenario(file: &str, text: &str) -> Result<Ts<ScenarioRead>, JsError
         goal: Goal::new(scenario.goal_m, scenario.goal_heading_rad),
         seed: scenario.seed as f64,
         overrides: Overrides(written),
+        objects: scenario.objects.map(ObjectList),
     })
 }

@@ -3,6 +3,7 @@
 import { Editor } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { type Experiment, FIRST_SETUP, type Holes, type Stroke } from '../experiment/experiment.ts';
+import type { WorldObject } from '../experiment/objects.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setup } from '../experiment/setting.ts';
@@ -15,6 +16,7 @@ import type {
   Loaded,
   NamedFile,
   SessionInfo,
+  Solid,
   Source,
 } from '../protocol/simulationProtocol.ts';
 import { RunRecord } from '../run/record.ts';
@@ -33,8 +35,8 @@ export interface Views {
   session(info: SessionInfo, field: HeightField | undefined): void;
   frame(frame: Frame): void;
   status(frame: Frame, playing: boolean): void;
-  /** The ground was sculpted: these heights are new. */
-  sculpted(patch: GroundPatch): void;
+  /** The ground was sculpted: these heights are new, and what stands on it stands so. */
+  sculpted(patch: GroundPatch, solids: readonly Solid[]): void;
   playing(playing: boolean): void;
   speed(speed: number): void;
   /** Resolves once all is drawn and nothing moves any more. */
@@ -116,6 +118,7 @@ export class App {
       buffers: _buffers,
       trail: _trail,
       rows: _rows,
+      movers: _movers,
       anew: _anew,
       ahead: _ahead,
       path: _path,
@@ -141,6 +144,7 @@ export class App {
       start: info.start,
       waypoints: info.waypoints,
       goal: info.goal,
+      objects: info.objects,
       overrides: info.overrides,
       playing: this.#playing,
       speed: this.#speed,
@@ -222,7 +226,7 @@ export class App {
     this.#core.listen({
       session: (info, loaded) => this.#onSession(info, loaded),
       frame: (frame) => this.#onFrame(frame),
-      ground: (patch) => this.#onPatch(patch),
+      ground: (patch, solids) => this.#onPatch(patch, solids),
       failure: (message, panicked) => this.#onFailure(message, panicked),
       slow: () => this.#views.slow(() => this.#stopOpening()),
       opened: () => this.#views.clearSlow(),
@@ -361,6 +365,12 @@ export class App {
     await this.editor.setStart(start);
   }
 
+  /** Other objects in place of those there are, which `change` is given. */
+  async setObjects(change: (objects: readonly WorldObject[]) => readonly WorldObject[]): Promise<void> {
+    this.#autoAdvance.stop();
+    await this.editor.setObjects(change);
+  }
+
   /** A whole stroke at once. */
   sculpt({ points_cm, ...brush }: Stroke): Promise<void> {
     const stroke = this.editor.stroke(brush);
@@ -429,10 +439,10 @@ export class App {
     else this.#views.clearNotice();
   }
 
-  #onPatch(patch: GroundPatch): void {
+  #onPatch(patch: GroundPatch, solids: readonly Solid[]): void {
     this.#field?.patch(patch);
     this.editor.patched(patch);
-    this.#views.sculpted(patch);
+    this.#views.sculpted(patch, solids);
   }
 
   #onFrame(frame: Frame): void {

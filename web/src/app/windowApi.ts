@@ -7,19 +7,24 @@
 import { number } from '../base/checks.ts';
 import type { Experiment, Stroke } from '../experiment/experiment.ts';
 import { linkTo } from '../experiment/link.ts';
+import type { WorldObject } from '../experiment/objects.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
 import { readExperiment, readStroke } from '../experiment/readExperiment.ts';
+import { readObjects } from '../experiment/readObjects.ts';
 import type { Setting } from '../experiment/setting.ts';
 import type { Frame, SessionInfo, SetAside } from '../protocol/simulationProtocol.ts';
 import type { App } from './app.ts';
 
 /** Arrays and what only drawing needs stay out. */
-type Drawn = 'buffers' | 'trail' | 'rows' | 'anew' | 'ahead' | 'path' | 'sensor' | 'segments' | 'subgoals';
+type Drawn = 'buffers' | 'trail' | 'rows' | 'anew' | 'ahead' | 'movers' | 'path' | 'sensor' | 'segments' | 'subgoals';
 
 /** What the page shows, as plain data. */
 export type MaplessState = Omit<Frame, Drawn | 'stop_reason' | 'set_aside' | 'mount_misfit' | 'waypoints_passed'> &
-  Pick<SessionInfo, 'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'waypoints' | 'goal' | 'overrides'> & {
+  Pick<
+    SessionInfo,
+    'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'waypoints' | 'goal' | 'objects' | 'overrides'
+  > & {
     /** Why the planner stopped, where it did. */
     readonly stopReason: string | undefined;
     /** How many returns of the last scan the planner set aside, by kind. */
@@ -60,6 +65,8 @@ export interface MaplessApi {
   setOverrides(overrides: Overrides): Promise<void>;
   setStart(start: Heading): Promise<void>;
   sculpt(stroke: Stroke): Promise<void>;
+  /** Puts objects on the ground in place of all there are. */
+  setObjects(objects: readonly WorldObject[]): Promise<void>;
   /** Everything that a run depends on, as plain data; nothing until the first scenario is loaded. */
   experiment(): Experiment | undefined;
   /** Loads an experiment, after checking it. */
@@ -104,6 +111,10 @@ export function publish(app: App): void {
     setOverrides: used((overrides: Overrides) => app.setOverrides(overrides)),
     setStart: used((start: Heading) => app.setStart(start)),
     sculpt: used((stroke: Stroke) => app.sculpt(readStroke(stroke))),
+    setObjects: used(async (objects: readonly WorldObject[]) => {
+      const read = readObjects(objects);
+      await app.setObjects(() => read);
+    }),
     experiment: () => app.editor.experiment,
     openExperiment: used(async (value: unknown) => app.open({ experiment: readExperiment(value) })),
     link: async () => {

@@ -21,3 +21,32 @@ export function oneOf<T extends string>(value: unknown, place: string, names: re
   const found = names.find((name) => name === value);
   return found ?? fail(place, value, names.join(' or '));
 }
+
+type Fields = Record<string, unknown>;
+
+/** An object with these keys and no others; those after `optional` may be absent. */
+export function fields(
+  value: unknown,
+  place: string,
+  required: readonly string[],
+  optional: readonly string[] = [],
+): Fields {
+  if (typeof value !== 'object' || value === null || Array.isArray(value)) fail(place, value, 'a table');
+  const found = value as Fields;
+  for (const key of Object.keys(found)) {
+    if (!required.includes(key) && !optional.includes(key)) {
+      fail(`${place}.${key}`, found[key], `one of the keys ${[...required, ...optional].join(', ')}`);
+    }
+  }
+  for (const key of required) {
+    if (found[key] === undefined) fail(`${place}.${key}`, undefined, 'a value');
+  }
+  return found;
+}
+
+/** A list of at most so many entries. */
+export function list(value: unknown, place: string, most: number): readonly unknown[] {
+  if (!Array.isArray(value)) fail(place, value, 'a list');
+  if (value.length > most) fail(place, `${value.length} entries`, `at most ${most}`);
+  return value;
+}

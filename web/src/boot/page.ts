@@ -8,6 +8,7 @@ import { BrushPanel } from '../controls/brushPanel.ts';
 import { Controls } from '../controls/controls.ts';
 import { GroundKey } from '../controls/groundKey.ts';
 import { bindKeys } from '../controls/keys.ts';
+import { ObjectPanel } from '../controls/objectPanel.ts';
 import { ShareSheet } from '../controls/shareSheet.ts';
 import { TerrainsSheet } from '../controls/terrainsSheet.ts';
 import { TimelineBar } from '../controls/timelineBar.ts';
@@ -27,6 +28,7 @@ import { Notice } from '../notices/notice.ts';
 import { keepOffline } from '../offline/register.ts';
 import { published } from '../run/published.ts';
 import { GroundTools } from '../view/groundTools.ts';
+import { ObjectTool } from '../view/objectTool.ts';
 import { Stage } from '../view/stage.ts';
 import { beginPlainly, begun, core } from './startCore.ts';
 import { begin, leadOut } from './welcome.ts';
@@ -78,7 +80,7 @@ function showCourse({ experiment, asItComes }: Editor): void {
   setText(element('scene-lesson'), asItComes === false ? CHANGED : entry(name).lesson);
 }
 
-const CHANGED = 'Changed: ground, start or route are no longer the scenario’s.';
+const CHANGED = 'Changed: ground, objects, start or route are no longer the scenario’s.';
 
 const SLOW = 'Opening this takes long. Wait for it, or stop it and go on with what was there before.';
 
@@ -96,6 +98,7 @@ const app = new App(core, {
     status.session(info);
     measure.session(info);
     controls.showSession(info);
+    objectTool?.show(info.objects);
     groundKey.session(info);
     if (field) {
       groundKey.ground(field);
@@ -124,8 +127,8 @@ const app = new App(core, {
     result.dataset.outcome = frame.outcome;
     setText(element('result-words'), OUTCOME_WORDS[frame.outcome]);
   },
-  sculpted(patch) {
-    stage?.sculpted(patch);
+  sculpted(patch, solids) {
+    stage?.sculpted(patch, solids);
     lab?.sculpted();
     if (app.field) groundKey.ground(app.field);
   },
@@ -186,6 +189,22 @@ const tools = stage
     })
   : undefined;
 
+const objectTool = stage
+  ? new ObjectTool(view, stage, {
+      setObjects: (change) => app.attempt(app.setObjects(change)),
+      pressed: (onGround) => controls.showHint(onGround),
+      changed: (objects, held) => objectPanel.show(objects, held),
+      say: (words) => objectPanel.say(words),
+    })
+  : undefined;
+const objectPanel = new ObjectPanel({
+  kind: (kind) => objectTool?.kind(kind),
+  hold: (object) => objectTool?.hold(object),
+  turn: (times) => objectTool?.turn(times),
+  grow: (times) => objectTool?.grow(times),
+  remove: () => objectTool?.remove(),
+});
+
 const actions = {
   togglePlay: () => app.attempt(app.togglePlay()),
   step: () => app.attempt(app.step()),
@@ -196,6 +215,8 @@ const actions = {
   load: (...args: Parameters<App['runScenario']>) => app.attempt(app.runScenario(...args)),
   selectTool(tool: Parameters<GroundTools['select']>[0]) {
     tools?.select(tool);
+    objectTool?.select(tool === 'objects');
+    objectPanel.tool(tool);
     controls.showTool(tool);
     brushPanel.tool(tool);
   },

@@ -17,6 +17,11 @@ export interface Theme {
   /** Where the robot may stand at any heading, at some, at none. */
   readonly stand: readonly Rgb[];
   readonly rock: Rgb;
+  /** What stands on the ground, and what walks on it. */
+  readonly object: Rgb;
+  readonly mover: Rgb;
+  /** An object in hand. */
+  readonly held: Rgb;
   readonly contour: Rgb;
   /** From observed (low variance) to free (high variance). */
   readonly variance: readonly Rgb[];
@@ -45,6 +50,9 @@ export function readTheme(): Theme {
     slope: [0, 1, 2, 3, 4].map((step) => colour(`slope-${step}`)),
     stand: [0, 1, 2].map((step) => colour(`stand-${step}`)),
     rock: colour('relief-rock'),
+    object: colour('object'),
+    mover: colour('mover'),
+    held: colour('accent-fill'),
     contour: colour('relief-contour'),
     variance: [0, 1, 2].map((step) => colour(`variance-${step}`)),
     returnNear: colour('return-near'),

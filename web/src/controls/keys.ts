@@ -53,6 +53,7 @@ export function bindKeys(actions: KeyActions, inspector: InspectorKeys): void {
     ']': () => actions.growBrush(1),
     '{': () => actions.strengthenBrush(-1),
     '}': () => actions.strengthenBrush(1),
+    a: () => actions.selectTool('objects'),
     c: () => actions.selectTool('crater'),
     d: () => actions.selectTool('ditch'),
     b: () => actions.selectTool('boulder'),

@@ -9,6 +9,7 @@ import {
   tidyHeading,
   tidyPlace,
 } from '../experiment/experiment.ts';
+import { tidyObject, type WorldObject } from '../experiment/objects.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Heading, Place } from '../experiment/place.ts';
 import type {
@@ -50,6 +51,8 @@ export class Editor {
   #loaded: Experiment | undefined;
   /** The scenario that the experiment is named after. */
   #scenario: Experiment | undefined;
+  /** What stands on the ground where the document does not say it. */
+  #unsaid: readonly WorldObject[] | undefined;
   #inHand: StrokeInHand | undefined;
   /** Changes are made one after the other. */
   #queue: Promise<void> = Promise.resolve();
@@ -74,6 +77,7 @@ export class Editor {
   loaded({ experiment, scenario }: Pick<Loaded, 'experiment' | 'scenario'>): void {
     this.#loaded = experiment;
     this.#scenario = scenario;
+    this.#unsaid = experiment.objects ? undefined : this.#core.info()?.objects;
   }
 
   /** Whether ground, start and route are those of the scenario that the experiment is named after; nothing where there is none. */
@@ -155,6 +159,20 @@ export class Editor {
     );
   }
 
+  /** Other objects in place of those there are, which `change` is given once all changes before are made. */
+  setObjects(change: (objects: readonly WorldObject[]) => readonly WorldObject[]): Promise<void> {
+    const tidy = () => {
+      const [before, ground] = [this.#core.info()?.objects ?? [], this.#core.ground()];
+      if (!ground) throw new Error('There is no ground yet.');
+      const { columns, rows, cell_m } = ground;
+      // What did not change stays as it was written.
+      const keep = (object: WorldObject) =>
+        before.includes(object) ? object : tidyObject(object, (columns - 1) * cell_m, (rows - 1) * cell_m);
+      return { objects: change(before).map(keep) };
+    };
+    return this.#edit(tidy, ({ objects = [] }) => ({ type: 'objects', objects }));
+  }
+
   /** Begins a stroke: `touch` it, then `end` it. Everything else waits until it has ended. */
   stroke(brush: Brush): { touch(place: Place): void; end(): Promise<void> } {
     const stroke = new StrokeInHand(brush, (part) => this.#core.request({ type: 'sculpt', stroke: part }));
@@ -231,8 +249,11 @@ export class Editor {
     const from = this.experiment;
     if (!to || !from) return;
     const patches = this.#patchesBetween(from, to);
-    if (!patches) return this.#core.request({ type: 'load', source: { experiment: to }, play: false });
+    const objects = to.objects ?? this.#unsaid;
+    if (!patches || !(objects || from.objects === to.objects))
+      return this.#core.request({ type: 'load', source: { experiment: to }, play: false });
     for (const patch of patches) await this.#core.request({ type: 'replace', patch });
+    if (objects && from.objects !== to.objects) await this.#core.request({ type: 'objects', objects });
     if (from.start !== to.start) await this.#core.request({ type: 'start', start: to.start });
     const { goal, waypoints } = to;
     if (from.goal !== goal || from.waypoints !== waypoints) await this.#core.request({ type: 'goal', goal, waypoints });
@@ -247,9 +268,9 @@ export class Editor {
     await this.#core.request({ type: 'goal', goal, waypoints });
   }
 
-  /** The heights to put back, where the documents differ in strokes at the end, start and route alone. */
+  /** The heights to put back, where the documents differ in strokes at the end, objects, start and route alone. */
   #patchesBetween(from: Experiment, to: Experiment): GroundPatch[] | undefined {
-    const { strokes: _a, start: _b, goal: _c, waypoints: _d, ...rest } = from;
+    const { strokes: _a, start: _b, goal: _c, waypoints: _d, objects: _e, ...rest } = from;
     const keys = Object.keys(rest) as (keyof typeof rest)[];
     if (keys.some((key) => from[key] !== to[key])) return undefined;
     const common = from.strokes.findIndex((stroke, index) => stroke !== to.strokes[index]);

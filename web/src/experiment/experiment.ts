@@ -4,6 +4,7 @@
  */
 
 import type { Stroke, StrokeKind } from '../wasm/mapless_wasm.js';
+import type { WorldObject } from './objects.ts';
 import type { Overrides } from './overrides.ts';
 import type { Goal, Heading, Place } from './place.ts';
 import type { Learning, Preset, Setup } from './setting.ts';
@@ -50,6 +51,8 @@ export interface Experiment {
   readonly name: string;
   readonly terrain: Terrain;
   readonly strokes: readonly Stroke[];
+  /** What stands and walks on the ground; absent where the scenario or the terrain says it. */
+  readonly objects?: readonly WorldObject[];
   readonly start: Heading;
   /** Driven to one after the other, before the goal. */
   readonly waypoints: readonly Place[];
@@ -95,10 +98,10 @@ export function tidyGoal({ x, y, heading_rad }: Goal): Goal {
   return heading_rad === undefined ? tidyPlace({ x, y }) : tidyHeading({ x, y, heading_rad });
 }
 
-/** Whether two experiments lead over the same ground from the same start to the same goal. */
+/** Whether two experiments lead over the same ground, past the same objects, from the same start to the same goal. */
 export function sameCourse(one: Experiment, other: Experiment): boolean {
-  const route = ({ start, waypoints, goal }: Experiment) =>
-    JSON.stringify([tidyHeading(start), waypoints.map(tidyPlace), tidyGoal(goal)]);
+  const route = ({ start, waypoints, goal, objects }: Experiment) =>
+    JSON.stringify([tidyHeading(start), waypoints.map(tidyPlace), tidyGoal(goal), objects]);
   return (
     one.strokes.length + other.strokes.length === 0 &&
     route(one) === route(other) &&

@@ -52,7 +52,8 @@ function lines(path: string, table: Overrides): string[] {
   return [...(values.length > 0 ? ['', `[${path}]`, ...values] : []), ...inner];
 }
 
-function literal(value: OverrideValue | Overrides): string {
+/** A value as TOML writes it. */
+export function literal(value: OverrideValue | Overrides): string {
   if (Array.isArray(value)) return `[${value.map(literal).join(', ')}]`;
   if (!isTable(value)) return JSON.stringify(value);
   const entries = Object.entries(value).map(([key, one]) => `${key} = ${literal(one)}`);

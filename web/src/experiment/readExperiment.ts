@@ -1,6 +1,6 @@
 /** Checks a document from outside. Every fault names its place, the value and what was expected. */
 
-import { fail, number, oneOf, whole } from '../base/checks.ts';
+import { fail, fields, list, number, oneOf, whole } from '../base/checks.ts';
 import {
   DIFFICULTIES,
   type Experiment,
@@ -20,6 +20,7 @@ import {
 } from './experiment.ts';
 import type { Overrides, OverrideValue } from './overrides.ts';
 import type { Goal, Heading, Place } from './place.ts';
+import { readObjects } from './readObjects.ts';
 
 const MAX_STROKES = 5000;
 /** No coordinate lies farther out, in metres. */
@@ -28,32 +29,9 @@ const MAX_DEPTH = 8;
 const FILE_NAME = /^[\w][\w .-]{0,79}\.(png|asc|tiff?)$/i;
 const KEY = /^[A-Za-z0-9_]{1,64}$/;
 
-type Fields = Record<string, unknown>;
-
-/** An object with these keys and no others; those after `optional` may be absent. */
-function fields(value: unknown, place: string, required: readonly string[], optional: readonly string[] = []): Fields {
-  if (typeof value !== 'object' || value === null || Array.isArray(value)) fail(place, value, 'a table');
-  const found = value as Fields;
-  for (const key of Object.keys(found)) {
-    if (!required.includes(key) && !optional.includes(key)) {
-      fail(`${place}.${key}`, found[key], `one of the keys ${[...required, ...optional].join(', ')}`);
-    }
-  }
-  for (const key of required) {
-    if (found[key] === undefined) fail(`${place}.${key}`, undefined, 'a value');
-  }
-  return found;
-}
-
 function text(value: unknown, place: string, most: number): string {
   if (typeof value !== 'string') fail(place, value, 'text');
   if (value.length > most) fail(place, `${value.length} characters`, `at most ${most}`);
-  return value;
-}
-
-function list(value: unknown, place: string, most: number): readonly unknown[] {
-  if (!Array.isArray(value)) fail(place, value, 'a list');
-  if (value.length > most) fail(place, `${value.length} entries`, `at most ${most}`);
   return value;
 }
 
@@ -155,12 +133,13 @@ export function readExperiment(value: unknown): Experiment {
   const version = (value as { version?: unknown } | null)?.version;
   if (version !== VERSION) fail('version', version, `${VERSION}: this page reads no other version of experiments`);
   const scenario = ['start', 'waypoints', 'goal', 'seed', 'preset', 'learning', 'overrides'];
-  const found = fields(value, 'experiment', ['version', 'name', 'terrain', 'strokes', ...scenario]);
+  const found = fields(value, 'experiment', ['version', 'name', 'terrain', 'strokes', ...scenario], ['objects']);
   return {
     version: VERSION,
     name: text(found.name, 'name', 80),
     terrain: terrain(found.terrain),
     strokes: strokes(found.strokes),
+    ...(found.objects === undefined ? {} : { objects: readObjects(found.objects) }),
     start: heading(found.start, 'start'),
     waypoints: list(found.waypoints, 'waypoints', MAX_WAYPOINTS).map((one, at) => place(one, `waypoints[${at}]`)),
     goal: goal(found.goal, 'goal'),

@@ -1,7 +1,8 @@
 /** An experiment as the files that the command line reads. The page's own core reads the same text. */
 
 import type { Experiment, Stroke } from './experiment.ts';
-import { sectionsOf } from './overrides.ts';
+import type { WorldObject } from './objects.ts';
+import { literal, sectionsOf } from './overrides.ts';
 
 /** The keys of a `[[stroke]]` table. */
 export function strokeKeys(stroke: Stroke): string {
@@ -23,12 +24,17 @@ export function recipeFile(recipe: string, strokes: readonly Stroke[]): string {
   );
 }
 
+/** The keys of an `[[objects]]` table. */
+function objectKeys(object: WorldObject): string[] {
+  return Object.entries(object).map(([key, value]) => `${key} = ${literal(value)}`);
+}
+
 /** What a scenario file says. */
 export type Scenario = Omit<Experiment, 'version' | 'name' | 'terrain' | 'strokes'>;
 
 /** The scenario file of an experiment whose terrain is in the file `terrain`. */
 export function scenarioFile(scenario: Scenario, terrain: string): string {
-  const { start, waypoints, goal, seed, preset, learning, overrides } = scenario;
+  const { start, waypoints, goal, seed, preset, learning, overrides, objects } = scenario;
   const heading = goal.heading_rad === undefined ? '' : `, ${goal.heading_rad}`;
   const lines = [
     '# Runs as in the page with',
@@ -39,7 +45,10 @@ export function scenarioFile(scenario: Scenario, terrain: string): string {
     `seed = ${seed}`,
   ];
   if (waypoints.length > 0) lines.push(`waypoints = [${waypoints.map(({ x, y }) => `[${x}, ${y}]`).join(', ')}]`);
+  // None at all is said, too: the terrain may list some.
+  if (objects?.length === 0) lines.push('objects = []');
   const sections = sectionsOf(overrides);
   if (sections) lines.push('', sections);
+  for (const object of objects ?? []) lines.push('', '[[objects]]', ...objectKeys(object));
   return `${lines.join('\n')}\n`;
 }

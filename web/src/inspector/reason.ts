@@ -15,6 +15,10 @@ export function reason(frame: Frame, info: SessionInfo): string {
       return metrics.max_abs_roll_rad > info.limits.roll_rad
         ? `Roll came to ${degrees(metrics.max_abs_roll_rad, 1)}; the limit is ${degrees(info.limits.roll_rad, 1)}.`
         : `Pitch came to ${degrees(metrics.max_abs_pitch_rad, 1)}; the limit is ${degrees(info.limits.pitch_rad, 1)}.`;
+    case 'collision':
+    case 'high_centred':
+    case 'step':
+      return sentence(stop_reason ?? 'It touched what is in its way');
     case 'stuck':
       return 'It stayed within half a metre for a minute.';
     case 'no_subgoal':

@@ -4,11 +4,12 @@ import { AmbientLight, DirectionalLight, Group, PerspectiveCamera, Scene, Vector
 import { wrap } from '../base/format.ts';
 import type { Theme } from '../colours/theme.ts';
 import { HeightField } from '../ground/heightField.ts';
-import type { Ground, GroundPatch, Pose } from '../protocol/simulationProtocol.ts';
+import type { Ground, GroundPatch, Pose, Solid } from '../protocol/simulationProtocol.ts';
 import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
 import { sensorAt } from '../scene/sensor.ts';
 import { Ghosts } from './ghosts.ts';
 import { Husky } from './husky.ts';
+
 import { Overlays } from './overlays.ts';
 import type { Pacer } from './pacer.ts';
 import { DEPTH_M, type FromPainter, type Look, type Scenery, type Seen, type ToPainter } from './painterProtocol.ts';
@@ -17,6 +18,7 @@ import { Refusals } from './refusals.ts';
 import { Relief } from './relief.ts';
 import { Returns } from './returns.ts';
 import { Route } from './route.ts';
+import { Solids } from './solids.ts';
 import { Subgoals } from './subgoals.ts';
 import { SUN } from './sunlight.ts';
 import { Waypoints } from './waypoints.ts';
@@ -44,6 +46,7 @@ export class Painter {
   readonly #subgoals = new Subgoals();
   readonly #places = new Places();
   readonly #waypoints = new Waypoints();
+  readonly #solids = new Solids();
   readonly #ghosts = new Ghosts();
   readonly #husky = new Husky();
   readonly #overlays: Overlays;
@@ -96,7 +99,13 @@ export class Painter {
     this.#scene.add(new AmbientLight(0xd5e0f2, 2.1), sun);
     this.#scene.add(this.#relief.mesh, this.#husky.group);
     this.#marks.add(this.#ahead.line, this.#waypoints.group, this.#route.line, this.#returns.group);
-    this.#marks.add(this.#subgoals.group, this.#places.group, this.#overlays.group, this.#ghosts.group);
+    this.#marks.add(
+      this.#subgoals.group,
+      this.#places.group,
+      this.#overlays.group,
+      this.#ghosts.group,
+      this.#solids.group,
+    );
     this.#theme(theme);
     this.#warmUp();
     requestAnimationFrame((now_ms) => this.#loop(now_ms));
@@ -120,7 +129,7 @@ export class Painter {
         this.#arrange(message.scenery, message.ground);
         break;
       case 'patch':
-        this.#sculpt(message.patch);
+        this.#sculpt(message.patch, message.solids);
         break;
       case 'seen':
         this.#show(message.seen);
@@ -137,6 +146,9 @@ export class Painter {
         break;
       case 'mark':
         this.#overlays.mark(message.target);
+        break;
+      case 'held':
+        this.#solids.hold(message.object, message.by, this.#height);
         break;
       case 'brush':
         this.#relief.brush(message.at, message.from, message.radius_m);
@@ -157,7 +169,15 @@ export class Painter {
   #height = (x: number, y: number): number => this.#relief.field.height(x, y);
 
   #theme(theme: Theme): void {
-    const marks = [this.#returns, this.#route, this.#ahead, this.#subgoals, this.#places, this.#waypoints];
+    const marks = [
+      this.#returns,
+      this.#route,
+      this.#ahead,
+      this.#subgoals,
+      this.#places,
+      this.#waypoints,
+      this.#solids,
+    ];
     for (const part of [this.#relief, ...marks, this.#overlays]) part.theme(theme);
   }
 
@@ -173,14 +193,16 @@ export class Painter {
     this.#relief.colouring(this.#colouring, scenery.limits);
     this.#places.show(scenery.goal, scenery.start, this.#height);
     this.#waypoints.show(scenery.waypoints, this.#height);
+    this.#solids.stand(scenery.objects, scenery.solids, this.#height);
   }
 
-  #sculpt(patch: GroundPatch): void {
+  #sculpt(patch: GroundPatch, solids: readonly Solid[]): void {
     this.#relief.field.patch(patch);
     this.#relief.sculpted();
     this.#colourByHeight();
     this.#places.settle(this.#height);
     this.#waypoints.settle(this.#height);
+    if (this.#scenery) this.#solids.stand(this.#scenery.objects, solids, this.#height);
   }
 
   #colourByHeight(): void {
@@ -199,6 +221,7 @@ export class Painter {
     this.#returns.show(seen, this.#scenery?.occupancy_radius_m ?? 0);
     this.#subgoals.show(seen.subgoals, this.#height);
     this.#overlays.show(seen);
+    this.#solids.walk(seen.movers);
   }
 
   #layers(layers: Layers): void {

@@ -2,7 +2,7 @@
 
 import type { Theme } from '../colours/theme.ts';
 import type { Place } from '../experiment/place.ts';
-import type { Frame, Ground, GroundPatch, Pose, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Frame, Ground, GroundPatch, Pose, SessionInfo, Solid } from '../protocol/simulationProtocol.ts';
 import type { Colouring, Layers } from '../scene/layers.ts';
 import type { Target } from '../scene/selection.ts';
 
@@ -13,6 +13,8 @@ const SCENERY = [
   'limits',
   'occupancy_radius_m',
   'mount',
+  'objects',
+  'solids',
   'image',
 ] as const satisfies readonly (keyof SessionInfo)[];
 
@@ -30,6 +32,7 @@ const SEEN = [
   'anew',
   'ahead',
   'waypoints_passed',
+  'movers',
 ] as const satisfies readonly (keyof Frame)[];
 
 /** What the view shows of a scenario. */
@@ -69,7 +72,9 @@ export type ToPainter =
   | { type: 'size'; width_px: number; height_px: number }
   | { type: 'theme'; theme: Theme }
   | { type: 'scenery'; scenery: Scenery; ground: Ground | undefined }
-  | { type: 'patch'; patch: GroundPatch }
+  | { type: 'patch'; patch: GroundPatch; solids: readonly Solid[] }
+  /** The object in hand, if any, and how far it is dragged from where it stands. */
+  | { type: 'held'; object: number | undefined; by: Place }
   | { type: 'seen'; seen: Seen }
   | { type: 'look'; look: Look }
   | { type: 'layers'; layers: Layers }

@@ -6,6 +6,7 @@
  */
 
 import type { Experiment, Holes, Stroke, Terrain } from '../experiment/experiment.ts';
+import type { WorldObject } from '../experiment/objects.ts';
 import type { ParameterGroup } from '../experiment/parameters.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setting, Setup } from '../experiment/setting.ts';
@@ -18,6 +19,7 @@ import type {
   Overrides,
   Scene,
   SetAside,
+  Solid,
   Timeline,
 } from '../wasm/mapless_wasm.js';
 
@@ -36,6 +38,7 @@ export type {
   Segment,
   SensorPose,
   SetAside,
+  Solid,
   Subgoal,
   Timeline,
   Verdict,
@@ -47,6 +50,9 @@ export interface SessionInfo extends Setting, Scene {
   /** Every parameter, with the value that holds unless it is overridden. */
   readonly parameters: readonly ParameterGroup[];
   readonly overrides: Overrides;
+  readonly objects: readonly WorldObject[];
+  /** The shapes of those that stand; those that walk come with each frame. */
+  readonly solids: readonly Solid[];
   /** What was done to a file of heights that its owner should know. */
   readonly warnings: readonly string[];
 }
@@ -145,6 +151,8 @@ export type Command =
   /** Goes to a tick of the timeline and stays there. */
   | { type: 'seek'; tick: number }
   | { type: 'start'; start: Heading }
+  /** In place of all there are. */
+  | { type: 'objects'; objects: readonly WorldObject[] }
   | { type: 'sculpt'; stroke: Stroke }
   /** Puts heights back; answered like a stroke. */
   | { type: 'replace'; patch: GroundPatch }
@@ -177,6 +185,7 @@ export type FromSimulation =
   | { type: 'opening'; id: number }
   | { type: 'session'; info: SessionInfo; loaded: Loaded | undefined }
   | { type: 'frame'; frame: Frame }
-  | { type: 'ground'; patch: GroundPatch }
+  /** New heights, and the shapes of what stands on them now. */
+  | { type: 'ground'; patch: GroundPatch; solids: readonly Solid[] }
   | { type: 'done'; id: number; value: unknown }
   | { type: 'failed'; id: number | undefined; message: string; panicked: boolean };

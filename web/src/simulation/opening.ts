@@ -116,6 +116,7 @@ function fromScenario(read: ScenarioRead, name: string, terrain: Terrain, setup:
     name,
     terrain,
     strokes: [],
+    ...(read.objects ? { objects: read.objects } : {}),
     start: read.start,
     waypoints: read.waypoints,
     goal: read.goal,

@@ -2,10 +2,11 @@
 
 import type { Core } from '../bindings/simulationModule.ts';
 import type { Experiment } from '../experiment/experiment.ts';
+import { type WorldObject, walkOf } from '../experiment/objects.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setting } from '../experiment/setting.ts';
-import type { Frame, FrameBuffers, Ground, GroundPatch, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Frame, FrameBuffers, Ground, GroundPatch, SessionInfo, Solid } from '../protocol/simulationProtocol.ts';
 import type { Session as CoreSession, Standing, Stroke, Tick } from '../wasm/mapless_wasm.js';
 import { filesOf, readTerrain } from './opening.ts';
 
@@ -126,6 +127,17 @@ export class Session {
     this.#standing = this.#core.standing();
   }
 
+  setObjects(objects: readonly WorldObject[]): void {
+    this.#core.set_objects([...objects]);
+    this.#info = this.#readInfo(this.#info);
+    this.#standing = this.#core.standing();
+  }
+
+  /** The shapes of the objects that stand. */
+  solids(objects: readonly WorldObject[] = this.#info.objects): Solid[] {
+    return this.#core.solids().filter(({ object }) => walkOf(objects[object]).length === 0);
+  }
+
   tick(): Tick {
     const tick = this.#core.tick();
     this.#standing = tick.after;
@@ -152,12 +164,15 @@ export class Session {
 
   /** The parameters stay those of the info `before`, where there is one. */
   #readInfo(before: SessionInfo | undefined): SessionInfo {
+    const objects = this.#core.objects();
     return {
       ...this.#core.scene(),
       scenario: this.#name,
       ...this.#setting,
       parameters: before?.parameters ?? this.#core.parameters(),
       overrides: this.#overrides,
+      objects,
+      solids: this.solids(objects),
       warnings: this.#warnings,
     };
   }

@@ -9,6 +9,7 @@ import {
   type GroundPatch,
   type Loaded,
   type SessionInfo,
+  type Solid,
   type ToSimulation,
   transferables,
 } from '../protocol/simulationProtocol.ts';
@@ -19,7 +20,7 @@ const SLOW_MS = 5000;
 export interface SimulationEvents {
   session(info: SessionInfo, loaded: Loaded | undefined): void;
   frame(frame: Frame): void;
-  ground(patch: GroundPatch): void;
+  ground(patch: GroundPatch, solids: readonly Solid[]): void;
   /** An error that no request is waiting for, or any panic. After a panic the simulation is gone. */
   failure(message: string, panicked: boolean): void;
   /** Opening something takes long; then it is open, or refused. */
@@ -120,7 +121,7 @@ export class SimulationClient {
         events.frame(message.frame);
         break;
       case 'ground':
-        events.ground(message.patch);
+        events.ground(message.patch, message.solids);
         break;
       case 'opening':
         this.#opening = { id: message.id, timer: setTimeout(() => events.slow(), SLOW_MS) };

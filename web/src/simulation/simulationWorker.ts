@@ -185,11 +185,15 @@ async function seek(tick: number, id: number): Promise<void> {
   show();
 }
 
-/** The ground has changed: what came after the present tick happened on another one. */
 function showPatch(patch: GroundPatch): void {
+  post({ type: 'ground', patch, solids: session?.solids() ?? [] }, [patch.heights_m.buffer]);
+  beginOtherFuture();
+}
+
+/** The ground or what stands on it has changed: what came after the present tick happened on another one. */
+function beginOtherFuture(): void {
   trail.cut(session?.standing.tick ?? 0);
   notePlace();
-  post({ type: 'ground', patch }, [patch.heights_m.buffer]);
   unsent = true;
   // The stroke goes on first: a scan of the new ground takes longer than a touch. What drives is shown by the loop.
   if (!running()) setTimeout(loop);
@@ -278,6 +282,11 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
       session.restart();
       tellSession();
       openFromStart();
+      break;
+    case 'objects':
+      session.setObjects(command.objects);
+      tellSession();
+      beginOtherFuture();
       break;
     case 'sculpt': {
       const patch = session.sculpt(command.stroke);

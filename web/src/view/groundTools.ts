@@ -3,6 +3,7 @@
 import type { Brush } from '../editor/strokeInHand.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
 import { BRUSHES, type BrushName, strength_m } from '../ground/brushes.ts';
+import { acrossScreen } from './acrossScreen.ts';
 import type { Stage } from './stage.ts';
 
 export const TOOLS = [
@@ -19,6 +20,7 @@ export const TOOLS = [
   'crater',
   'ditch',
   'boulder',
+  'objects',
 ] as const;
 export type Tool = (typeof TOOLS)[number];
 
@@ -111,6 +113,11 @@ export class GroundTools {
     this.#ring();
   }
 
+  /** Whether the pointer is another one's: of the camera, or of the tool for objects. */
+  get #idle(): boolean {
+    return this.#tool === 'look' || this.#tool === 'objects';
+  }
+
   #down(event: PointerEvent): void {
     this.#canvas.focus({ preventScroll: true });
     if (event.pointerType === 'touch') this.#touches += 1;
@@ -119,7 +126,7 @@ export class GroundTools {
       this.#stop();
       return;
     }
-    if (this.#tool === 'look' || event.button !== 0) return;
+    if (this.#idle || event.button !== 0) return;
     const at = this.#stage.pick(event.clientX, event.clientY);
     this.#actions.pressed(at !== undefined);
     if (!at) return;
@@ -139,7 +146,7 @@ export class GroundTools {
   }
 
   #move(event: PointerEvent): void {
-    if (this.#tool === 'look') return;
+    if (this.#idle) return;
     if (this.#pointer !== undefined && event.pointerId !== this.#pointer) return;
     const at = this.#stage.pick(event.clientX, event.clientY);
     if (!at) return;
@@ -182,7 +189,7 @@ export class GroundTools {
 
   #key(event: KeyboardEvent): void {
     const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || this.#tool === 'objects') return;
     if (this.#tool === 'look') {
       if (step && event.shiftKey) this.#actions.moveView(MOVE_STEP * (step[0] ?? 0), MOVE_STEP * (step[1] ?? 0));
       else if (step) this.#stage.nudge(-(step[0] ?? 0) * LOOK_STEP_RAD, (step[1] ?? 0) * LOOK_STEP_RAD, 1);
@@ -203,11 +210,10 @@ export class GroundTools {
     const field = this.#stage.field;
     const from = this.#cursor ?? this.#stage.robot;
     if (!field || !from) return;
-    const heading = this.#stage.viewHeading_rad;
     const length_m = CURSOR_STEP_M * steps;
-    const x = from.x + length_m * (ahead * Math.cos(heading) + right * Math.sin(heading));
-    const y = from.y + length_m * (ahead * Math.sin(heading) - right * Math.cos(heading));
-    if (field.contains(x, y)) this.#cursor = { x, y };
+    const by = acrossScreen(this.#stage.viewHeading_rad, right * length_m, ahead * length_m);
+    const to = { x: from.x + by.x, y: from.y + by.y };
+    if (field.contains(to.x, to.y)) this.#cursor = to;
     this.#ring();
   }
 
@@ -286,7 +292,7 @@ export class GroundTools {
     const brush = isBrush(this.#tool) ? BRUSHES[this.#tool] : undefined;
     const turns = this.#tool === 'start' || (this.#tool === 'goal' && !this.#adding);
     const from = this.#anchor ?? (turns || brush?.gesture === 'line' ? this.#pressed : undefined);
-    const radius_m = this.#tool === 'look' || !at ? 0 : brush ? this.#brush.radius_m : 0.5;
+    const radius_m = this.#idle || !at ? 0 : brush ? this.#brush.radius_m : 0.5;
     this.#stage.brush(at ?? { x: 0, y: 0 }, from ?? at ?? { x: 0, y: 0 }, radius_m);
   }
 }

@@ -6,12 +6,13 @@ import type { Place } from '../experiment/place.ts';
 import type { HeightField, Vector } from '../ground/heightField.ts';
 import { type Graphics, PainterClient } from '../painter/painterClient.ts';
 import { type GhostStep, sceneryOf, seenIn } from '../painter/painterProtocol.ts';
-import type { Frame, GroundPatch, Pose, SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Frame, GroundPatch, Pose, SessionInfo, Solid } from '../protocol/simulationProtocol.ts';
 import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
 import type { Finder, Target } from '../scene/selection.ts';
 import { sensorAt } from '../scene/sensor.ts';
 import { Glide } from './glide.ts';
 import { nearestMark, projector } from './nearestMark.ts';
+import { middle, nearestSolid } from './nearestSolid.ts';
 import { type CameraMode, Viewpoint } from './viewpoint.ts';
 
 /** The first look passes the robot's right side by this much, to show both it and the ground ahead. */
@@ -27,6 +28,7 @@ export class Stage {
   #info: SessionInfo | undefined;
   #field: HeightField | undefined;
   #frame: Frame | undefined;
+  #solids: readonly Solid[] = [];
   #shown: Pose | undefined;
   #layers = FIRST_LAYERS;
   #speed = 1;
@@ -79,6 +81,7 @@ export class Stage {
 
   session(info: SessionInfo, field: HeightField | undefined): void {
     this.#info = info;
+    this.#solids = info.solids;
     this.#painter.send({ type: 'scenery', scenery: sceneryOf(info), ground: field?.ground });
     if (!field) return;
     this.#field = field;
@@ -122,8 +125,9 @@ export class Stage {
   }
 
   /** The field has these new heights. */
-  sculpted(patch: GroundPatch): void {
-    this.#painter.send({ type: 'patch', patch });
+  sculpted(patch: GroundPatch, solids: readonly Solid[]): void {
+    this.#solids = solids;
+    this.#painter.send({ type: 'patch', patch, solids });
   }
 
   colouring(colouring: Colouring): void {
@@ -183,11 +187,40 @@ export class Stage {
 
   /** The point of the ground under a place of the window. */
   pick(clientX: number, clientY: number): Vector | undefined {
+    const { origin, direction } = this.#ray(clientX, clientY);
+    return this.#field?.intersect(origin, direction);
+  }
+
+  /** The object in hand, if any, and how far it is dragged from where it stands. */
+  held(object: number | undefined, by: Place = { x: 0, y: 0 }): void {
+    this.#painter.send({ type: 'held', object, by: { x: by.x, y: by.y } });
+  }
+
+  /** The object under a place of the window, or within so many pixels of it. */
+  objectAt(clientX: number, clientY: number, within_px: number): number | undefined {
+    const { origin, direction } = this.#ray(clientX, clientY);
+    const { fov } = this.#viewpoint.camera;
+    const room = (within_px * 2 * Math.tan((fov * Math.PI) / 360)) / this.#canvas.clientHeight;
+    return nearestSolid([...this.#solids, ...(this.#frame?.movers ?? [])], origin, direction, room);
+  }
+
+  /** Where the shapes of an object are on average. */
+  middleOf(object: number): Vector | undefined {
+    return middle([...this.#solids, ...(this.#frame?.movers ?? [])].filter((solid) => solid.object === object));
+  }
+
+  /** Where a place on the ground is in the window; nothing if it is behind the camera. */
+  project({ x, y }: Place): { x: number; y: number } | undefined {
+    const project = projector(this.#canvas.getBoundingClientRect(), this.#viewpoint.camera);
+    return project({ x, y, z: this.#height(x, y) });
+  }
+
+  #ray(clientX: number, clientY: number): { origin: Vector; direction: Vector } {
     const box = this.#canvas.getBoundingClientRect();
     const at = new Vector2(((clientX - box.left) / box.width) * 2 - 1, 1 - ((clientY - box.top) / box.height) * 2);
     const caster = new Raycaster();
     caster.setFromCamera(at, this.#viewpoint.camera);
-    return this.#field?.intersect(caster.ray.origin, caster.ray.direction);
+    return caster.ray;
   }
 
   #height = (x: number, y: number): number => this.#field?.height(x, y) ?? 0;

@@ -1,5 +1,24 @@
 /* tslint:disable */
 /* eslint-disable */
+
+/** A walk from the object's place along points and back again, over and over. */
+export interface Walk {
+    path: [number, number][];
+    speed_m_s: number;
+    /** It stands until the robot is this near. */
+    starts_within_m?: number;
+}
+
+/** Something that stands on the ground and is not ground, as in scenario files. */
+export type WorldObject =
+| { kind: 'post'; at: [number, number]; radius_m: number; height_m: number; walk?: Walk }
+| { kind: 'box'; at: [number, number]; size_m: [number, number, number]; yaw_rad?: number; raised_m?: number; walk?: Walk }
+| { kind: 'rock'; at: [number, number]; radius_m: number; sunk_m?: number }
+| { kind: 'wall'; from: [number, number]; to: [number, number]; height_m: number; thickness_m?: number }
+| { kind: 'gate'; at: [number, number]; yaw_rad: number; width_m: number; height_m: number }
+| { kind: 'roof'; at: [number, number]; size_m: [number, number, number]; yaw_rad?: number; height_m: number };
+
+
 /**
  * A file by its name, which messages about it begin with.
  */
@@ -119,6 +138,32 @@ export interface Segment {
 }
 
 /**
+ * A shape that an object is made of.
+ */
+export interface Solid {
+    /**
+     * Index of the object.
+     */
+    object: number;
+    /**
+     * `box`, `cylinder` or `ball`.
+     */
+    shape: 'box' | 'cylinder' | 'ball';
+    /**
+     * Centre in the world.
+     */
+    centre_m: [number, number, number];
+    /**
+     * Length, width and height; of a cylinder and of a ball, the diameter stands for the first two.
+     */
+    size_m: [number, number, number];
+    /**
+     * Sine and cosine of the direction of its length, counter-clockwise from east.
+     */
+    sin_cos_yaw: [number, number];
+}
+
+/**
  * A terrain by the file that describes it.
  */
 export interface TerrainFiles {
@@ -160,7 +205,7 @@ export interface Frame {
     outcome: Outcome;
     activity: Activity;
     /**
-     * Why the planner stopped, where it did.
+     * Why the planner stopped, or what the body touched, where the trial ended so.
      */
     stop_reason: string | undefined;
     pose: Pose;
@@ -198,6 +243,10 @@ export interface Frame {
     digest: string;
     timeline: Timeline;
     waypoints_passed: number;
+    /**
+     * The shapes that walk, where they are now.
+     */
+    movers: Solid[];
 }
 
 /**
@@ -211,7 +260,7 @@ export interface Velocity {
 /**
  * How a trial stands: `running`, or how it ended.
  */
-export type Outcome = "running" | "reached" | "tilt_limit" | "stuck" | "no_subgoal" | "left_terrain" | "timeout";
+export type Outcome = "running" | "reached" | "tilt_limit" | "collision" | "high_centred" | "step" | "stuck" | "no_subgoal" | "left_terrain" | "timeout";
 
 /**
  * How far the robot may tilt.
@@ -247,6 +296,11 @@ export interface ImageSize {
     rows: number;
     rings: number;
 }
+
+/**
+ * Objects, as in scenario files.
+ */
+export type ObjectList = WorldObject[];
 
 /**
  * One tick: where the robot was when the scan was taken, what the planner decided on it, and what came of
@@ -323,6 +377,11 @@ export interface ParameterGroup {
     title: string;
     parameters: Parameter[];
 }
+
+/**
+ * Shapes.
+ */
+export type SolidList = Solid[];
 
 /**
  * The file that a recipe imports, and how to read it.
@@ -447,6 +506,10 @@ export interface ScenarioRead {
      * Its tables `planner`, `sensor`, `robot` and `reality` as written, where they are there.
      */
     overrides: Overrides;
+    /**
+     * Absent where the scenario stands on what its terrain lists.
+     */
+    objects?: ObjectList;
 }
 
 /**
@@ -724,6 +787,13 @@ export class Session {
      */
     constructor(options: SessionOptions);
     /**
+     * The objects on the ground.
+     *
+     * # Errors
+     * None, unless JavaScript runs out of memory.
+     */
+    objects(): ObjectList;
+    /**
      * Every parameter, with the value that holds unless it is overridden.
      *
      * # Errors
@@ -759,6 +829,13 @@ export class Session {
      */
     sculpt(stroke: Stroke): GroundPatch | undefined;
     /**
+     * Puts other objects on the ground in place of all there are, with the same consequences as a stroke.
+     *
+     * # Errors
+     * An object that makes no sense, with its place and what was expected; nothing then changes.
+     */
+    set_objects(objects: ObjectList): void;
+    /**
      * Begins anew with these overrides in place of all others. Ground, start and route stay as they are, and
      * so does the seed unless another is given.
      *
@@ -780,6 +857,13 @@ export class Session {
      * A start off the terrain; nothing then changes.
      */
     set_start(start: Heading): void;
+    /**
+     * The shapes that the objects are made of, where they are now.
+     *
+     * # Errors
+     * None, unless JavaScript runs out of memory.
+     */
+    solids(): SolidList;
     /**
      * Where the robot stands.
      *
@@ -855,14 +939,17 @@ export interface InitOutput {
     readonly session_go_back: (a: number, b: number) => number;
     readonly session_ground: (a: number) => [number, number, number];
     readonly session_new: (a: any) => [number, number, number];
+    readonly session_objects: (a: number) => [number, number, number];
     readonly session_parameters: (a: number) => [number, number, number, number];
     readonly session_replace_ground: (a: number, b: any) => [number, number];
     readonly session_restart: (a: number) => [number, number];
     readonly session_scene: (a: number) => [number, number, number];
     readonly session_sculpt: (a: number, b: any) => [number, number, number];
+    readonly session_set_objects: (a: number, b: any) => [number, number];
     readonly session_set_parameters: (a: number, b: any, c: number) => [number, number];
     readonly session_set_route: (a: number, b: any) => [number, number];
     readonly session_set_start: (a: number, b: any) => [number, number];
+    readonly session_solids: (a: number) => [number, number, number];
     readonly session_standing: (a: number) => [number, number, number];
     readonly session_tick: (a: number) => [number, number, number];
     readonly start: () => void;

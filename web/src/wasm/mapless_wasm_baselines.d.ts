@@ -47,7 +47,7 @@ export interface TrialStatus {
 /**
  * How a trial stands: `running`, or how it ended.
  */
-export type Outcome = "running" | "reached" | "tilt_limit" | "stuck" | "no_subgoal" | "left_terrain" | "timeout";
+export type Outcome = "running" | "reached" | "tilt_limit" | "collision" | "high_centred" | "step" | "stuck" | "no_subgoal" | "left_terrain" | "timeout";
 
 /**
  * Mean and sample standard deviation; NaN where there is none.
