@@ -342,7 +342,7 @@ mod tests {
             assert_eq!(counts, (routes, seeds, variations), "{name}");
         }
         // Generated tasks are not part of the repository.
-        for name in ["generated", "quick-generated", "thousand", "failures", "faults"] {
+        for name in ["generated", "quick-generated", "thousand", "failures", "faults", "verti-bench"] {
             let error =
                 Campaign::read(&folder.join(name).with_extension("toml")).map_err(|error| error.to_string());
             assert!(

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let (worlds, tasks, campaign) = (imported.worlds, imported.tasks, imported.campaign.display());
     writeln!(
         std::io::stdout(),
-        "{worlds} worlds, {tasks} tasks; `mapless trials {campaign}` drives them all"
+        "worlds: {worlds}, tasks: {tasks}; `mapless trials {campaign}` drives them all"
     )
     .context("standard output")?;
     setup::show_warnings(&imported.warnings);

@@ -272,11 +272,11 @@ fn sections(
             "\nNone of them runs a planner unchanged: each sets a parameter or overrides perception."
         )?;
     }
-    if has_plain && results.manifest.benchmark == Some(Benchmark::VertiBench) {
-        verti_bench::section(text, results)?;
-    }
     if compares {
         comparison::of_the_first(text, results, published)?;
+    }
+    if has_plain && results.manifest.benchmark == Some(Benchmark::VertiBench) {
+        verti_bench::section(text, results)?;
     }
     if has_plain {
         duration::section(text, results)?;

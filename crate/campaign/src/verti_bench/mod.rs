@@ -59,6 +59,9 @@ impl Difficulty {
     }
 }
 
+/// Scales at which the pixels' spacing is one of a terrain.
+const SCALES: std::ops::RangeInclusive<f64> = 0.01..=100.0;
+
 /// A factor for all lengths: `1/5`, `0.2`, `1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale(f64);
@@ -72,8 +75,8 @@ impl std::str::FromStr for Scale {
             Some((above, below)) => number(above).zip(number(below)).map(|(above, below)| above / below),
             None => number(text),
         };
-        let factor = factor.filter(|factor| *factor > 0.0 && factor.is_finite());
-        factor.map(Self).ok_or_else(|| format!("{text:?}: expected a positive number, such as 1/5 or 0.2"))
+        let factor = factor.filter(|factor| SCALES.contains(factor));
+        factor.map(Self).ok_or_else(|| format!("{text:?}: expected 0.01 to 100, such as 1/5 or 0.2"))
     }
 }
 
@@ -108,14 +111,13 @@ pub fn import(folder: &Path, scale: Scale, out: &Path) -> Result<Imported, Campa
     let mut warnings = Vec::new();
     if !yielding.is_empty() {
         let count = yielding.len();
-        warnings.push(format!("{count} worlds are left out: their ground gives, and the simulated does not"));
+        warnings.push(format!("worlds left out: {count}, whose ground gives; the simulated ground does not"));
     }
-    for world in &worlds {
-        let bytes = fs::read(&world.image).map_err(|error| CampaignError::read(&world.image, error))?;
-        let image = bmp::read(&bytes).map_err(|reason| CampaignError::content(&world.image, reason))?;
-        let imported = ScaledWorld { world, image, scale };
-        imported.write(out)?;
-        warnings.extend(checks::of_world(world, out)?);
+    let scaled = worlds.iter().map(|world| ScaledWorld::read(world, scale));
+    // Whatever is wrong with an image is known before anything is written.
+    for world in scaled.collect::<Result<Vec<_>, CampaignError>>()? {
+        world.write(out)?;
+        warnings.extend(checks::of_world(world.world, out)?);
     }
     let campaign = out.join("verti-bench.toml");
     keep(&campaign, campaign_text(scale).as_bytes())?;
@@ -129,7 +131,7 @@ pub fn import(folder: &Path, scale: Scale, out: &Path) -> Result<Imported, Campa
 
 fn campaign_text(scale: Scale) -> String {
     format!(
-        "# Verti-Bench times {scale}. `tasks/*-01.toml` in place of `tasks/*.toml` is one task of each world.\n\
+        "# Verti-Bench times {scale}. `tasks/*-02.toml` in place of `tasks/*.toml` is one task of each world.\n\
          benchmark = \"verti_bench\"\n\
          planners = [\"default\", \"oracle\", \"vgf_tuned\", \"putn\"]\n\
          routes = [\"tasks/*.toml\"]\n\
@@ -144,7 +146,13 @@ struct ScaledWorld<'a> {
     scale: Scale,
 }
 
-impl ScaledWorld<'_> {
+impl<'a> ScaledWorld<'a> {
+    fn read(world: &'a World, scale: Scale) -> Result<Self, CampaignError> {
+        let bytes = fs::read(&world.image).map_err(|error| CampaignError::read(&world.image, error))?;
+        let image = bmp::read(&bytes).map_err(|reason| CampaignError::content(&world.image, reason))?;
+        Ok(Self { world, image, scale })
+    }
+
     fn write(&self, out: &Path) -> Result<(), CampaignError> {
         let number = self.world.number;
         let heights = out.join(format!("worlds/{number:03}.png"));

@@ -30,9 +30,9 @@ fn scales_are_fractions_or_numbers() {
         assert!((scale(text).0 - 0.2).abs() < 1e-12, "{text}");
     }
     assert!((scale("1").0 - 1.0).abs() < 1e-12);
-    for text in ["", "0", "-1", "1/0", "0/5", "a", "1/b", "1/2/3", "inf", "nan"] {
+    for text in ["", "0", "-1", "1/0", "0/5", "a", "1/b", "1/2/3", "inf", "nan", "1/101"] {
         let error = text.parse::<Scale>().unwrap_err();
-        assert_eq!(error, format!("{text:?}: expected a positive number, such as 1/5 or 0.2"));
+        assert_eq!(error, format!("{text:?}: expected 0.01 to 100, such as 1/5 or 0.2"));
     }
 }
 
@@ -70,7 +70,7 @@ fn the_first_scan_hits_a_rock_where_it_stands() {
     trial.look_far();
     // Half of 4.4 m and of 3.8 m, a fifth in size, in front of (10, 5) from the middle of 20 m.
     let (rock_m, half_m, height_m) = (DVec2::new(6.0, 5.0), 0.5 * 4.4 / 5.0 / 2.0, 0.5 * 3.8 / 5.0);
-    let ground_m = 0.2 * 0.04 * (60 + 25) as f64;
+    let ground_m = 0.2 * 0.04 * 85.0;
     let state = trial.robot();
     let sensor = trial.sensor().config().pose_on(state.position, state.yaw_rad, &state.attitude);
     let points = trial.scan().points.iter();
