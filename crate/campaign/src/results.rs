@@ -171,3 +171,33 @@ impl Manifest {
         Ok((manifest, rows))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+
+    #[test]
+    fn a_campaign_from_before_these_columns_and_benchmarks_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let expected = testing::row("default", "a", "none", 1, "reached");
+        let written = csv(Path::new("trials.csv"), &[&expected]).unwrap();
+        let mut old = csv::Writer::from_writer(Vec::new());
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(&*written);
+        let lines: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+        let is_new = |name: &str| name.starts_with("mean_abs_") || name == "longest_standstill_s";
+        assert_eq!(lines[0].iter().filter(|name| is_new(name)).count(), 3);
+        for line in &lines {
+            old.write_record(
+                line.iter().zip(&lines[0]).filter(|(_, name)| !is_new(name)).map(|(value, _)| value),
+            )
+            .unwrap();
+        }
+        std::fs::write(folder.path().join("trials.csv"), old.into_inner().unwrap()).unwrap();
+        let manifest = testing::results(&["default"], &["a"], Vec::new()).manifest;
+        let json = serde_json::to_string(&manifest).unwrap();
+        assert!(!json.contains("benchmark"), "{json}");
+        std::fs::write(folder.path().join("campaign.json"), json).unwrap();
+        assert_eq!(Manifest::read(folder.path()).unwrap(), (manifest, vec![expected]));
+    }
+}
