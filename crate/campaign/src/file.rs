@@ -8,6 +8,7 @@
 //! truth = ["none", "profile"]             # ground truth in place of perception; "none" when absent
 //! trajectories = true                     # keep those of the first seed; false when absent
 //! combine = "one_at_a_time"               # or "grid", of the parameters
+//! benchmark = "verti_bench"               # whose rules the report applies too; none when absent
 //!
 //! [[parameters]]
 //! path = "planner.decision.steepness_weight"
@@ -48,6 +49,8 @@ pub struct Campaign {
     pub trajectories: bool,
     /// How the parameters combine.
     pub combine: Combine,
+    /// Whose rules the report applies too.
+    pub benchmark: Option<Benchmark>,
     /// The combinations of parameter values.
     pub(crate) variations: Vec<Variation>,
 }
@@ -64,6 +67,14 @@ pub enum Combine {
     Grid,
 }
 
+/// A benchmark of others with rules of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Benchmark {
+    /// Verti-Bench: see [`crate::verti_bench`].
+    VertiBench,
+}
+
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -77,6 +88,7 @@ struct File {
     trajectories: bool,
     #[serde(default)]
     combine: Combine,
+    benchmark: Option<Benchmark>,
     #[serde(default)]
     parameters: Vec<ParameterTable>,
 }
@@ -156,6 +168,7 @@ impl Campaign {
             truths: file.truth.map_or_else(|| vec![Truth::None], plain),
             trajectories: file.trajectories,
             combine: file.combine,
+            benchmark: file.benchmark,
             variations: match file.combine {
                 Combine::OneAtATime => parameters::one_at_a_time(&parameters),
                 Combine::Grid => parameters::grid(&parameters),
@@ -329,7 +342,7 @@ mod tests {
             assert_eq!(counts, (routes, seeds, variations), "{name}");
         }
         // Generated tasks are not part of the repository.
-        for name in ["generated", "quick-generated", "thousand", "failures", "faults"] {
+        for name in ["generated", "quick-generated", "thousand", "failures", "faults", "verti-bench"] {
             let error =
                 Campaign::read(&folder.join(name).with_extension("toml")).map_err(|error| error.to_string());
             assert!(

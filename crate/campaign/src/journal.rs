@@ -10,7 +10,7 @@ use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use mapless_trials::{Metrics, Outcome, statistics};
+use mapless_trials::{Metrics, Outcome, Ride, statistics};
 use serde::de::Error as _;
 use serde::{Deserialize as _, Deserializer};
 
@@ -31,6 +31,8 @@ pub struct TrialResult {
     pub error: Option<String>,
     /// The paper's metrics.
     pub metrics: Option<Metrics>,
+    /// What others measure of the drive.
+    pub ride: Option<Ride>,
     /// Simulated time, seconds.
     pub sim_time_s: Option<f64>,
     /// Planning periods.

@@ -30,9 +30,10 @@ mod runner;
 #[cfg(test)]
 mod testing;
 mod trial;
+pub mod verti_bench;
 
 pub use error::{CampaignError, CampaignFault};
-pub use file::{Campaign, Combine};
+pub use file::{Benchmark, Campaign, Combine};
 pub use journal::{Entry, Timing, TrialResult};
 pub use mapless_baselines::Truth;
 pub use plan::{Plan, Route, Shard, TrialSpec};

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use mapless_trials::Metrics;
+use mapless_trials::{Metrics, Ride};
 use rayon::prelude::*;
 
 use crate::columns;
 use crate::error::CampaignError;
+use crate::file::Benchmark;
 use crate::files::{remove_unfinished, write_atomically};
 use crate::journal::{Entries, Timing, TrialResult};
 use crate::plan::{Plan, Route, TrialSpec};
@@ -28,6 +29,9 @@ pub struct Manifest {
     pub routes: Vec<ManifestRoute>,
     /// Seeds in the campaign file's order.
     pub seeds: Vec<u64>,
+    /// Whose rules the report applies too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub benchmark: Option<Benchmark>,
 }
 
 /// A route and its file.
@@ -77,6 +81,7 @@ pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path, jobs: usize) 
             .map(|r| ManifestRoute { name: r.name.clone(), file: r.file.clone() })
             .collect(),
         seeds: plan.campaign.seeds.clone(),
+        benchmark: plan.campaign.benchmark,
     };
     let json = serde_json::to_string_pretty(&manifest)
         .map_err(|e| CampaignError::write(&path("campaign.json"), e))?;
@@ -99,6 +104,7 @@ fn csv<T: serde::Serialize>(path: &Path, rows: &[T]) -> Result<Vec<u8>, Campaign
 fn row(plan: &Plan, spec: &TrialSpec, oracle_length_m: Option<f64>, result: &TrialResult) -> TrialRow {
     let route = &plan.routes[spec.route];
     let metric = |value: fn(&Metrics) -> f64| result.metrics.as_ref().map(value);
+    let ride = |value: fn(&Ride) -> f64| result.ride.as_ref().map(value);
     let json = spec.config.as_ref().as_ref().ok().and_then(|config| serde_json::to_string(config).ok());
     TrialRow {
         id: spec.id.clone(),
@@ -117,6 +123,9 @@ fn row(plan: &Plan, spec: &TrialSpec, oracle_length_m: Option<f64>, result: &Tri
         mean_vibration_rad_s: metric(|m| m.mean_vibration_rad_s),
         mean_elevation_rate_cm_s: metric(|m| m.mean_elevation_rate_cm_s),
         curvature_change_rad_m: metric(|m| m.curvature_change_rad_m),
+        mean_abs_roll_rad: ride(|r| r.mean_abs_roll_rad),
+        mean_abs_pitch_rad: ride(|r| r.mean_abs_pitch_rad),
+        longest_standstill_s: ride(|r| r.longest_standstill_s),
         sim_time_s: result.sim_time_s,
         ticks: result.ticks,
         straight_m: route.straight_m(),
@@ -160,5 +169,35 @@ impl Manifest {
         let manifest: Self =
             serde_json::from_str(&text).map_err(|error| CampaignError::content(&path, error))?;
         Ok((manifest, rows))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+
+    #[test]
+    fn a_campaign_from_before_these_columns_and_benchmarks_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let expected = testing::row("default", "a", "none", 1, "reached");
+        let written = csv(Path::new("trials.csv"), &[&expected]).unwrap();
+        let mut old = csv::Writer::from_writer(Vec::new());
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(&*written);
+        let lines: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+        let is_new = |name: &str| name.starts_with("mean_abs_") || name == "longest_standstill_s";
+        assert_eq!(lines[0].iter().filter(|name| is_new(name)).count(), 3);
+        for line in &lines {
+            old.write_record(
+                line.iter().zip(&lines[0]).filter(|(_, name)| !is_new(name)).map(|(value, _)| value),
+            )
+            .unwrap();
+        }
+        std::fs::write(folder.path().join("trials.csv"), old.into_inner().unwrap()).unwrap();
+        let manifest = testing::results(&["default"], &["a"], Vec::new()).manifest;
+        let json = serde_json::to_string(&manifest).unwrap();
+        assert!(!json.contains("benchmark"), "{json}");
+        std::fs::write(folder.path().join("campaign.json"), json).unwrap();
+        assert_eq!(Manifest::read(folder.path()).unwrap(), (manifest, vec![expected]));
     }
 }

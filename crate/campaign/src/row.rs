@@ -36,6 +36,12 @@ pub struct TrialRow {
     pub mean_elevation_rate_cm_s: Option<f64>,
     /// C_chg.
     pub curvature_change_rad_m: Option<f64>,
+    /// Mean of |φ| over time.
+    pub mean_abs_roll_rad: Option<f64>,
+    /// Mean of |ψ| over time.
+    pub mean_abs_pitch_rad: Option<f64>,
+    /// The longest time without a move from the place, seconds.
+    pub longest_standstill_s: Option<f64>,
     /// Simulated time, seconds.
     pub sim_time_s: Option<f64>,
     /// Planning periods.

@@ -25,6 +25,9 @@ pub(crate) fn row(planner: &str, route: &str, truth: &str, seed: u64, outcome: &
         mean_vibration_rad_s: None,
         mean_elevation_rate_cm_s: None,
         curvature_change_rad_m: None,
+        mean_abs_roll_rad: None,
+        mean_abs_pitch_rad: None,
+        longest_standstill_s: None,
         sim_time_s: Some(1.5),
         ticks: Some(15),
         straight_m: 2.0,
@@ -46,6 +49,7 @@ pub(crate) fn results(planners: &[&str], routes: &[&str], rows: Vec<TrialRow>) -
             planners: planners.iter().map(|name| (*name).to_owned()).collect(),
             routes: routes.iter().map(route).collect(),
             seeds: vec![1],
+            benchmark: None,
         },
         rows,
     }

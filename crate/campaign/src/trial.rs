@@ -79,6 +79,7 @@ fn drive(
         stop_reason: trial.end_reason(),
         error: None,
         metrics: Some(metrics),
+        ride: Some(trial.ride()),
         sim_time_s: Some(trial.time_s()),
         ticks: Some(trial.ticks()),
         digest: Some(trial.digest()),

@@ -5,6 +5,7 @@
 
 mod any_trial;
 mod generate;
+mod import;
 mod log;
 mod parsers;
 mod perceive;
@@ -43,6 +44,8 @@ enum Command {
     Profile(profile::Args),
     /// Write tasks on generated terrains, each of which the oracle has solved, as scenario files.
     Generate(generate::Args),
+    /// Write another benchmark's worlds and tasks as terrains, scenarios and a campaign.
+    Import(import::Args),
     /// Show what the planner perceives in one recorded scan. Exit code: 0 = perceived or stopped with a
     /// reason, 1 = error.
     Perceive(perceive::Args),
@@ -62,6 +65,7 @@ fn main() -> ExitCode {
         Command::Report(args) => results::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Generate(args) => generate::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Import(args) => import::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Perceive(args) => perceive::run(&args).map(|()| ExitCode::SUCCESS),
     };
     result.unwrap_or_else(|error| {

@@ -18,7 +18,7 @@ pub mod statistics;
 mod trial;
 
 pub use history::History;
-pub use metrics::Metrics;
+pub use metrics::{Metrics, Ride};
 pub use navigator::{Activity, Decision, Navigator, NavigatorStop};
 pub use outcome::Outcome;
 pub use places::StartPose;

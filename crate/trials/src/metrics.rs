@@ -4,6 +4,8 @@ use glam::DVec3;
 
 /// Below this speed the curvature |ω / v| is undefined; such samples do not count in its change.
 const LEAST_SPEED_M_S: f64 = 0.05;
+/// Slower than this, a robot stands.
+const STANDSTILL_M_S: f64 = 0.01;
 
 /// The metrics of a trial so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -37,6 +39,17 @@ impl Metrics {
     }
 }
 
+/// What others measure of a drive beside the paper's metrics.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Ride {
+    /// Mean of |φ| over time.
+    pub mean_abs_roll_rad: f64,
+    /// Mean of |ψ| over time.
+    pub mean_abs_pitch_rad: f64,
+    /// The longest time without a move from the place, turns on the spot included, seconds.
+    pub longest_standstill_s: f64,
+}
+
 /// Computes the metrics from evenly spaced samples of the motion.
 #[derive(Clone, Debug)]
 pub(crate) struct MetricsRecorder {
@@ -48,6 +61,11 @@ pub(crate) struct MetricsRecorder {
     tilt_travel_rad: f64,
     climb_m: f64,
     curvature_travel_rad_m: f64,
+    /// Of |φ| and |ψ| over time.
+    abs_roll_rad_s: f64,
+    abs_pitch_rad_s: f64,
+    standstill_s: f64,
+    longest_standstill_s: f64,
 }
 
 /// One sample of the motion.
@@ -77,6 +95,10 @@ impl MetricsRecorder {
             tilt_travel_rad: 0.0,
             climb_m: 0.0,
             curvature_travel_rad_m: 0.0,
+            abs_roll_rad_s: 0.0,
+            abs_pitch_rad_s: 0.0,
+            standstill_s: 0.0,
+            longest_standstill_s: 0.0,
         }
     }
 
@@ -92,6 +114,11 @@ impl MetricsRecorder {
         if let (Some(now), Some(before)) = (sample.curvature_rad_m(), last.curvature_rad_m()) {
             self.curvature_travel_rad_m += (now - before).abs();
         }
+        self.abs_roll_rad_s += sample.roll_rad.abs() * dt_s;
+        self.abs_pitch_rad_s += sample.pitch_rad.abs() * dt_s;
+        let stands = sample.speed_m_s.abs() < STANDSTILL_M_S;
+        self.standstill_s = if stands { self.standstill_s + dt_s } else { 0.0 };
+        self.longest_standstill_s = self.longest_standstill_s.max(self.standstill_s);
     }
 
     /// The metrics up to the last sample; zeros before any time has passed.
@@ -104,6 +131,16 @@ impl MetricsRecorder {
             mean_vibration_rad_s: per_second(self.tilt_travel_rad),
             mean_elevation_rate_cm_s: 100.0 * per_second(self.climb_m),
             curvature_change_rad_m: per_second(self.curvature_travel_rad_m),
+        }
+    }
+
+    /// As [`MetricsRecorder::metrics`].
+    pub(crate) fn ride(&self) -> Ride {
+        let mean = |total: f64| if self.time_s > 0.0 { total / self.time_s } else { 0.0 };
+        Ride {
+            mean_abs_roll_rad: mean(self.abs_roll_rad_s),
+            mean_abs_pitch_rad: mean(self.abs_pitch_rad_s),
+            longest_standstill_s: self.longest_standstill_s,
         }
     }
 }
@@ -137,5 +174,18 @@ mod tests {
         close(metrics.mean_elevation_rate_cm_s, 100.0 * 6.0 / 4.0);
         // Only the first step lies between two samples fast enough to have a curvature.
         close(metrics.curvature_change_rad_m, 0.5 / 4.0);
+        let ride = recorder.ride();
+        close(ride.mean_abs_roll_rad, (0.1 + 0.1) / 4.0);
+        close(ride.mean_abs_pitch_rad, (0.2 + 0.2) / 4.0);
+    }
+
+    #[test]
+    fn the_longest_standstill_counts_turns_on_the_spot_and_no_drive() {
+        let mut recorder = MetricsRecorder::new(sample(0.0, 0.0, 0.0, 0.0, 0.0, 0.0));
+        let speeds_m_s = [0.005, -0.005, 0.0, 0.02, 0.0, 0.0, -0.02, 0.0];
+        for speed_m_s in speeds_m_s {
+            recorder.record(sample(0.0, 0.0, 0.0, 0.0, speed_m_s, 0.5), 0.5);
+        }
+        assert!((recorder.ride().longest_standstill_s - 1.5).abs() < 1e-12, "{:?}", recorder.ride());
     }
 }

@@ -13,7 +13,7 @@ use mapless_world::{
 };
 
 use crate::digest::TrajectoryDigest;
-use crate::metrics::{Metrics, MetricsRecorder, Sample};
+use crate::metrics::{Metrics, MetricsRecorder, Ride, Sample};
 use crate::navigator::{Activity, Decision, Navigator, NavigatorStop};
 use crate::outcome::Outcome;
 use crate::places::StartPose;
@@ -546,6 +546,11 @@ impl<N: Navigator> Trial<N> {
     /// The paper's metrics so far.
     pub fn metrics(&self) -> Metrics {
         self.metrics.metrics()
+    }
+
+    /// What others measure of the drive so far.
+    pub fn ride(&self) -> Ride {
+        self.metrics.ride()
     }
 
     /// Digest of the trajectory so far, 32 hexadecimal digits.

@@ -50,7 +50,8 @@ fn times(row: &TrialRow) -> f64 {
     times().map_or(MOST_STRAIGHT_TIMES, |times| times.min(MOST_STRAIGHT_TIMES))
 }
 
-fn full_speed_m_s(row: &TrialRow) -> Option<f64> {
+/// The planner's full speed.
+pub(super) fn full_speed_m_s(row: &TrialRow) -> Option<f64> {
     let configuration: serde_json::Value = serde_json::from_str(&row.configuration).ok()?;
     configuration.pointer("/controller/max_speed_m_s")?.as_f64()
 }

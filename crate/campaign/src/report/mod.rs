@@ -11,6 +11,7 @@ mod published;
 mod spread;
 mod tables;
 mod trajectory;
+mod verti_bench;
 mod worst;
 
 use std::collections::BTreeMap;
@@ -18,6 +19,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::error::CampaignError;
+use crate::file::Benchmark;
 use crate::files::write_atomically;
 use crate::results::Manifest;
 use crate::row::TrialRow;
@@ -105,9 +107,10 @@ impl Results {
     fn groups(&self) -> Vec<&str> {
         let mut groups: Vec<&str> =
             self.manifest.routes.iter().map(|route| self.group(&route.name)).collect();
-        groups.sort_unstable_by_key(|group| {
-            (Family::ALL.iter().position(|family| family.name() == *group), *group)
-        });
+        let generated = Family::ALL.iter().map(|family| family.name());
+        let imported = crate::verti_bench::Difficulty::ALL.iter().map(|difficulty| difficulty.name());
+        let names: Vec<&str> = generated.chain(imported).collect();
+        groups.sort_unstable_by_key(|group| (names.iter().position(|name| name == group), *group));
         groups.dedup();
         groups
     }
@@ -271,6 +274,9 @@ fn sections(
     }
     if compares {
         comparison::of_the_first(text, results, published)?;
+    }
+    if has_plain && results.manifest.benchmark == Some(Benchmark::VertiBench) {
+        verti_bench::section(text, results)?;
     }
     if has_plain {
         duration::section(text, results)?;
