@@ -881,12 +881,12 @@ export class Session {
 }
 
 /**
- * The recipe of a generated terrain; `difficulty` is `easy`, `moderate` or `hard`.
+ * The recipe of a generated terrain of a family, such as `hard` or `rocks`.
  *
  * # Errors
- * An unknown difficulty.
+ * An unknown family.
  */
-export function generated_recipe(difficulty: string, seed: number): string;
+export function generated_recipe(family: string, seed: number): string;
 
 /**
  * What a recipe imports; nothing where it imports nothing.
