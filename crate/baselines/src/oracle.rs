@@ -3,8 +3,9 @@
 //! It is A* on a lattice of positions and headings: places of a square grid with sixteen headings each. A
 //! motion goes straight along a heading, bends into one of the next two to either side, or turns on the spot
 //! to the next. Along every motion the robot's attitude on the true ground is checked every 0.125 m and 0.1
-//! rad: roll and pitch must stay a margin inside the limits, and the body clear of what stands there. The grid's first axis runs from start to goal,
-//! so that both are places of it and the straight line is one of its paths.
+//! rad: roll and pitch must stay a margin inside the limits, and the body clear of what stands there. The
+//! grid's first axis runs from start to goal, so that both are places of it and the straight line is one of
+//! its paths.
 //!
 //! The cost is the length seen from above, plus 0.1 m for each heading turned on the spot, which avoids
 //! needless turns. Between its headings the lattice path zigzags: up to 2.8 % longer than a path over all

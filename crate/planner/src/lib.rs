@@ -37,8 +37,8 @@
 //! # Ok::<(), mapless::ConfigError>(())
 //! ```
 //!
-//! Another sensor or robot starts from one that is known, and its fields are set. A struct expression does not
-//! compile outside this crate, because later versions may add fields.
+//! Another sensor or robot starts from one that is known, and its fields are set. A struct expression does
+//! not compile outside this crate, because later versions may add fields.
 //!
 //! ```
 //! # use mapless::{Planner, PlannerConfig, RobotModel, SensorModel};

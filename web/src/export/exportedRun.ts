@@ -39,7 +39,7 @@ function decimals(value: number): string {
 
 /** The result as `mapless run --json` prints it; the outcome of a run that has not ended is `running`. */
 export function runJson({ info, frame, record }: Run): string {
-  const { outcome, stop_reason, metrics, tick, time_s, digest } = frame;
+  const { outcome, stop_reason, metrics, distance_to_goal_m, tick, time_s, digest } = frame;
   const times_ms = Float64Array.from({ length: record.before(frame.tick) }, (_, row) =>
     record.get(row, 'planner_ms'),
   ).sort();
@@ -47,6 +47,7 @@ export function runJson({ info, frame, record }: Run): string {
     outcome,
     reason: stop_reason ?? null,
     metrics,
+    distance_to_goal_m,
     ticks: tick,
     sim_time_s: time_s,
     planner_ms: { p50: quantile(times_ms, 50), p99: quantile(times_ms, 99) },

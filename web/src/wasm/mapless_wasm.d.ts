@@ -238,6 +238,10 @@ export interface Frame {
     path: PathPoint[];
     metrics: Metrics;
     /**
+     * From where the robot truly is, seen from above.
+     */
+    distance_to_goal_m: number;
+    /**
      * Digest of the whole trajectory so far; the command line prints the same one.
      */
     digest: string;

@@ -92,8 +92,8 @@ impl<'a> SafePoses<'a> {
         self.near.get(square.y as usize * self.squares + square.x as usize).map_or(&[], Vec::as_slice)
     }
 
-    /// Whether the robot is safe at a pose: wheels on the terrain, roll and pitch within the allowed, the body
-    /// clear of everything.
+    /// Whether the robot is safe at a pose: wheels on the terrain, roll and pitch within the allowed, the
+    /// body clear of everything.
     pub(super) fn is_safe(&self, position_m: DVec2, yaw_rad: f64) -> bool {
         let KnownWorld { field, robot, touches_ground, .. } = self.world;
         let solids = self.near(position_m);
@@ -196,8 +196,8 @@ fn clear_gradient(robot: &RobotConfig, ground_clearance_m: f64) -> f64 {
     belly.min(bumper).max(0.0)
 }
 
-/// For each cell whether the ground is at most as steep as `gradient` wherever a robot in the cell may touch it,
-/// whose wheels or body fill this length and width.
+/// For each cell whether the ground is at most as steep as `gradient` wherever a robot in the cell may touch
+/// it, whose wheels or body fill this length and width.
 fn gentle_cells(field: &HeightField, outline_m: DVec2, gradient: f64) -> Vec<bool> {
     let (columns, rows) = (field.columns() - 1, field.rows() - 1);
     let heights_m = field.heights_m();

@@ -166,7 +166,8 @@ impl Yard<'_> {
         }
     }
 
-    /// Ditches from border to border that run out at every third or fourth point, and narrow ones that do not.
+    /// Ditches from border to border that run out at every third or fourth point, and narrow ones that do
+    /// not.
     fn ditches(&mut self, wide: [u32; 2], narrow: [u32; 2]) -> Vec<&'static str> {
         for _ in 0..self.draw.whole(wide) {
             let (depth_m, width_m) = (self.draw.between([0.5, 1.2]), self.draw.between([0.18, 0.4]));

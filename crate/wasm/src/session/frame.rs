@@ -41,6 +41,8 @@ pub struct Frame {
     /// judged by the paper's height alone.
     path: Vec<PathPoint>,
     metrics: Metrics,
+    /// From where the robot truly is, seen from above.
+    distance_to_goal_m: f64,
     /// Digest of the whole trajectory so far; the command line prints the same one.
     digest: String,
     timeline: Timeline,
@@ -167,6 +169,7 @@ impl Session {
             subgoals: if decided { decision::subgoals(&step) } else { Vec::new() },
             path: if decided { decision::path(&step) } else { Vec::new() },
             metrics: Metrics::of(trial),
+            distance_to_goal_m: trial.true_distance_to_goal_m(),
             digest: self.digest(),
             timeline: self.timeline(),
             waypoints_passed: trial.waypoints_passed(),

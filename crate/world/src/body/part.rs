@@ -67,8 +67,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(1000))]
 
-        /// Samples of the part are near the solid if they touch, and none lies a centimetre deep in it if they
-        /// do not.
+        /// Samples of the part are near the solid if they touch, and none lies a centimetre deep in it if
+        /// they do not.
         #[test]
         fn touches_what_a_sampled_box_touches(
             kind in 0u8..3, size in prop::array::uniform3(0.05..0.6f64), yaw_rad in -3.2..3.2f64,
