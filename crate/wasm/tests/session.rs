@@ -117,7 +117,9 @@ fn buffers(session: &Session, points: u32) -> JsValue {
     ] {
         Reflect::set(&buffers, &name.into(), &Float32Array::new_with_length(length)).unwrap();
     }
-    Reflect::set(&buffers, &"kinds".into(), &Uint8Array::new_with_length(columns)).unwrap();
+    for (name, length) in [("kinds", columns), ("return_kinds", points)] {
+        Reflect::set(&buffers, &name.into(), &Uint8Array::new_with_length(length)).unwrap();
+    }
     buffers.into()
 }
 
