@@ -54,6 +54,7 @@ fn columns(rows: &[TrialRow]) -> Vec<(&'static str, Column)> {
         ("route", text(|row| &row.route)),
         ("truth", text(|row| &row.truth)),
         ("parameters", text(|row| &row.parameters)),
+        ("reality", text(|row| &row.reality)),
         ("seed", whole(|row| Some(row.seed))),
         ("outcome", text(|row| &row.outcome)),
         ("stop_reason", maybe(|row| &row.stop_reason)),

@@ -13,6 +13,11 @@
 //! [[parameters]]
 //! path = "planner.decision.steepness_weight"
 //! values = [0.0, 0.5, 1.0]
+//!
+//! [[realities]]                           # besides the scenarios' own [reality], one of these for each trial
+//! name = "slippery"
+//! reality = { motion = { friction = 0.4 } }   # laid over the scenario's own; a preset replaces all of it
+//! planners = ["default"]                  # these alone; all when absent
 //! ```
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,10 +30,11 @@ use toml::Spanned;
 use crate::error::CampaignError;
 use crate::files::tidy;
 use mapless_baselines::Truth;
-use mapless_trials::{current_path, current_value};
+use mapless_trials::{RealityConfig, current_path, current_value};
 
 use crate::navigators;
 use crate::parameters::{self, Parameter, Variation};
+use crate::reality::Condition;
 
 /// A campaign, checked except for its routes' scenarios.
 #[derive(Clone, Debug)]
@@ -51,6 +57,8 @@ pub struct Campaign {
     pub combine: Combine,
     /// Whose rules the report applies too.
     pub benchmark: Option<Benchmark>,
+    /// What else may go wrong than in the scenarios.
+    pub realities: Vec<Condition>,
     /// The combinations of parameter values.
     pub(crate) variations: Vec<Variation>,
 }
@@ -91,6 +99,8 @@ struct File {
     benchmark: Option<Benchmark>,
     #[serde(default)]
     parameters: Vec<ParameterTable>,
+    #[serde(default)]
+    realities: Vec<RealityTable>,
 }
 
 #[derive(serde::Deserialize)]
@@ -98,6 +108,14 @@ struct File {
 struct ParameterTable {
     path: Spanned<String>,
     values: Spanned<Vec<Spanned<toml::Value>>>,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RealityTable {
+    name: Spanned<String>,
+    reality: Spanned<toml::Table>,
+    planners: Option<Spanned<Vec<Spanned<String>>>>,
 }
 
 /// `[1, 2, 3]` or `{ from = 1, to = 100 }`, both ends included.
@@ -155,6 +173,7 @@ impl Campaign {
             }
         }
         let parameters = place.parameters(&file.parameters)?;
+        let realities = place.realities(file.realities, file.planners.as_ref())?;
         Ok(Self {
             name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
             routes: place.routes(&file.routes)?,
@@ -169,6 +188,7 @@ impl Campaign {
             trajectories: file.trajectories,
             combine: file.combine,
             benchmark: file.benchmark,
+            realities,
             variations: match file.combine {
                 Combine::OneAtATime => parameters::one_at_a_time(&parameters),
                 Combine::Grid => parameters::grid(&parameters),
@@ -268,6 +288,44 @@ impl Place<'_> {
             parameters.push(Parameter { path, values });
         }
         Ok(parameters)
+    }
+
+    /// The conditions of a campaign of `planners`.
+    fn realities(
+        &self,
+        tables: Vec<RealityTable>,
+        planners: &[Spanned<String>],
+    ) -> Result<Vec<Condition>, CampaignError> {
+        let mut conditions: Vec<Condition> = Vec::new();
+        for RealityTable { name, reality, planners: own } in tables {
+            let fail = |at: usize, reason: &str| self.error(at, &format!("realities: {reason}"));
+            // A space or a bar would part words and cells of reports.
+            let is_word = |name: &str| {
+                !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c))
+            };
+            if !is_word(name.as_ref()) || conditions.iter().any(|before| before.name == *name.as_ref()) {
+                let reason = format!(
+                    "name = {:?}: expected letters, digits, '_', '-' and '.', and each name once",
+                    name.as_ref()
+                );
+                return Err(fail(name.span().start, &reason));
+            }
+            RealityConfig::default()
+                .with_section(reality.as_ref())
+                .map_err(|fault| fail(reality.span().start, &fault.to_string()))?;
+            if let Some(own) = &own {
+                for planner in self.distinct("planners", own, |name| format!("{name:?}"))? {
+                    if !planners.iter().any(|known| known.as_ref() == planner.as_ref()) {
+                        let reason =
+                            format!("planners: {:?}: expected one of the campaign's", planner.as_ref());
+                        return Err(fail(planner.span().start, &reason));
+                    }
+                }
+            }
+            let (name, section) = (name.into_inner(), reality.into_inner());
+            conditions.push(Condition { name, section, planners: own.map(plain) });
+        }
+        Ok(conditions)
     }
 }
 
@@ -381,6 +439,8 @@ mod tests {
     fn what_is_wrong_is_named_with_its_line() {
         let parameters = "[[parameters]]\npath = \"planner.decision.steepness_weight\"\nvalues = [0.5, 1]\n";
         assert_eq!(parse(&format!("{GOOD}{parameters}")).unwrap().variations.len(), 3);
+        let wet = "[[realities]]\nname = \"wet\"\nreality = { motion = { friction = 0.4 } }\n";
+        assert_eq!(parse(&format!("{GOOD}{wet}")).unwrap().realities.len(), 1);
         for (text, needles) in [
             (GOOD.replace("seeds", "seed"), vec!["line 3", "unknown field `seed`", "expected"]),
             (
@@ -423,6 +483,18 @@ mod tests {
                 format!("{GOOD}{}", parameters.replace("values", "value")),
                 vec!["line 6", "unknown field `value`"],
             ),
+            (
+                format!("{GOOD}{}", wet.replace("wet", "wet grass")),
+                vec!["line 5", "\"wet grass\"", "letters"],
+            ),
+            (format!("{GOOD}{wet}{wet}"), vec!["line 8", "\"wet\"", "once"]),
+            (format!("{GOOD}{}", wet.replace("0.4", "-1")), vec!["line 6", "friction = -1", "expected"]),
+            (format!("{GOOD}{}", wet.replace("friction", "grip")), vec!["line 6", "unknown field `grip`"]),
+            (
+                format!("{GOOD}{wet}planners = [\"paper\"]\n"),
+                vec!["line 7", "\"paper\"", "one of the campaign's"],
+            ),
+            (format!("{GOOD}{wet}planners = []\n"), vec!["line 7", "at least one"]),
         ] {
             let error = parse(&text).unwrap_err();
             for needle in needles {

@@ -1,4 +1,4 @@
-//! Campaigns: many trials, planners × routes × seeds × parameter values, run on every core.
+//! Campaigns: many trials, planners × routes × seeds × parameter values × realities, run on every core.
 //!
 //! A campaign is a TOML file ([`Campaign`]). [`Plan::read`] expands it into trials, [`run`] runs those that
 //! no journal in the results' folder has yet, and once all have run the folder holds
@@ -23,6 +23,7 @@ mod navigators;
 mod pace;
 mod parameters;
 mod plan;
+mod reality;
 pub mod report;
 mod results;
 mod row;
@@ -37,6 +38,7 @@ pub use file::{Benchmark, Campaign, Combine};
 pub use journal::{Entry, Timing, TrialResult};
 pub use mapless_baselines::Truth;
 pub use plan::{Plan, Route, Shard, TrialSpec};
-pub use results::{Manifest, ManifestRoute};
+pub use reality::Condition;
+pub use results::{Manifest, ManifestReality, ManifestRoute};
 pub use row::TrialRow;
 pub use runner::{Done, Options, Progress, run, run_one};

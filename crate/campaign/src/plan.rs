@@ -13,6 +13,7 @@ use crate::files::tidy;
 use crate::hash::{self, Hash};
 use crate::navigators;
 use crate::parameters;
+use crate::reality::Condition;
 
 /// All trials of a campaign.
 #[derive(Debug)]
@@ -26,7 +27,7 @@ pub struct Plan {
     pub hash: String,
     /// The routes, by name.
     pub routes: Vec<Route>,
-    /// The trials, sorted by planner, route, truth, parameters and seed.
+    /// The trials, sorted by planner, route, truth, parameters, reality and seed.
     pub trials: Vec<TrialSpec>,
 }
 
@@ -72,7 +73,7 @@ impl Route {
 /// One trial to run.
 #[derive(Clone, Debug)]
 pub struct TrialSpec {
-    /// Identity of the trial within its campaign: of its planner, route, truth, parameters and seed.
+    /// Identity of the trial within its campaign: of its planner, route, truth, parameters, reality and seed.
     pub id: String,
     /// Name of the planner.
     pub planner: String,
@@ -82,6 +83,8 @@ pub struct TrialSpec {
     pub truth: Truth,
     /// `path=value` of every parameter that the campaign sets, separated by spaces.
     pub parameters: String,
+    /// What else goes wrong than in the scenario.
+    pub reality: Option<Arc<Condition>>,
     /// Seed of the sensor's noise.
     pub seed: u64,
     /// The planner's whole configuration, or why there is none.
@@ -153,6 +156,8 @@ fn expand(campaign: &Campaign, routes: &[Route]) -> Vec<TrialSpec> {
     planners.sort_unstable();
     truths.sort_unstable();
     let first_seed = campaign.seeds.first();
+    let mut conditions: Vec<Arc<Condition>> = campaign.realities.iter().cloned().map(Arc::new).collect();
+    conditions.sort_unstable_by(|a, b| a.name.cmp(&b.name));
     let mut trials = Vec::new();
     for planner in &planners {
         let mut seeds = campaign.seeds_of(planner).to_vec();
@@ -174,25 +179,26 @@ fn expand(campaign: &Campaign, routes: &[Route]) -> Vec<TrialSpec> {
                     });
                     let config = Arc::new(config);
                     let parameters = parameters::name(variation);
-                    trials.extend(seeds.iter().map(|&seed| TrialSpec {
-                        id: hash::of_words(&[
-                            planner,
-                            &route.name,
-                            truth.name(),
-                            &parameters,
-                            &seed.to_string(),
-                        ]),
-                        planner: planner.clone(),
-                        route: index,
-                        truth,
-                        parameters: parameters.clone(),
-                        seed,
-                        config: Arc::clone(&config),
-                        keeps_trajectory: campaign.trajectories
-                            && is_base
-                            && truth == Truth::None
-                            && Some(&seed) == first_seed,
-                    }));
+                    let others = conditions.iter().filter(|condition| condition.is_for(planner));
+                    for reality in std::iter::once(None).chain(others.map(Some)) {
+                        let mut words = vec![planner, &route.name, truth.name(), &parameters];
+                        words.extend(reality.map(|condition| condition.name.as_str()));
+                        trials.extend(seeds.iter().map(|&seed| TrialSpec {
+                            id: hash::of_words(&[&words[..], &[&seed.to_string()]].concat()),
+                            planner: planner.clone(),
+                            route: index,
+                            truth,
+                            parameters: parameters.clone(),
+                            reality: reality.cloned(),
+                            seed,
+                            config: Arc::clone(&config),
+                            keeps_trajectory: campaign.trajectories
+                                && is_base
+                                && truth == Truth::None
+                                && reality.is_none()
+                                && Some(&seed) == first_seed,
+                        }));
+                    }
                 }
             }
         }
@@ -211,6 +217,10 @@ fn identity(campaign: &Campaign, routes: &[Route], trials: &[TrialSpec]) -> Stri
         hash.add(format!("{} {} {}", field.columns(), field.rows(), field.cell_m()).as_bytes());
         let heights: Vec<u8> = field.heights_m().iter().flat_map(|height| height.to_le_bytes()).collect();
         hash.add(&heights);
+    }
+    for Condition { name, section, .. } in &campaign.realities {
+        hash.add(name.as_bytes());
+        hash.add(section.to_string().as_bytes());
     }
     for trial in trials {
         hash.add(trial.id.as_bytes());
@@ -310,6 +320,32 @@ mod tests {
         ] {
             assert_ne!(other, first);
         }
+    }
+
+    #[test]
+    fn every_condition_is_driven_by_its_planners_beside_the_scenarios_own() {
+        let base = plan(RECIPE, SCENARIO, CAMPAIGN).unwrap();
+        let text = format!(
+            "{CAMPAIGN}[[realities]]\nname = \"wet\"\nreality = {{ motion = {{ friction = 0.4 }} }}\n\
+             [[realities]]\nname = \"field\"\nreality = {{ preset = \"field\" }}\nplanners = [\"paper\"]\n"
+        );
+        let plan = |text: &str| plan(RECIPE, SCENARIO, text).unwrap();
+        let with = plan(&text);
+        let of = |planner: &str, name: Option<&str>| {
+            let is_of = move |trial: &&TrialSpec| {
+                trial.planner == planner
+                    && trial.reality.as_ref().map(|reality| reality.name.as_str()) == name
+            };
+            with.trials.iter().filter(is_of).count()
+        };
+        assert_eq!([None, Some("field"), Some("wet")].map(|name| of("paper", name)), [8, 8, 8]);
+        assert_eq!([None, Some("field"), Some("wet")].map(|name| of("default", name)), [12, 0, 12]);
+        let ids = |plan: &Plan| -> std::collections::BTreeSet<String> {
+            plan.trials.iter().map(|trial| trial.id.clone()).collect()
+        };
+        assert_eq!(ids(&with).len(), with.trials.len());
+        assert!(ids(&with).is_superset(&ids(&base)), "trials in the scenarios' own reality keep their ids");
+        assert_ne!(plan(&text.replace("0.4", "0.5")).hash, with.hash);
     }
 
     #[test]

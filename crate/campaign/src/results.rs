@@ -29,6 +29,9 @@ pub struct Manifest {
     pub routes: Vec<ManifestRoute>,
     /// Seeds in the campaign file's order.
     pub seeds: Vec<u64>,
+    /// The conditions beside the scenarios' own `[reality]`, in the campaign file's order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub realities: Vec<ManifestReality>,
     /// Whose rules the report applies too.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub benchmark: Option<Benchmark>,
@@ -42,6 +45,24 @@ pub struct ManifestRoute {
     pub name: String,
     /// Its scenario file, as named when the campaign ran.
     pub file: String,
+}
+
+/// A condition and what it sets.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ManifestReality {
+    /// Its name.
+    pub name: String,
+    /// `key=value` of everything that it sets in `[reality]`, separated by spaces.
+    pub sets: String,
+}
+
+impl ManifestReality {
+    /// The preset of `[reality]` that it is; `None` if it sets anything else.
+    pub(crate) fn preset(&self) -> Option<&str> {
+        let word = self.sets.strip_prefix("preset=\"")?.strip_suffix('"')?;
+        (!word.contains(' ')).then_some(word)
+    }
 }
 
 /// One row of `timing.csv`.
@@ -81,6 +102,12 @@ pub(crate) fn write(plan: &Plan, entries: &Entries, folder: &Path, jobs: usize) 
             .map(|r| ManifestRoute { name: r.name.clone(), file: r.file.clone() })
             .collect(),
         seeds: plan.campaign.seeds.clone(),
+        realities: plan
+            .campaign
+            .realities
+            .iter()
+            .map(|condition| ManifestReality { name: condition.name.clone(), sets: condition.sets() })
+            .collect(),
         benchmark: plan.campaign.benchmark,
     };
     let json = serde_json::to_string_pretty(&manifest)
@@ -113,6 +140,7 @@ fn row(plan: &Plan, spec: &TrialSpec, oracle_length_m: Option<f64>, result: &Tri
         route: route.name.clone(),
         truth: spec.truth.name().to_owned(),
         parameters: spec.parameters.clone(),
+        reality: spec.reality.as_ref().map_or_else(String::new, |reality| reality.name.clone()),
         seed: spec.seed,
         outcome: result.outcome.map_or("error", mapless_trials::Outcome::name).to_owned(),
         stop_reason: result.stop_reason.clone(),
@@ -185,8 +213,9 @@ mod tests {
         let mut old = csv::Writer::from_writer(Vec::new());
         let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(&*written);
         let lines: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
-        let is_new = |name: &str| name.starts_with("mean_abs_") || name == "longest_standstill_s";
-        assert_eq!(lines[0].iter().filter(|name| is_new(name)).count(), 3);
+        let is_new =
+            |name: &str| name.starts_with("mean_abs_") || ["longest_standstill_s", "reality"].contains(&name);
+        assert_eq!(lines[0].iter().filter(|name| is_new(name)).count(), 4);
         for line in &lines {
             old.write_record(
                 line.iter().zip(&lines[0]).filter(|(_, name)| !is_new(name)).map(|(value, _)| value),
@@ -196,7 +225,7 @@ mod tests {
         std::fs::write(folder.path().join("trials.csv"), old.into_inner().unwrap()).unwrap();
         let manifest = testing::results(&["default"], &["a"], Vec::new()).manifest;
         let json = serde_json::to_string(&manifest).unwrap();
-        assert!(!json.contains("benchmark"), "{json}");
+        assert!(!json.contains("benchmark") && !json.contains("realities"), "{json}");
         std::fs::write(folder.path().join("campaign.json"), json).unwrap();
         assert_eq!(Manifest::read(folder.path()).unwrap(), (manifest, vec![expected]));
     }

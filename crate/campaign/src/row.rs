@@ -16,6 +16,9 @@ pub struct TrialRow {
     pub truth: String,
     /// `path=value` of every parameter that was set, separated by spaces.
     pub parameters: String,
+    /// Name of the condition that the scenario's `[reality]` was changed by; empty for the scenario's own.
+    #[serde(default)]
+    pub reality: String,
     /// Seed of the sensor's noise.
     pub seed: u64,
     /// How it ended, or `error`.

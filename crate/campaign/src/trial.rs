@@ -52,7 +52,13 @@ fn drive(
     mut trajectory: Option<&mut String>,
 ) -> Result<TrialResult, String> {
     let config = spec.config.as_ref().as_ref().map_err(Clone::clone)?;
-    let (scenario, field) = (&route.loaded.scenario, &route.loaded.terrain.field);
+    let (own, field) = (&route.loaded.scenario, &route.loaded.terrain.field);
+    let mut scenario = own.clone();
+    if let Some(condition) = &spec.reality {
+        let reality = own.reality.with_section(&condition.section).map_err(|fault| fault.to_string())?;
+        scenario.reality = reality;
+    }
+    let scenario = &scenario;
     let navigator = navigators::navigator(&spec.planner, spec.truth, field, scenario, config, spec.seed)?;
     let mut trial = Trial::with_navigator(field.clone(), scenario, navigator, spec.seed)
         .map_err(|error| error.to_string())?;

@@ -197,7 +197,7 @@ impl Scenario {
             object.validate(&format!("objects[{}]", index + 1)).map_err(|e| value(e.to_string()))?;
         }
         parsed.reality.validate("reality").map_err(|e| value(e.to_string()))?;
-        let reality = with_reality(&RealityConfig::default(), &section("reality")).map_err(fail)?;
+        let reality = RealityConfig::default().with_section(&section("reality")).map_err(fail)?;
         Ok(Self {
             terrain: parsed.terrain,
             start: parsed.start,
@@ -226,7 +226,7 @@ impl Scenario {
         let mut scenario = self.clone();
         merge(&mut scenario.planner, &sections.planner);
         (scenario.sensor, scenario.robot) = sections.applied_to(&self.sensor, &self.robot).map_err(fail)?;
-        scenario.reality = with_reality(&self.reality, &sections.reality).map_err(fail)?;
+        scenario.reality = self.reality.with_section(&sections.reality).map_err(fail)?;
         Ok(scenario)
     }
 
@@ -331,15 +331,21 @@ fn robot_model(robot: &RobotConfig) -> RobotModel {
     model
 }
 
-/// `config` with what a section `[reality]` sets: all values of its preset, if it names one, then single
-/// ones.
-fn with_reality(config: &RealityConfig, section: &toml::Table) -> Result<RealityConfig, ScenarioFault> {
-    let word = section.get("preset").and_then(toml::Value::as_str);
-    let preset = RealityPreset::ALL.iter().find(|preset| Some(preset.word()) == word);
-    let config = preset.map_or_else(|| config.clone(), |preset| preset.config());
-    let config: RealityConfig = overridden(&config, section, "reality")?;
-    config.validate("reality").map_err(|e| ScenarioFault::Value(e.to_string()))?;
-    Ok(config)
+impl RealityConfig {
+    /// This with what a section `[reality]` sets: all values of its preset, if it names one, then single
+    /// ones.
+    ///
+    /// # Errors
+    /// [`ScenarioFault::Value`] names the key and value that `[reality]` does not have, and what was
+    /// expected.
+    pub fn with_section(&self, section: &toml::Table) -> Result<Self, ScenarioFault> {
+        let word = section.get("preset").and_then(toml::Value::as_str);
+        let preset = RealityPreset::ALL.iter().find(|preset| Some(preset.word()) == word);
+        let config = preset.map_or_else(|| self.clone(), |preset| preset.config());
+        let config: Self = overridden(&config, section, "reality")?;
+        config.validate("reality").map_err(|e| ScenarioFault::Value(e.to_string()))?;
+        Ok(config)
+    }
 }
 
 /// `config` with the values of `over`; `section` names the place in errors.

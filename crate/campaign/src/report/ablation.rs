@@ -34,8 +34,7 @@ const DRAWN: usize = 4;
 /// The effect of each parameter that was set alone: a sentence for each value, then tables and figures; and a
 /// table of the combinations.
 pub(super) fn section(text: &mut String, results: &Results, figures: &mut Figures) -> fmt::Result {
-    let varied: Vec<&TrialRow> =
-        results.rows.iter().filter(|row| row.truth == "none" && !row.parameters.is_empty()).collect();
+    let varied: Vec<&TrialRow> = own_reality(results).filter(|row| !row.parameters.is_empty()).collect();
     if varied.is_empty() {
         return Ok(());
     }
@@ -67,6 +66,11 @@ pub(super) fn section(text: &mut String, results: &Results, figures: &mut Figure
     }
     let combined: Vec<&TrialRow> = varied.into_iter().filter(|row| row.parameters.contains(' ')).collect();
     if combined.is_empty() { Ok(()) } else { combinations(text, &combined) }
+}
+
+/// The trials without a perception override, in the scenarios' own reality.
+fn own_reality(results: &Results) -> impl Iterator<Item = &TrialRow> {
+    results.rows.iter().filter(|row| row.truth == "none" && row.reality.is_empty())
 }
 
 /// The paper's name of a parameter, or its path.
@@ -246,7 +250,7 @@ struct Value {
 /// The planner's own value and the others, each with its trials, in the order of their numbers.
 fn values<'a>(results: &'a Results, planner: &str, path: &str) -> Vec<(Value, Vec<&'a TrialRow>)> {
     let mut values: Vec<(Value, Vec<&TrialRow>)> = Vec::new();
-    for row in results.rows.iter().filter(|row| row.planner == planner && row.truth == "none") {
+    for row in own_reality(results).filter(|row| row.planner == planner) {
         let value = match row.parameters.split_once('=') {
             None => own_value(row, path).map(|text| Value { text, own: true }),
             Some((set, value)) if set == path && !row.parameters.contains(' ') => {

@@ -57,8 +57,8 @@ impl Cause {
     }
 }
 
-/// A trial without its override: planner, route, parameters, seed.
-type Key<'a> = (&'a str, &'a str, &'a str, u64);
+/// A trial without its override: planner, route, parameters, reality, seed.
+type Key<'a> = (&'a str, &'a str, &'a str, &'a str, u64);
 
 /// The rows of such a trial by override.
 type Trial<'a> = BTreeMap<&'a str, &'a TrialRow>;
@@ -67,7 +67,8 @@ type Trial<'a> = BTreeMap<&'a str, &'a TrialRow>;
 pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     let mut trials: BTreeMap<Key<'_>, Trial<'_>> = BTreeMap::new();
     for row in &results.rows {
-        let key = (row.planner.as_str(), row.route.as_str(), row.parameters.as_str(), row.seed);
+        let TrialRow { planner, route, parameters, reality, seed, .. } = row;
+        let key = (planner.as_str(), route.as_str(), parameters.as_str(), reality.as_str(), *seed);
         trials.entry(key).or_default().insert(&row.truth, row);
     }
     trials.retain(|_, trial| trial.len() > 1 && trial.contains_key("none"));
@@ -171,6 +172,9 @@ fn causes(text: &mut String, results: &Results, planner: &str, trials: &[&Trial<
         let mut planner = format!("`{planner}`");
         if !row.parameters.is_empty() {
             write!(planner, ", {}", row.parameters)?;
+        }
+        if !row.reality.is_empty() {
+            write!(planner, ", reality {}", row.reality)?;
         }
         let outcomes = OVERRIDES.map(|(truth, _)| {
             trial.get(truth).map_or_else(|| " |".to_owned(), |row| format!(" {} |", row.outcome))

@@ -8,6 +8,7 @@ mod faults;
 mod figures;
 mod oracle;
 mod published;
+mod reality;
 mod spread;
 mod tables;
 mod trajectory;
@@ -85,9 +86,16 @@ pub(crate) struct Results {
 }
 
 impl Results {
-    /// The trials of unchanged planners: no parameter set, no perception override.
+    /// The trials of unchanged planners in the scenarios' own reality: no parameter set, no perception
+    /// override.
     fn plain(&self) -> impl Iterator<Item = &TrialRow> {
-        self.rows.iter().filter(|row| row.parameters.is_empty() && row.truth == "none")
+        self.unchanged("")
+    }
+
+    /// The trials of unchanged planners under a condition; the scenarios' own has no name.
+    fn unchanged(&self, reality: &str) -> impl Iterator<Item = &TrialRow> {
+        let is_unchanged = |row: &&TrialRow| row.parameters.is_empty() && row.truth == "none";
+        self.rows.iter().filter(is_unchanged).filter(move |row| row.reality == reality)
     }
 
     /// The plain trials of one planner on the routes of `group`.
@@ -147,14 +155,16 @@ impl Results {
         )
     }
 
-    /// What a campaign of changed planners asks: the effect of each parameter, or the source of failures;
-    /// `None` if every planner is unchanged.
+    /// What a campaign of changed planners or realities asks: the effect of each parameter, the source of
+    /// failures, or the cost of each condition; `None` if nothing is changed.
     fn question(&self) -> Option<&'static str> {
         let any = |of: fn(&TrialRow) -> bool| self.rows.iter().any(of);
         if any(|row| !row.parameters.is_empty()) {
             Some("what the parameters buy")
+        } else if any(|row| row.truth != "none") {
+            Some("where failures come from")
         } else {
-            any(|row| row.truth != "none").then_some("where failures come from")
+            any(|row| !row.reality.is_empty()).then_some("what reality costs")
         }
     }
 }
@@ -287,6 +297,7 @@ fn sections(
         spread::section(text, results, published)?;
         oracle::section(text, results)?;
     }
+    reality::section(text, results)?;
     faults::section(text, results)?;
     ablation::section(text, results, figures)?;
     text.push_str(maps);
@@ -297,6 +308,14 @@ fn sections(
         "\n## Every trial\n\n[`{rows}`]({rows}) has a row for each, with its outcome, metrics, digest and whole configuration."
     )?;
     Ok(())
+}
+
+/// How a trial ended, with the reason if there is one, for a cell of a table.
+fn ending(row: &TrialRow) -> String {
+    let reason = row.stop_reason.as_ref().or(row.error.as_ref());
+    let reason = reason
+        .map_or_else(String::new, |reason| format!(": {}", reason.replace('|', "\\|").replace('\n', " ")));
+    format!("{}{reason}", row.outcome)
 }
 
 /// Failures by outcome, the most frequent first.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use mapless_baselines::TaskName;
 
-use super::Results;
+use super::{Results, ending};
 use crate::row::TrialRow;
 
 /// Trials shown: every failure, but at least and at most so many.
@@ -42,7 +42,7 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         "| planner | route | seed | outcome | of the tilt limit | command | page |\n|---|---|---:|---|---:|---|---|"
     )?;
     for (row, tilt) in rows.into_iter().take(failed.clamp(LEAST_SHOWN, MOST_SHOWN)) {
-        let TrialRow { planner, route, parameters, truth, seed, outcome, .. } = row;
+        let TrialRow { planner, route, parameters, reality, truth, seed, .. } = row;
         let mut planner = format!("`{planner}`");
         if truth != "none" {
             write!(planner, ", override {truth}")?;
@@ -50,14 +50,14 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
         if !parameters.is_empty() {
             write!(planner, ", {parameters}")?;
         }
+        if !reality.is_empty() {
+            write!(planner, ", reality {reality}")?;
+        }
         let command = results.replay(row);
-        let reason = row.stop_reason.as_ref().or(row.error.as_ref());
-        let reason = reason.map_or_else(String::new, |reason| {
-            format!(": {}", reason.replace('|', "\\|").replace('\n', " "))
-        });
         writeln!(
             text,
-            "| {planner} | {route} | {seed} | {outcome}{reason} | {} | `{command}` | {} |",
+            "| {planner} | {route} | {seed} | {} | {} | `{command}` | {} |",
+            ending(row),
             tilt.map_or_else(|| "–".to_owned(), |tilt| format!("{:.0} %", 100.0 * tilt)),
             address(results, row)
         )?;
@@ -65,10 +65,10 @@ pub(super) fn section(text: &mut String, results: &Results) -> fmt::Result {
     Ok(())
 }
 
-/// The end of the page's address that shows a trial; empty if the page lacks its route or does not drive its
-/// planner.
-fn address(results: &Results, row: &TrialRow) -> String {
-    let TrialRow { planner, route, parameters, truth, seed, .. } = row;
+/// The end of the page's address that shows a trial; empty if the page lacks its route, does not drive its
+/// planner, or has no name for its reality.
+pub(super) fn address(results: &Results, row: &TrialRow) -> String {
+    let TrialRow { planner, route, parameters, reality, truth, seed, .. } = row;
     let is_task = route.parse::<TaskName>().is_ok();
     let file = if is_task { format!("{route}.toml") } else { format!("terrains/scenarios/{route}.toml") };
     let mut routes = results.manifest.routes.iter();
@@ -77,12 +77,18 @@ fn address(results: &Results, row: &TrialRow) -> String {
     if !(has_route && is_driven && parameters.is_empty() && truth == "none") {
         return String::new();
     }
-    format!("`?scenario={route}&seed={seed}&preset={planner}`")
+    let sets = results.manifest.realities.iter().find(|known| known.name == *reality);
+    let word = match sets.map(|known| known.preset()) {
+        None => String::new(),
+        Some(Some(word)) => format!("&reality={word}"),
+        Some(None) => return String::new(),
+    };
+    format!("`?scenario={route}&seed={seed}&preset={planner}{word}`")
 }
 
 /// The largest tilt utilisation: |angle| / limit of roll or pitch. `None` if the trial did not run, or if its
 /// configuration names no limits.
-fn tilt_utilisation(row: &TrialRow) -> Option<f64> {
+pub(super) fn tilt_utilisation(row: &TrialRow) -> Option<f64> {
     let configuration = serde_json::from_str::<serde_json::Value>(&row.configuration).ok()?;
     // Rows of campaigns before the robot's model have the limits in a table of their own.
     let limit = |key: &str, former: &str| {
@@ -95,6 +101,7 @@ fn tilt_utilisation(row: &TrialRow) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::ManifestReality;
     use crate::testing::{results, row};
 
     #[test]
@@ -116,6 +123,24 @@ mod tests {
         assert!(text.contains("| `?scenario=gsb&seed=7&preset=default` |"), "{text}");
         assert!(text.contains("| `?scenario=easy-1-0001&seed=10&preset=paper` |"), "{text}");
         assert_eq!(text.matches("?scenario=").count(), 2, "{text}");
+    }
+
+    #[test]
+    fn an_address_has_the_preset_of_reality_and_none_stands_for_single_effects() {
+        let of = |reality: &str| TrialRow {
+            reality: reality.to_owned(),
+            ..row("default", "easy-1-0001", "none", 7, "stuck")
+        };
+        let mut results = results(&["default"], &["easy-1-0001"], Vec::new());
+        results.manifest.realities = [("rain", "preset=\"harsh\""), ("ice", "motion.friction=0.1")]
+            .map(|(name, sets)| ManifestReality { name: name.to_owned(), sets: sets.to_owned() })
+            .to_vec();
+        let address = |reality: &str| address(&results, &of(reality));
+        assert_eq!(address(""), "`?scenario=easy-1-0001&seed=7&preset=default`");
+        assert_eq!(address("rain"), "`?scenario=easy-1-0001&seed=7&preset=default&reality=harsh`");
+        assert_eq!(address("ice"), "");
+        results.manifest.realities[0].sets.push_str(" motion.friction=\"x\"");
+        assert_eq!(super::address(&results, &of("rain")), "");
     }
 
     #[test]
