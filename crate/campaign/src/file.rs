@@ -5,6 +5,7 @@
 //! routes = ["../scenarios/*.toml"]        # scenario files, relative to this one
 //! seeds = { from = 1, to = 100 }          # or a list
 //! fewer_seeds = { paper = 30 }            # this planner drives with the first 30 seeds only
+//! single_seed_routes = ["tasks/*.toml"]   # further routes, driven with the first seed only
 //! truth = ["none", "profile"]             # ground truth in place of perception; "none" when absent
 //! trajectories = true                     # keep those of the first seed; false when absent
 //! combine = "one_at_a_time"               # or "grid", of the parameters
@@ -45,6 +46,8 @@ pub struct Campaign {
     pub planners: Vec<String>,
     /// Scenario files, each once.
     pub routes: Vec<PathBuf>,
+    /// Scenario files that are driven with the first seed alone.
+    pub single_seed_routes: Vec<PathBuf>,
     /// Seeds of the sensor's noise, in the file's order.
     pub seeds: Vec<u64>,
     /// Planners that drive with fewer seeds than the others: how many, from the first on.
@@ -88,6 +91,7 @@ pub enum Benchmark {
 struct File {
     planners: Spanned<Vec<Spanned<String>>>,
     routes: Spanned<Vec<Spanned<String>>>,
+    single_seed_routes: Option<Spanned<Vec<Spanned<String>>>>,
     seeds: Spanned<Seeds>,
     #[serde(default)]
     fewer_seeds: BTreeMap<String, Spanned<usize>>,
@@ -172,11 +176,17 @@ impl Campaign {
                 return Err(place.error(count.span().start, &reason));
             }
         }
+        let routes = place.routes("routes", &file.routes, &[])?;
+        let single_seed_routes = file.single_seed_routes.as_ref();
+        let single_seed_routes = single_seed_routes
+            .map(|patterns| place.routes("single_seed_routes", patterns, &routes))
+            .transpose()?;
         let parameters = place.parameters(&file.parameters)?;
         let realities = place.realities(file.realities, file.planners.as_ref())?;
         Ok(Self {
             name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-            routes: place.routes(&file.routes)?,
+            routes,
+            single_seed_routes: single_seed_routes.unwrap_or_default(),
             planners: plain(file.planners),
             seeds: file.seeds.into_inner().0,
             fewer_seeds: file
@@ -237,13 +247,18 @@ impl Place<'_> {
     }
 
     /// The files of all patterns, each once. A route has its file's name, so no two files may have the same.
-    fn routes(&self, patterns: &Spanned<Vec<Spanned<String>>>) -> Result<Vec<PathBuf>, CampaignError> {
+    fn routes(
+        &self,
+        key: &str,
+        patterns: &Spanned<Vec<Spanned<String>>>,
+        others: &[PathBuf],
+    ) -> Result<Vec<PathBuf>, CampaignError> {
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let escaped = PathBuf::from(glob::Pattern::escape(&folder.to_string_lossy()));
         let mut routes = BTreeSet::new();
-        for pattern in self.distinct("routes", patterns, |pattern| format!("{pattern:?}"))? {
+        for pattern in self.distinct(key, patterns, |pattern| format!("{pattern:?}"))? {
             let fail = |reason: &str| {
-                self.error(pattern.span().start, &format!("routes: {:?}: {reason}", pattern.as_ref()))
+                self.error(pattern.span().start, &format!("{key}: {:?}: {reason}", pattern.as_ref()))
             };
             let found = glob::glob(&escaped.join(pattern.as_ref()).to_string_lossy()).map_err(|error| {
                 fail(&format!("{error}: expected a path, with * and ? where many are meant"))
@@ -258,10 +273,10 @@ impl Place<'_> {
             }
         }
         let mut names = BTreeSet::new();
-        for route in &routes {
+        for route in routes.iter().chain(others) {
             let name = route.file_stem().unwrap_or_default().to_string_lossy();
             if !names.insert(name.clone()) {
-                let reason = format!("routes: two files are named {name}: expected different names");
+                let reason = format!("{key}: two files are named {name}: expected different names");
                 return Err(self.error(patterns.span().start, &reason));
             }
         }
@@ -375,6 +390,7 @@ impl<'de> Visitor<'de> for SeedsVisitor {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use mapless_trials::RealityPreset;
 
     const GOOD: &str = "planners = [\"default\"]\nroutes = [\"*.toml\"]\nseeds = { from = 3, to = 5 }\n";
 
@@ -400,13 +416,48 @@ mod tests {
             assert_eq!(counts, (routes, seeds, variations), "{name}");
         }
         // Generated tasks are not part of the repository.
-        for name in ["generated", "quick-generated", "thousand", "failures", "faults", "verti-bench"] {
+        for name in [
+            "generated",
+            "quick-generated",
+            "thousand",
+            "failures",
+            "faults",
+            "reality",
+            "reality-full",
+            "verti-bench",
+        ] {
             let error =
                 Campaign::read(&folder.join(name).with_extension("toml")).map_err(|error| error.to_string());
             assert!(
                 error.is_ok() || error.unwrap_err().contains("expected at least one scenario file"),
                 "{name}"
             );
+        }
+    }
+
+    #[test]
+    fn the_effects_of_the_campaigns_of_reality_are_those_of_the_preset_field() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../terrains/campaigns");
+        for name in ["reality", "reality-full"] {
+            let path = folder.join(name).with_extension("toml");
+            let text = std::fs::read_to_string(&path).unwrap();
+            // Its routes are generated tasks, which may not be there.
+            let file: File = toml::from_str(&text).unwrap();
+            let place = Place { path: &path, text: &text };
+            let conditions = place.realities(file.realities, file.planners.as_ref()).unwrap();
+            let section = |word: &str| toml::from_str(&format!("preset = {word:?}")).unwrap();
+            assert_eq!(
+                conditions[..2]
+                    .iter()
+                    .map(|one| (one.name.as_str(), one.section.clone()))
+                    .collect::<Vec<_>>(),
+                [("field", section("field")), ("harsh", section("harsh"))]
+            );
+            let effects = conditions[2..].iter();
+            let all =
+                effects.fold(RealityConfig::default(), |all, one| all.with_section(&one.section).unwrap());
+            let field = RealityConfig { preset: all.preset, ..RealityPreset::Field.config() };
+            assert_eq!(all, field, "{name}: every value of the preset is in one of them, and no other");
         }
     }
 
@@ -454,6 +505,14 @@ mod tests {
             (
                 GOOD.replace("\"*.toml\"", "\"*.toml\", \"other/*.toml\""),
                 vec!["line 2", "two files are named a"],
+            ),
+            (
+                format!("{GOOD}single_seed_routes = [\"other/*.toml\"]\n"),
+                vec!["line 4", "single_seed_routes: two files are named a"],
+            ),
+            (
+                format!("{GOOD}single_seed_routes = [\"none/*.toml\"]\n"),
+                vec!["line 4", "single_seed_routes", "at least one scenario file"],
             ),
             (GOOD.replace("to = 5", "to = 2"), vec!["line 3", "from = 3, to = 2", "expected from ≤ to"]),
             (GOOD.replace("to = 5", "til = 5"), vec!["line 3", "`til`", "expected"]),

@@ -40,6 +40,8 @@ pub struct Route {
     pub file: String,
     /// Scenario and terrain.
     pub loaded: LoadedScenario,
+    /// Whether it is driven with the campaign's first seed alone.
+    pub has_single_seed: bool,
 }
 
 impl Route {
@@ -134,13 +136,15 @@ impl Plan {
     pub fn read(path: &Path) -> Result<Self, CampaignError> {
         let campaign = Campaign::read(path)?;
         let mut routes = Vec::new();
-        for file in &campaign.routes {
+        let single = campaign.single_seed_routes.iter().map(|file| (file, true));
+        for (file, has_single_seed) in campaign.routes.iter().map(|file| (file, false)).chain(single) {
             let loaded = LoadedScenario::read(file)
                 .map_err(|error| CampaignError::new(path, CampaignFault::Route(error)))?;
             routes.push(Route {
                 name: file.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
                 file: file.to_string_lossy().into_owned(),
                 loaded,
+                has_single_seed,
             });
         }
         routes.sort_by(|a, b| a.name.cmp(&b.name));
@@ -160,9 +164,10 @@ fn expand(campaign: &Campaign, routes: &[Route]) -> Vec<TrialSpec> {
     conditions.sort_unstable_by(|a, b| a.name.cmp(&b.name));
     let mut trials = Vec::new();
     for planner in &planners {
-        let mut seeds = campaign.seeds_of(planner).to_vec();
-        seeds.sort_unstable();
         for (index, route) in routes.iter().enumerate() {
+            let mut seeds = campaign.seeds_of(planner).to_vec();
+            seeds.truncate(if route.has_single_seed { 1 } else { seeds.len() });
+            seeds.sort_unstable();
             let base = navigators::configuration(planner, &route.loaded.scenario);
             // The others know the ground anyway.
             let applies = |truth: &&Truth| **truth == Truth::None || navigators::perceives(planner);
@@ -279,6 +284,16 @@ mod tests {
         };
         assert_eq!(seeds("default").collect::<Vec<_>>(), [2, 7, 9, 2, 7, 9]);
         assert_eq!(seeds("paper").collect::<Vec<_>>(), [2, 7, 2, 7], "the first two in the file's order");
+    }
+
+    #[test]
+    fn a_route_may_be_driven_with_the_first_seed_alone() {
+        let text = "planners = [\"default\"]\nroutes = [\"routes/east.toml\"]\nseeds = [7, 2]\n\
+            single_seed_routes = [\"routes/again.toml\"]\n";
+        let plan = plan(RECIPE, SCENARIO, text).unwrap();
+        let drives: Vec<(&str, u64)> =
+            (plan.trials.iter()).map(|trial| (plan.routes[trial.route].name.as_str(), trial.seed)).collect();
+        assert_eq!(drives, [("again", 7), ("east", 2), ("east", 7)]);
     }
 
     #[test]

@@ -11,11 +11,14 @@ const FOLDER: &str = "terrains/campaigns";
 /// The short form.
 pub(crate) const QUICK: [&str; 2] = ["quick", "quick-generated"];
 /// The full form: everything in `docs/RESULTS.md`.
-pub(crate) const ALL: [&str; 5] = ["paper", "generated", "thousand", "faults", "ablation"];
+pub(crate) const ALL: [&str; 6] = ["paper", "generated", "thousand", "faults", "ablation", "reality"];
 /// Generated tasks: their folder under `target/`, as campaign files name it, their seed, and their number for
-/// each difficulty.
-const TASKS: [(&str, u32, u32); 2] = [("generated/quick", 1, 10), ("generated/thousand", 500, 334)];
-const DIFFICULTIES: [&str; 3] = ["easy", "moderate", "hard"];
+/// each family.
+const TASKS: [(&str, u32, u32); 3] =
+    [("generated/quick", 1, 10), ("generated/thousand", 500, 334), ("generated/reality", 700, 20)];
+/// The families, which are the folders in those.
+const FAMILIES: [&str; 9] =
+    ["easy", "moderate", "hard", "rocks", "posts", "walls", "ditches", "mixed", "movers"];
 
 /// Runs the named campaigns, or all of the full form if none is named, or the rest of them after an
 /// interruption; then writes the report.
@@ -36,18 +39,17 @@ pub(crate) fn run(sh: &Shell, names: &[String]) -> anyhow::Result<()> {
     cmd!(sh, "cargo build --release --package mapless-cli").run()?;
     let target = setup::target_dir(sh);
     let program = target.join("release/mapless").with_extension(EXE_EXTENSION);
-    for (folder, seed, count) in
-        TASKS.iter().filter(|(folder, ..)| texts.iter().any(|text| text.contains(folder)))
-    {
-        for difficulty in DIFFICULTIES {
+    for (folder, seed, count) in TASKS {
+        for family in FAMILIES {
+            let folder = format!("{folder}/{family}");
+            if !texts.iter().any(|text| text.contains(&format!("{folder}/"))) {
+                continue;
+            }
             // Campaign files name this folder, wherever cargo builds.
-            let folder = sh.current_dir().join("target").join(folder).join(difficulty);
+            let folder = sh.current_dir().join("target").join(folder);
             let (seed, count) = (seed.to_string(), count.to_string());
-            cmd!(
-                sh,
-                "{program} generate --seed {seed} --difficulty {difficulty} --count {count} --out {folder}"
-            )
-            .run()?;
+            cmd!(sh, "{program} generate --seed {seed} --family {family} --count {count} --out {folder}")
+                .run()?;
         }
     }
     let mut folders = Vec::new();
