@@ -6,7 +6,7 @@
 mod summary;
 
 use std::fs;
-use std::io::{ErrorKind, Write as _};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
@@ -15,6 +15,7 @@ use mapless_baselines::{Task, TaskName};
 use mapless_terrain::generate::Family;
 use summary::Summary;
 
+use crate::output::write_new;
 use crate::parsers;
 
 /// The folder of the recipes, within that of the scenarios.
@@ -47,8 +48,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     for index in (1..=args.count).progress_count(args.count.into()) {
         let task = Task::generate(TaskName { family: args.family, seed: args.seed, index })?;
         let file = format!("{}.toml", task.name);
-        write(&terrains.join(&file), &task.recipe)?;
-        write(&args.out.join(&file), &task.scenario(&format!("{TERRAIN}/{file}")))?;
+        write_new(&terrains.join(&file), &task.recipe)?;
+        write_new(&args.out.join(&file), &task.scenario(&format!("{TERRAIN}/{file}")))?;
         summary.add(&task);
     }
     writeln!(std::io::stdout(), "{}", summary.table()).context("standard output")
@@ -71,22 +72,6 @@ fn refuse_other_files(folder: &Path) -> anyhow::Result<()> {
 /// Whether a name is like `hard-1-0007.toml`.
 fn is_task_file(name: &str) -> bool {
     name.strip_suffix(".toml").is_some_and(|stem| stem.parse::<TaskName>().is_ok())
-}
-
-/// Writes a file, unless it is there already; a file with other contents is an error, never overwritten.
-fn write(path: &Path, text: &str) -> anyhow::Result<()> {
-    let context = || format!("--out: {}", path.display());
-    match fs::read(path) {
-        Ok(bytes) if bytes == text.as_bytes() => Ok(()),
-        Ok(_) => {
-            anyhow::bail!(
-                "{}: expected no file, or the generated one: this one has other contents",
-                context()
-            )
-        }
-        Err(error) if error.kind() == ErrorKind::NotFound => fs::write(path, text).with_context(context),
-        Err(error) => Err(error).with_context(context),
-    }
 }
 
 #[cfg(test)]

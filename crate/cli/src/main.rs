@@ -7,6 +7,7 @@ mod any_trial;
 mod generate;
 mod import;
 mod log;
+mod output;
 mod parsers;
 mod perceive;
 mod picture;
@@ -15,6 +16,7 @@ mod progress;
 mod results;
 mod run;
 mod setup;
+mod terrain;
 mod trial_report;
 mod trials;
 
@@ -46,6 +48,8 @@ enum Command {
     Generate(generate::Args),
     /// Write another benchmark's worlds and tasks as terrains, scenarios and a campaign.
     Import(import::Args),
+    /// Make a terrain of a point cloud: a grid of heights and the recipe that imports it.
+    Terrain(terrain::Args),
     /// Show what the planner perceives in one recorded scan. Exit code: 0 = perceived or stopped with a
     /// reason, 1 = error.
     Perceive(perceive::Args),
@@ -66,6 +70,7 @@ fn main() -> ExitCode {
         Command::Profile(args) => profile::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Generate(args) => generate::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Import(args) => import::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Terrain(args) => terrain::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Perceive(args) => perceive::run(&args).map(|()| ExitCode::SUCCESS),
     };
     result.unwrap_or_else(|error| {

@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use mapless::gp::learning::LearningMode;
 use mapless_baselines::{NavigatorKind, Truth};
+use mapless_terrain::Holes;
 use mapless_terrain::generate::Family;
 use mapless_trials::Preset;
 
@@ -30,4 +31,9 @@ pub(crate) fn learning() -> impl TypedValueParser<Value = LearningMode> {
 /// Parses the name of a family of generated terrains, for `--family`.
 pub(crate) fn family() -> impl TypedValueParser<Value = Family> {
     PossibleValuesParser::new(Family::ALL.map(Family::name)).try_map(|name| name.parse::<Family>())
+}
+
+/// Parses what becomes of samples without a height, for `--holes`.
+pub(crate) fn holes() -> impl TypedValueParser<Value = Holes> {
+    PossibleValuesParser::new(Holes::NAMES.map(|(name, _)| name)).try_map(|name| name.parse::<Holes>())
 }
