@@ -15,7 +15,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// A map as a mapping package writes it: four points in each square of 0.2 m over 20 × 16 m, in a frame whose
+/// A map as a mapping package writes it: a point in each square of 0.1 m over 20 × 16 m, in a frame whose
 /// origin is in the middle, of ground that rises by a tenth to the east, with a gap of 1 m.
 fn cloud(folder: &Path) {
     let mut points = String::new();
@@ -42,13 +42,13 @@ fn a_cloud_becomes_ground_that_is_driven_on() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     cloud(folder);
-    let terrain = ["terrain", "hill map.pcd", "--cell", "0.2", "--out", "ground"];
+    let terrain = ["terrain", "hill map.pcd", "--cell", "0.3", "--out", "ground"];
 
     let refused = mapless(folder, &terrain);
     let error = text(&refused.stderr);
     assert_eq!(refused.status.code(), Some(1), "{error}");
     for part in
-        ["hill map.pcd: ", "cells of 0.2 m (--cell, --holes)", "= -9999: expected a height", "\"fill\""]
+        ["hill map.pcd: ", "cells of 0.3 m (--cell, --holes)", "= -9999: expected a height", "\"fill\""]
     {
         assert!(error.contains(part), "{part}: {error}");
     }
@@ -56,7 +56,7 @@ fn a_cloud_becomes_ground_that_is_driven_on() {
 
     let made = mapless(folder, &[&terrain[..], &["--holes", "fill"]].concat());
     assert!(made.status.success(), "{}", text(&made.stderr));
-    assert!(text(&made.stdout).contains("ground/hill map.toml: 20.0 × 16.0 m of "), "{}", text(&made.stdout));
+    assert!(text(&made.stdout).contains("ground/hill map.toml: 19.8 × 15.9 m of "), "{}", text(&made.stdout));
     assert!(text(&made.stdout).contains("at (-10.000, -8.000) m of the cloud"), "{}", text(&made.stdout));
     assert!(
         text(&made.stderr).contains("hill map.asc: ") && text(&made.stderr).contains("filled from"),

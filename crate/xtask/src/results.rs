@@ -11,7 +11,8 @@ const FOLDER: &str = "terrains/campaigns";
 /// The short form.
 pub(crate) const QUICK: [&str; 2] = ["quick", "quick-generated"];
 /// The full form: everything in `docs/RESULTS.md`.
-pub(crate) const ALL: [&str; 6] = ["paper", "generated", "thousand", "faults", "ablation", "reality"];
+pub(crate) const ALL: [&str; 7] =
+    ["paper", "generated", "thousand", "faults", "ablation", "reality", "reality-effects"];
 /// Generated tasks: their folder under `target/`, as campaign files name it, their seed, and their number for
 /// each family.
 const TASKS: [(&str, u32, u32); 3] =

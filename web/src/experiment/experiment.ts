@@ -69,6 +69,8 @@ export const FIRST_SETUP: Setup = { preset: 'default', learning: 'fixed', overri
 
 export const OVERRIDDEN = ['planner', 'sensor', 'robot', 'reality'] as const;
 export const PRESETS: readonly Preset[] = ['default', 'paper'];
+/** Presets of `reality`. */
+export const REALITIES: readonly string[] = ['ideal', 'field', 'harsh'];
 export const LEARNING: readonly Learning[] = ['fixed', 'once', 'every_scan'];
 
 export const MAX_SEED = 0xffff_ffff;

@@ -21,8 +21,9 @@ export async function beginningAt({ hash, search }: Address): Promise<Beginning 
   }
   const asked = askedFor(new URLSearchParams(search));
   if (asked) {
-    const { scenario, preset = FIRST_SETUP.preset, seed } = asked;
-    return { from: 'address', source: { scenario, setup: { ...FIRST_SETUP, preset }, seed }, own, unread };
+    const { scenario, preset = FIRST_SETUP.preset, seed, reality } = asked;
+    const overrides = reality === undefined ? FIRST_SETUP.overrides : { reality: { preset: reality } };
+    return { from: 'address', source: { scenario, setup: { ...FIRST_SETUP, preset, overrides }, seed }, own, unread };
   }
   if (own) return { from: 'last visit', source: { experiment: own }, own, unread };
   const first = { scenario: CATALOGUE[0]?.id ?? '', setup: FIRST_SETUP, seed: undefined };
