@@ -72,6 +72,7 @@ plain('hostile and broken links say so, and lose nothing', async ({ page }) => {
     [`#e=${deflateRawSync('{"version":7}').toString('base64url')}`, 'version = 7'],
     ['?scenario=atlantis', 'atlantis'],
     ['?scenario=hard-1-7', 'expected the name of a generated task, such as "hard-1-0007"'],
+    ['?scenario=ht&reality=real', '?reality = "real": expected ideal or field or harsh'],
     ['?scenario=ht&seed=1.5', '?seed = "1.5": expected a whole number'],
   ];
   for (const [link, words] of links) {
@@ -120,9 +121,10 @@ plain('the page continues where it was left, and starts afresh when asked', asyn
 });
 
 plain('a scenario by name, in another page’s frame', async ({ page }) => {
-  await page.goto('/?scenario=gsb&seed=7&preset=paper&embed');
+  await page.goto('/?scenario=gsb&seed=7&preset=paper&reality=field&embed');
   await loaded(page);
-  expect(await state(page)).toMatchObject({ scenario: 'gsb', seed: 7, preset: 'paper' });
+  const overrides = { reality: { preset: 'field' } };
+  expect(await state(page)).toMatchObject({ scenario: 'gsb', seed: 7, preset: 'paper', overrides });
   await expect(page.locator('.transport')).toBeVisible();
   for (const part of ['.bar', '.panel', '.seen', '.tools', '.timeline']) await expect(page.locator(part)).toBeHidden();
 });
