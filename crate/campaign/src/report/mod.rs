@@ -141,14 +141,18 @@ impl Results {
         format!("mapless trials {} --only {}", self.manifest.file, row.id)
     }
 
-    /// `8 planners, 10 routes, up to 10 seeds`.
+    /// `8 planners, 10 routes, up to 10 seeds`, and what else there is of conditions.
     fn size(&self) -> String {
-        let Manifest { planners, routes, seeds, .. } = &self.manifest;
+        let Manifest { planners, routes, seeds, realities, .. } = &self.manifest;
         let number =
             |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
         let up_to = if seeds.len() > 1 { "up to " } else { "" };
+        let conditions = match realities.len() {
+            0 => String::new(),
+            count => format!(", {} beside the scenarios' own", number(count, "condition")),
+        };
         format!(
-            "{}, {}, {up_to}{}",
+            "{}, {}, {up_to}{}{conditions}",
             number(planners.len(), "planner"),
             number(routes.len(), "route"),
             number(seeds.len(), "seed")

@@ -86,11 +86,12 @@ fn costs(text: &mut String, drives: &[Drives<'_>]) -> fmt::Result {
         "\n### By planner and condition\n\n\
          `{OWN}` is the scenarios' own reality, and what the others are compared with, trial by trial: same planner, \
          same route, same seed. *Lost* reach there and fail here, *gained* the other way round; chance is a sign test's over both. \
-         Path and time are means of the ratios over the trials that reach in both. \
+         Path and time are means of the ratios over the trials that reach in both; driven / shortest is the median over those \
+         that reach and whose shortest safe path is known. \
          *Tilt violations* are trials that roll or pitch ended; the tilt is the mean over all trials of the largest roll or pitch in \
          per cent of its limit.\n\n\
-         | planner | condition | reached | lost | gained | chance | path, × | time, × | tilt violations | largest tilt, % | failures |\n\
-         |---|---|---|---:|---:|---:|---:|---:|---:|---:|---|"
+         | planner | condition | reached | lost | gained | chance | path, × | time, × | driven / shortest | tilt violations | largest tilt, % | failures |\n\
+         |---|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---|"
     )?;
     for drives in drives {
         let Drives { planner, condition, rows, pairs } = drives;
@@ -103,12 +104,15 @@ fn costs(text: &mut String, drives: &[Drives<'_>]) -> fmt::Result {
             let (path, time) = (ratio(|row| row.distance_m), ratio(|row| row.sim_time_s));
             format!(" {lost} | {gained} | {:.2} | {path} | {time} |", stats::sign_test(lost, gained))
         };
+        let reached = rows.iter().filter(|row| row.has_reached());
+        let shortest = reached.filter_map(|row| Some(row.distance_m? / row.oracle_length_m?)).collect();
+        let shortest = stats::median(shortest).map_or_else(String::new, |ratio| format!("{ratio:.2}"));
         let violations = rows.iter().filter(|row| row.outcome == "tilt_limit").count();
         let tilts: Vec<f64> = rows.iter().filter_map(|row| tilt_utilisation(row)).collect();
         let tilt = stats::mean(&tilts).map_or_else(String::new, |tilt| format!("{:.0}", 100.0 * tilt));
         writeln!(
             text,
-            "| `{planner}` | {} | {} |{changes} {violations} | {tilt} | {} |",
+            "| `{planner}` | {} | {} |{changes} {shortest} | {violations} | {tilt} | {} |",
             drives.shown(),
             rate(rows),
             failures(rows)
@@ -140,6 +144,9 @@ fn by_group(text: &mut String, results: &Results, drives: &[Drives<'_>]) -> fmt:
 }
 
 fn spoilt(text: &mut String, results: &Results, drives: &[Drives<'_>]) -> fmt::Result {
+    if drives.iter().all(|drives| drives.lost().next().is_none()) {
+        return writeln!(text, "\nNo condition spoils a trial that reaches in the scenarios' own reality.");
+    }
     writeln!(
         text,
         "\n### Spoilt trials\n\nThose that are lost, up to {SHOWN} of each planner and condition. The command runs a trial again; the page \
@@ -175,6 +182,7 @@ mod tests {
             reality: reality.to_owned(),
             distance_m: Some(path_m),
             sim_time_s: Some(2.0 * path_m),
+            oracle_length_m: Some(5.0),
             max_abs_roll_rad: Some(0.2),
             max_abs_pitch_rad: Some(0.1),
             configuration: r#"{"robot": {"roll_limit_rad": 0.4, "pitch_limit_rad": 0.5}}"#.to_owned(),
@@ -208,8 +216,8 @@ mod tests {
         section(&mut text, &campaign()).unwrap();
         for line in [
             "| ice | `motion.friction=0.1` |",
-            "| `default` | own | 3 of 4 (30–95 %) | | | | | | 0 | 50 | 1 stuck |",
-            "| `default` | ice | 2 of 4 (15–85 %) | 1 | 0 | 1.00 | 1.50 | 1.50 | 1 | 50 | 1 stuck, 1 tilt_limit |",
+            "| `default` | own | 3 of 4 (30–95 %) | | | | | | 2.00 | 0 | 50 | 1 stuck |",
+            "| `default` | ice | 2 of 4 (15–85 %) | 1 | 0 | 1.00 | 1.50 | 1.50 | 3.00 | 1 | 50 | 1 stuck, 1 tilt_limit |",
             "| `default` | ice | 2 of 4 |",
             "| `paper` | own | 1 of 1 |",
         ] {
@@ -227,7 +235,13 @@ mod tests {
         let results = campaign();
         assert_eq!(results.plain().count(), 5);
         assert_eq!(results.question(), Some("what reality costs"));
+        assert_eq!(results.size(), "2 planners, 1 route, 1 seed, 1 condition beside the scenarios' own");
         let mut text = String::new();
+        let mut unspoilt = campaign();
+        unspoilt.rows.retain(|row| row.seed == 1);
+        section(&mut text, &unspoilt).unwrap();
+        assert!(text.contains("No condition spoils a trial") && !text.contains("### Spoilt"), "{text}");
+        text.clear();
         section(&mut text, &crate::testing::results(&["default"], &["gsb"], Vec::new())).unwrap();
         assert_eq!(text, "", "a campaign without conditions has no such section");
     }
