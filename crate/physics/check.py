@@ -35,11 +35,30 @@ def slope(degrees):
 
 
 def placed(ground, degrees=0.0, yaw=0.0, friction=0.9, solids=(), height_m=None):
-    """A robot in the middle, facing up the slope if its yaw is 0."""
-    incline = math.radians(degrees)
-    tilt = (0.0, incline) if yaw == 0.0 else (incline if yaw < 0.0 else -incline, 0.0)
+    """A robot in the middle of ground that rises to the east."""
+    rise = math.tan(math.radians(degrees))
+    pitch = math.atan(rise * math.cos(yaw))
+    roll = math.atan(-rise * math.sin(yaw) * math.cos(pitch))
     height_m = float(ground[SIDE // 2, SIDE // 2]) if height_m is None else height_m
-    return Husky(ground, CELL_M, friction, ROBOT, SENSOR_M, solids, (MIDDLE_M, MIDDLE_M, height_m, *tilt, yaw))
+    return Husky(
+        ground, CELL_M, friction, ROBOT, SENSOR_M, solids, (MIDDLE_M, MIDDLE_M, height_m, roll, pitch, yaw)
+    )
+
+
+def driven(husky, speed_m_s, turn_rate_rad_s, seconds):
+    """The way along the body and to its left, in metres, and the turn, while a command is obeyed."""
+    ahead = left = turn = 0.0
+    before = husky.pose()
+    for _ in range(round(seconds / 0.1)):
+        husky.drive(speed_m_s, turn_rate_rad_s, 0.1)
+        after = husky.pose()
+        way = np.subtract(after[:3], before[:3])
+        forward, aside, _ = husky.axes()
+        ahead += way @ forward
+        left += way @ aside
+        turn += after[5] - before[5]
+        before = after
+    return ahead, left, turn
 
 
 def straight_on_level_ground():
@@ -64,7 +83,8 @@ def rests_on_a_slope():
     husky.drive(0.0, 0.0, 5.0)
     slid = husky.pose()[0] - x
     steep = math.degrees(pitch)
-    return abs(slid) < 0.05 and abs(steep - 20.0) < 1.5 and abs(roll) < 0.01, f"rest at 20°: slid {slid:.3f} m, pitch {steep:.1f}°"
+    is_right = abs(slid) < 0.05 and abs(steep - 20.0) < 1.5 and abs(roll) < 0.01
+    return is_right, f"rest at 20°: slid {slid:.3f} m, pitch {steep:.1f}°"
 
 
 def signs_follow_the_conventions():
@@ -83,19 +103,39 @@ def climbed(degrees, friction):
 def climbs_what_friction_allows():
     steep, wet, wet_steep = climbed(38.0, 0.9), climbed(20.0, 0.4), climbed(30.0, 0.4)
     is_right = steep > 1.8 and wet > 1.3 and wet_steep < 0.2
-    return is_right, f"2.4 m up 38° at 0.9: {steep:.2f} m; at 0.4 up 20°: {wet:.2f} m, up 30°: {wet_steep:.2f} m"
+    return is_right, f"2.4 m up 38° at friction 0.9: {steep:.2f} m; at 0.4 up 20°: {wet:.2f} m, up 30°: {wet_steep:.2f} m"
 
 
-def slides_in_a_turn_on_a_side_slope():
-    husky = placed(slope(25.0), 25.0, yaw=math.radians(60.0), friction=0.9)
-    before = husky.pose()
-    husky.drive(0.0, 0.4, 1.0)
-    start = husky.pose()
-    husky.drive(0.0, 0.4, 2.0)
-    after = husky.pose()
-    turned = after[5] - start[5]
-    slid = math.hypot(after[0] - start[0], after[2] - start[2]) * math.copysign(1.0, start[0] - after[0])
-    return 0.05 < slid / turned < 0.5, f"turn at 25°: {turned / 0.8:.2f} of the rate, slides {slid / turned:.2f} m a radian down"
+def slope_slip():
+    """Speed up and down 20° over the commanded one."""
+    shares = []
+    for yaw in (0.0, math.pi):
+        husky = placed(slope(20.0), 20.0, yaw)
+        driven(husky, 0.6, 0.0, 2.0)
+        shares.append(driven(husky, 0.6, 0.0, 3.0)[0] / 1.8)
+    up, down = shares
+    return 0.9 < up < down < 1.1, f"20°: {up:.3f} of the speed up, {down:.3f} down"
+
+
+def side_slip():
+    """What a robot that drives along 20° slides downhill."""
+    husky = placed(slope(20.0), 20.0, math.pi / 2.0)
+    driven(husky, 0.6, 0.0, 2.0)
+    ahead, left, _ = driven(husky, 0.6, 0.0, 3.0)
+    return 0.0 < left / ahead < 0.1, f"along 20°: slides {left / ahead:.3f} m a metre down"
+
+
+def turns_on_a_side_slope():
+    """A turn of 1.2 rad, half of it uphill of the contour and half below, as a share and its slide."""
+    found, passed = [], True
+    for degrees in (10.0, 20.0, 25.0):
+        for speed in (0.0, 0.6):
+            husky = placed(slope(degrees), degrees, math.pi / 2.0 - 1.0)
+            driven(husky, speed, 0.4, 1.0)
+            _, left, turn = driven(husky, speed, 0.4, 3.0)
+            passed = passed and 0.9 < turn / 1.2 < 1.6 and 0.05 < left / turn < 0.5
+            found.append(f"{degrees:.0f}° at {speed} m/s: {turn / 1.2:.2f}, {left / turn:.2f}")
+    return passed, "turned over commanded, slid down in m a radian: " + "; ".join(found)
 
 
 def belly_on_a_ridge():
@@ -122,7 +162,9 @@ CHECKS = (
     rests_on_a_slope,
     signs_follow_the_conventions,
     climbs_what_friction_allows,
-    slides_in_a_turn_on_a_side_slope,
+    slope_slip,
+    side_slip,
+    turns_on_a_side_slope,
     belly_on_a_ridge,
     a_wall_holds,
 )

@@ -104,10 +104,13 @@ class Husky:
                 torques[rear] *= SIDE_TORQUE_NM / both
         return torques
 
+    def axes(self):
+        """Forward, left and up in the world."""
+        return self.data.xmat[self.body[0]].reshape(3, 3).T
+
     def pose(self):
         """x, y, z, roll, pitch and yaw; the yaw counts whole turns."""
-        rotation = self.data.xmat[self.body[0]].reshape(3, 3)
-        forward, left, up = rotation.T
+        forward, left, up = self.axes()
         yaw = math.atan2(forward[1], forward[0])
         self.yaw_rad += math.remainder(yaw - self.yaw_rad, math.tau)
         tilt = (math.atan2(left[2], up[2]), math.asin(max(-1.0, min(1.0, forward[2]))))
