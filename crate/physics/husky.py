@@ -18,7 +18,7 @@ CHASSIS_INERTIA_KG_M2 = (0.6022, 1.7386, 2.0296)
 CHASSIS_CENTRE_M = 0.194
 WHEEL_KG = 2.637
 MAST_KG = 2.918
-# Below the torque that both wheels of a side may have, one may have more than half, as on a common belt.
+# A side shares its torque as on a common belt: one wheel may have more than half of it.
 WHEEL_TORQUE_NM = 80.0
 SIDE_TORQUE_NM = 100.0
 # PI control of the wheel speed; the integral holds a robot on a slope.
@@ -26,8 +26,8 @@ PROPORTIONAL_NM_S = 40.0
 INTEGRAL_NM = 300.0
 # Assumed: half of a rotor of 1e-4 kg m² behind the A200's gear of 78.7 : 1.
 ARMATURE_KG_M2 = 0.3
-# The tyres give: 8 mm under a quarter of the robot, some 18 kN/m. Stiffer ones hop when they skid, and the robot
-# then turns by two thirds of what it should.
+# The tyres give: 8 mm under a quarter of the robot, some 18 kN/m. Stiffer ones hop when they skid, and the
+# robot then turns by a third to two thirds of what it should.
 TYRE_SOLREF = "0.05 1"
 TYRE_SOLIMP = "0.3 0.9 0.02"
 # A differential drive's wheels must turn faster than those of a robot that does not skid.
