@@ -1,5 +1,6 @@
 //! One trial: a loop of world, scan, planner and command.
 
+use core::convert::Infallible;
 use core::time::Duration;
 use std::sync::Arc;
 
@@ -8,8 +9,8 @@ use mapless::gp::GpError;
 use mapless::skyline::surface::PredictedSurface;
 use mapless::{Command, Goal, Planner, PlannerConfig, Pose, Step};
 use mapless_world::{
-    Body, Brush, Caster, Contact, ContactKind, DriveCommand, DriveError, Footing, HeightField, Lidar, Object,
-    Objects, Robot, RobotConfig, RobotState, SampleRect, Scan, Scene, SensorConfig, Solid,
+    Attitude, Body, Brush, Caster, Contact, ContactKind, DriveCommand, DriveError, Footing, HeightField,
+    Lidar, Object, Objects, Robot, RobotConfig, RobotState, SampleRect, Scan, Scene, SensorConfig, Solid,
 };
 
 use crate::digest::TrajectoryDigest;
@@ -40,6 +41,17 @@ pub enum TrialError {
     /// A configuration value outside its range.
     #[error("{0}")]
     Config(String),
+}
+
+/// Where something other than the trial's kinematic motion has moved the robot in a motion step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moved {
+    /// Pose and motion.
+    pub state: RobotState,
+    /// What its wheels do, as the motion of a body that does not slip.
+    pub wheels: DriveCommand,
+    /// The tilt by which limits and metrics judge, without the shaking of an instant.
+    pub judged: Attitude,
 }
 
 /// A running trial, driven by this planner or by another navigator.
@@ -277,16 +289,45 @@ impl<N: Navigator> Trial<N> {
 
     /// Moves the robot by the last decision until the next scan is due.
     pub fn act(&mut self) -> Option<Outcome> {
+        let Ok(outcome) = self.act_with::<Infallible>(|robot, command, dt_s, footing| {
+            Ok(robot.step(command, dt_s, footing).map(|()| robot.state().attitude))
+        });
+        outcome
+    }
+
+    /// As [`Trial::act`], where `motion` moves the robot in place of its own kinematic motion. In every motion
+    /// step it is given what the drive tries to do and the seconds to do it in. What it does not know of,
+    /// objects that walk, do so all the same.
+    ///
+    /// # Errors
+    /// Those of `motion`; the trial then stands within a period and cannot go on.
+    pub fn act_by<E>(
+        &mut self,
+        mut motion: impl FnMut(DriveCommand, f64) -> Result<Moved, E>,
+    ) -> Result<Option<Outcome>, E> {
+        self.act_with(|robot, command, dt_s, footing| {
+            let Moved { state, wheels, judged } = motion(command, dt_s)?;
+            Ok(robot.move_to(state, wheels, footing).map(|()| judged))
+        })
+    }
+
+    /// `motion` moves the robot and gives the tilt to judge it by.
+    fn act_with<E>(
+        &mut self,
+        motion: impl FnMut(&mut Robot, DriveCommand, f64, &Footing<'_>) -> Result<Result<Attitude, DriveError>, E>,
+    ) -> Result<Option<Outcome>, E> {
         let Decision { activity, command } = self.decision;
         self.outcome = match activity {
             Activity::Arrived if self.passed < self.waypoints_m.len() => {
                 self.passed += 1;
                 self.restart_time_limit();
-                self.drive(command)
+                self.drive(command, motion)?
             }
             Activity::Arrived => Some(Outcome::Reached),
             Activity::Stopped(_) => Some(Outcome::NoSubgoal),
-            Activity::Driving | Activity::Backtracking | Activity::Searching => self.drive(command),
+            Activity::Driving | Activity::Backtracking | Activity::Searching => {
+                self.drive(command, motion)?
+            }
         };
         self.tick += 1;
         if let Some((before, after)) = self.reality.correct(self.tick) {
@@ -294,10 +335,19 @@ impl<N: Navigator> Trial<N> {
         }
         let here_m = self.husky.state().position;
         self.outcome = self.outcome.or_else(|| self.progress.check(here_m, self.tick));
-        self.outcome
+        Ok(self.outcome)
     }
 
-    fn drive(&mut self, command: Command) -> Option<Outcome> {
+    fn drive<E>(
+        &mut self,
+        command: Command,
+        mut motion: impl FnMut(
+            &mut Robot,
+            DriveCommand,
+            f64,
+            &Footing<'_>,
+        ) -> Result<Result<Attitude, DriveError>, E>,
+    ) -> Result<Option<Outcome>, E> {
         let command = DriveCommand { speed_m_s: command.linear_m_s, turn_rate_rad_s: command.angular_rad_s };
         let dt_s = self.period_s() / f64::from(MOTION_STEPS);
         for _ in 0..MOTION_STEPS {
@@ -307,14 +357,14 @@ impl<N: Navigator> Trial<N> {
             self.objects.walk(dt_s, field, here_m, |solid| self.body.is_clear_of(self.husky.state(), solid));
             let solids = self.objects.solids();
             let footing = Footing { field, solids };
-            if let Err(error) = self.husky.step(obeyed, dt_s, &footing) {
-                return Some(match error {
-                    DriveError::LeftTerrain { .. } => Outcome::LeftTerrain,
-                    DriveError::NotFinite { .. } => Outcome::NoSubgoal,
-                });
-            }
+            let judged = match motion(&mut self.husky, obeyed, dt_s, &footing)? {
+                Ok(judged) => judged,
+                Err(DriveError::LeftTerrain { .. }) => return Ok(Some(Outcome::LeftTerrain)),
+                Err(DriveError::NotFinite { .. }) => return Ok(Some(Outcome::NoSubgoal)),
+            };
             self.reality.moved(&self.husky);
-            let sample = sample_of(&self.husky);
+            let Attitude { roll_rad, pitch_rad, .. } = judged;
+            let sample = Sample { roll_rad, pitch_rad, ..sample_of(&self.husky) };
             self.metrics.record(sample, dt_s);
             self.digest.add(&sample, self.husky.state().yaw_rad);
             let state = self.husky.state();
@@ -323,16 +373,16 @@ impl<N: Navigator> Trial<N> {
                 touches.then(|| self.body.contact_with_ground(field, &footing, state)).flatten()
             });
             if let Some(contact) = self.contact {
-                return Some(contact.kind.into());
+                return Ok(Some(contact.kind.into()));
             }
             let limits = self.husky.config();
             if sample.roll_rad.abs() > limits.roll_limit_rad
                 || sample.pitch_rad.abs() > limits.pitch_limit_rad
             {
-                return Some(Outcome::TiltLimit);
+                return Ok(Some(Outcome::TiltLimit));
             }
         }
-        None
+        Ok(None)
     }
 
     /// Restarts the time limit, for the distance to the present target.

@@ -145,6 +145,23 @@ impl Robot {
         self.step(DriveCommand::default(), 0.0, footing)
     }
 
+    /// Takes the state to which something else has moved the robot, and what its wheels do there.
+    ///
+    /// # Errors
+    /// [`DriveError::LeftTerrain`] when a wheel is off the terrain; the robot then stays as it was.
+    pub fn move_to(
+        &mut self,
+        state: RobotState,
+        wheels: DriveCommand,
+        footing: &impl Ground,
+    ) -> Result<(), DriveError> {
+        let position = state.position;
+        attitude_on(footing, position, state.yaw_rad, &self.config)
+            .ok_or(DriveError::LeftTerrain { position })?;
+        (self.state, self.wheels, self.aside_m_s) = (state, wheels, 0.0);
+        Ok(())
+    }
+
     /// Moves on by `dt_s` seconds: the unicycle of the paper (x' = v cos θ, y' = v sin θ, θ' = ω) along an
     /// exact arc.
     ///

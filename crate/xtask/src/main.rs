@@ -1,5 +1,6 @@
 //! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build`, and
-//! `cargo xtask profile`, `cargo xtask results`, `cargo xtask bench` and `cargo xtask fuzz`, which measure.
+//! `cargo xtask profile`, `cargo xtask results`, `cargo xtask bench`, `cargo xtask physics` and `cargo xtask
+//! fuzz`, which measure.
 //!
 //! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a
 //! browser), so that a fresh clone on a machine with Rust and Node needs nothing by hand.
@@ -9,6 +10,7 @@ mod browser;
 mod count;
 mod fuzz;
 mod page;
+mod physics;
 mod profile;
 mod python;
 mod results;
@@ -67,6 +69,13 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
         rounds: u32,
     },
+    /// Drive ten routes and twenty generated tasks in MuJoCo and in our own world, and write
+    /// docs/results/physics.md.
+    Physics {
+        /// Two routes only; prints the page.
+        #[arg(long)]
+        short: bool,
+    },
     /// Run every fuzz target for a while, and write docs/FUZZ.md.
     Fuzz {
         /// Time for each target.
@@ -97,6 +106,7 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Results { quick: true, .. } => results::run(&sh, &results::QUICK.map(str::to_owned)),
         Command::Results { campaigns, .. } => results::run(&sh, &campaigns),
         Command::Bench { rounds } => bench::run(&sh, rounds),
+        Command::Physics { short } => physics::run(&sh, short),
         Command::Fuzz { seconds } => fuzz::run(&sh, seconds),
     }
 }

@@ -15,7 +15,7 @@ use xshell::{Cmd, Shell, cmd};
 use crate::browser::Browser;
 use crate::count::{Count, Runner};
 use crate::python::Environment;
-use crate::{page, setup};
+use crate::{page, physics, setup};
 
 /// A part of the tests that can run alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -34,6 +34,9 @@ pub(crate) enum Part {
     /// Campaigns on a local Ray cluster; only on request, as it needs Python 3.10 or newer and installs Ray
     /// under target/.
     Ray,
+    /// The physics engine on ground whose answers are known, and two routes in it and in our own world; only
+    /// on request, as it needs Python 3.11 or newer and installs MuJoCo under target/.
+    Physics,
 }
 
 impl Part {
@@ -53,7 +56,7 @@ struct Stage {
 impl Stage {
     /// Whether it belongs to a part, or to all of them: those that need no more than Rust and Node.
     fn belongs_to(&self, part: Option<Part>) -> bool {
-        let on_request = [Part::Ray, Part::Reports];
+        let on_request = [Part::Ray, Part::Reports, Part::Physics];
         part.map_or(!self.parts.iter().all(|part| on_request.contains(part)), |part| {
             self.parts.contains(&part)
         })
@@ -76,6 +79,7 @@ const STAGES: &[Stage] = &[
     // The browser tests compare the page with the command line; those on Ray run it.
     Stage { title: "build of the command line", parts: &[Part::Page, Part::Ray], run: build_command_line },
     Stage { title: "campaigns on Ray", parts: &[Part::Ray], run: test_ray },
+    Stage { title: "physics engine", parts: &[Part::Physics], run: physics::test },
     Stage { title: "browser tests of the page", parts: &[Part::Page], run: test_page },
 ];
 
@@ -132,6 +136,9 @@ fn set_up(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     }
     if part == Some(Part::Ray) {
         ray(sh)?;
+    }
+    if part == Some(Part::Physics) {
+        physics::python(sh)?;
     }
     if wants(&[Part::Lint, Part::Page]) {
         setup::npm_packages(sh)?;
@@ -286,7 +293,7 @@ fn check(command: Cmd<'_>) -> anyhow::Result<Count> {
 }
 
 /// Runs a test runner, shows its output as it comes, and counts the tests in it.
-fn count(command: Cmd<'_>, runner: Runner) -> anyhow::Result<Count> {
+pub(crate) fn count(command: Cmd<'_>, runner: Runner) -> anyhow::Result<Count> {
     let shown = command.to_string();
     eprintln!("$ {shown}");
     let mut child = Command::from(command).stdout(Stdio::piped()).spawn().with_context(|| shown.clone())?;
@@ -336,6 +343,8 @@ mod tests {
         assert!(titles(Some(Part::Page)).contains(&"build of the page"));
         assert!(titles(None).contains(&"build of the command line"));
         assert!(!titles(None).contains(&"campaigns on Ray") && !titles(None).contains(&"reports"));
+        assert!(!titles(None).contains(&"physics engine"));
+        assert_eq!(titles(Some(Part::Physics)), ["physics engine"]);
         assert_eq!(titles(Some(Part::Reports)), ["reports"]);
         assert!(titles(Some(Part::Ray)).contains(&"campaigns on Ray"));
     }
