@@ -146,7 +146,7 @@ function misplaced(page: Page, wholly: boolean): Promise<string[]> {
     window.scrollTo(0, 0);
     const parts = '.bar, .stage, .timeline';
     const things =
-      ':is(button, select, a, label, .scrub, .scene-caption, .brush, .detail, .result, .notice, .return-key)';
+      ':is(button, select, a, label, .scrub, .scene-caption, .brush, .detail, .result, .notice, .view-key)';
     const name = ({ id, className, textContent }: Element) => id || textContent?.trim() || className;
     const shown = [...document.querySelectorAll(`:is(${parts}) ${things}`)].flatMap((one) => {
       // A label stands for its control; what is scrolled out of the row of tools is out of the way.
@@ -215,7 +215,7 @@ for (const [width, height] of [
     await page.locator('#result').evaluate((result) => result.removeAttribute('hidden'));
     expect(await found(), 'the result').toEqual([]);
     await page.locator('#result').evaluate((result) => result.setAttribute('hidden', ''));
-    await page.locator('#return-key, #return-key li').evaluateAll((parts) => {
+    await page.locator('#view-key, #view-key li').evaluateAll((parts) => {
       for (const part of parts) part.removeAttribute('hidden');
     });
     expect(await found(), 'the key of the returns').toEqual([]);

@@ -27,7 +27,8 @@ export class Lab {
 
   constructor(app: App, stage: Stage | undefined, opener: HTMLButtonElement) {
     this.#opener = opener;
-    this.#tabs = [new ParametersTab(app), new CompareTab(app, stage), new SeedsTab(app)];
+    const compare = new CompareTab(app, stage);
+    this.#tabs = [new ParametersTab(app, compare), compare, new SeedsTab(app)];
     this.#buttons = this.#tabs.map((tab, index) => this.#button(tab, index));
     const list = html('div', 'lab-tabs', this.#buttons);
     list.setAttribute('role', 'tablist');
