@@ -7,7 +7,7 @@ import { Husky } from './husky.ts';
 import { colour } from './relief.ts';
 import { ThickLines } from './thickLines.ts';
 
-const OPACITY = 0.4;
+const OPACITY = 0.2;
 /** The box of a Husky from belly to deck, and the wedge on it that tells where ahead is. */
 const BOX_M = { ahead: 0.49, left: 0.34, low: 0.1, high: 0.38 };
 const WEDGE_M = 0.28;
@@ -16,7 +16,7 @@ export class Believed {
   readonly group = new Group();
   readonly #husky = new Husky();
   readonly #look = new MeshStandardMaterial({ transparent: true, opacity: OPACITY, roughness: 0.7, depthWrite: false });
-  readonly #outline = new ThickLines(16, 2.2);
+  readonly #outline = new ThickLines(16, 1.8);
 
   constructor() {
     this.#outline.line.material.depthTest = false;

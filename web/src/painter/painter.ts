@@ -197,7 +197,7 @@ export class Painter {
     this.#relief.colouring(this.#colouring, scenery.limits);
     this.#places.show(scenery.goal, scenery.start, this.#height);
     this.#waypoints.show(scenery.waypoints, this.#height);
-    this.#solids.stand(scenery.objects, scenery.solids, this.#height);
+    this.#stand(scenery.solids);
   }
 
   #sculpt(patch: GroundPatch, solids: readonly Solid[]): void {
@@ -206,7 +206,13 @@ export class Painter {
     this.#colourByHeight();
     this.#places.settle(this.#height);
     this.#waypoints.settle(this.#height);
+    this.#stand(solids);
+  }
+
+  /** The shapes of what stands, where it stands now. */
+  #stand(solids: readonly Solid[]): void {
     if (this.#scenery) this.#solids.stand(this.#scenery.objects, solids, this.#height);
+    this.#relief.solids(solids);
   }
 
   #colourByHeight(): void {
