@@ -161,7 +161,7 @@ test('the ghost of an ideal world drives as the robot would if nothing went wron
   await page.getByRole('tab', { name: 'Compare' }).click();
   const table = page.locator('.comparison').first();
   const cell = (name: string) => table.getByRole('row', { name }).getByRole('cell').nth(1);
-  await expect(table.getByRole('columnheader').nth(2)).toHaveText('Ideal');
+  await expect(table.getByRole('columnheader').nth(1)).toHaveText('Ideal');
   await expect(cell('Outcome')).toHaveText('Goal reached');
   await expect(cell('Curvature change')).not.toHaveText(/\(0\.0+\)$/);
   // In an ideal world there is no difference.

@@ -74,6 +74,10 @@ export class CompareTab implements Tab {
     this.#show();
   }
 
+  shown(): void {
+    this.#show();
+  }
+
   #box(rival: Rival) {
     const box = html('input');
     box.type = 'checkbox';

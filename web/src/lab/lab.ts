@@ -17,6 +17,8 @@ export interface Tab {
   frame?(frame: Frame): void;
   /** The ground was sculpted. */
   sculpted?(): void;
+  /** It is in sight from now on. */
+  shown?(): void;
 }
 
 export class Lab {
@@ -94,6 +96,7 @@ export class Lab {
       button.tabIndex = at === index ? 0 : -1;
     }
     for (const [at, { element }] of this.#tabs.entries()) element.hidden = at !== index;
+    this.#tabs[index]?.shown?.();
   }
 
   /** Arrow keys go along the tabs, as in every list of tabs. */

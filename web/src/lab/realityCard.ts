@@ -39,6 +39,8 @@ export class RealityCard {
       realityPresets(groups).map((name) => {
         const button = html('button', 'plain', [name]);
         button.type = 'button';
+        // By which it has the focus again when the table is made anew.
+        button.id = `reality-${name}`;
         button.addEventListener('click', () => actions.preset(name));
         return [name, button];
       }),
@@ -47,6 +49,7 @@ export class RealityCard {
     presets.setAttribute('role', 'group');
     presets.setAttribute('aria-label', 'How hard the world is');
     this.#ghost.type = 'checkbox';
+    this.#ghost.id = 'reality-ghost';
     this.#ghost.addEventListener('change', () => actions.ghost(this.#ghost.checked));
     const swatch = html('i', 'swatch');
     swatch.style.setProperty('--swatch', IDEAL_RIVAL.colour);
