@@ -1,8 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Parameter, ParameterGroup } from '../src/experiment/parameters.ts';
-import { inIdealWorld, isEffects, realityPresets, withReality } from '../src/experiment/reality.ts';
-import { isOn } from '../src/lab/realityCard.ts';
+import { inIdealWorld, isEffects, isOn, realityPresets, withReality } from '../src/experiment/reality.ts';
 
 const BEFORE = { sensor: { rings: 32 }, reality: { preset: 'field', motion: { friction: 0.4 } } };
 

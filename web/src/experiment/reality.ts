@@ -1,7 +1,7 @@
 /** The section `reality` of the parameters: what the world does to sensing, knowing and doing. */
 
-import type { Overrides } from './overrides.ts';
-import type { ParameterGroup } from './parameters.ts';
+import type { Overrides, OverrideValue } from './overrides.ts';
+import type { Parameter, ParameterGroup } from './parameters.ts';
 
 const TABLE = 'reality';
 const IDEAL = 'ideal';
@@ -26,4 +26,10 @@ export function withReality(overrides: Overrides, preset: string): Overrides {
 /** The same where nothing goes wrong. */
 export function inIdealWorld(overrides: Overrides): Overrides {
   return withReality(overrides, IDEAL);
+}
+
+/** Whether an effect is there: its value is not that of the ideal world. */
+export function isOn({ presets }: Parameter, value: OverrideValue): boolean {
+  const ideal = presets.find(({ preset }) => preset === IDEAL);
+  return ideal !== undefined && JSON.stringify(ideal.value) !== JSON.stringify(value);
 }

@@ -4,7 +4,7 @@ import type { App } from '../app/app.ts';
 import { html, setText } from '../base/dom.ts';
 import { countOverrides, type Overrides, type OverrideValue, override, withOverride } from '../experiment/overrides.ts';
 import { complaintAbout, type ParameterGroup } from '../experiment/parameters.ts';
-import { isEffects, withReality } from '../experiment/reality.ts';
+import { isEffects, isOn, withReality } from '../experiment/reality.ts';
 import type { Learning } from '../experiment/setting.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { CompareTab } from './compareTab.ts';
@@ -12,7 +12,7 @@ import type { Tab } from './lab.ts';
 import { type MountPreset, mountOf, presetButtons, withMount } from './mount.ts';
 import { ParameterField } from './parameterField.ts';
 import { IDEAL_RIVAL } from './planners.ts';
-import { isOn, RealityCard } from './realityCard.ts';
+import { RealityCard } from './realityCard.ts';
 
 /** This one is chosen in the bar; the field here and the bar are the same setting. */
 const LEARNING_MODE = 'planner.perception.learning.mode';

@@ -1,8 +1,7 @@
 /** The card of reality: presets, the ghost of an ideal world, and each effect by itself, grouped. */
 
 import { html, setText } from '../base/dom.ts';
-import type { OverrideValue } from '../experiment/overrides.ts';
-import type { Parameter, ParameterGroup } from '../experiment/parameters.ts';
+import type { ParameterGroup } from '../experiment/parameters.ts';
 import { realityPresets } from '../experiment/reality.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import { IDEAL_RIVAL } from './planners.ts';
@@ -80,10 +79,4 @@ export class RealityCard {
     this.#ghost.disabled = !chosen && !room;
     this.#full.hidden = chosen || room;
   }
-}
-
-/** Whether an effect is there: its value is not that of the ideal world. */
-export function isOn({ presets }: Parameter, value: OverrideValue): boolean {
-  const ideal = presets.find(({ preset }) => preset === 'ideal');
-  return ideal !== undefined && JSON.stringify(ideal.value) !== JSON.stringify(value);
 }
