@@ -275,3 +275,40 @@ async function colours(page: Page, selector: string): Promise<number> {
     return seen.size;
   }, png.toString('base64'));
 }
+
+/** What is wrong with where controls and messages are: two that overlap, or one that is cut off. */
+export function misplaced(page: Page, wholly: boolean): Promise<string[]> {
+  return page.evaluate((wholly) => {
+    window.scrollTo(0, 0);
+    const parts = '.bar, .stage, .timeline';
+    const things =
+      ':is(button, select, a, label, .scrub, .scene-caption, .brush, .detail, .result, .notice, .view-key)';
+    const name = ({ id, className, textContent }: Element) => id || textContent?.trim() || className;
+    const shown = [...document.querySelectorAll(`:is(${parts}) ${things}`)].flatMap((one) => {
+      // A label stands for its control; what is scrolled out of the row of tools is out of the way.
+      if (one.matches('.field') || !one.checkVisibility({ visibilityProperty: true })) return [];
+      const { left, top, right, bottom } = one.getBoundingClientRect();
+      const row = one.closest('.tools')?.getBoundingClientRect();
+      const box = {
+        left: Math.max(left, row?.left ?? left),
+        top: Math.max(top, row?.top ?? top),
+        right: Math.min(right, row?.right ?? right),
+        bottom: Math.min(bottom, row?.bottom ?? bottom),
+      };
+      return box.right > box.left && box.bottom > box.top ? [{ one, ...box }] : [];
+    });
+    const { clientWidth, clientHeight } = document.documentElement;
+    const cut = shown
+      .filter(({ left, right, bottom }) => left < 0 || right > clientWidth || (wholly && bottom > clientHeight))
+      .map(({ one }) => `${name(one)} is cut off`);
+    const overlapping = shown.flatMap((a, index) =>
+      shown
+        .slice(index + 1)
+        .filter((b) => !a.one.contains(b.one) && !b.one.contains(a.one))
+        .filter((b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1)
+        .filter((b) => Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1)
+        .map((b) => `${name(a.one)} and ${name(b.one)}`),
+    );
+    return [...cut, ...overlapping];
+  }, wholly);
+}

@@ -1,5 +1,5 @@
 import type { Page } from '@playwright/test';
-import { drag, drawnIn, expect, loaded, moved, state, still, tapIn, test, until, within } from './page.ts';
+import { drag, drawnIn, expect, loaded, misplaced, moved, state, still, tapIn, test, until, within } from './page.ts';
 
 test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
 
@@ -140,43 +140,6 @@ function readable(page: Page, id: string): Promise<boolean> {
   });
 }
 
-/** What is wrong with where controls and messages are: two that overlap, or one that is cut off. */
-function misplaced(page: Page, wholly: boolean): Promise<string[]> {
-  return page.evaluate((wholly) => {
-    window.scrollTo(0, 0);
-    const parts = '.bar, .stage, .timeline';
-    const things =
-      ':is(button, select, a, label, .scrub, .scene-caption, .brush, .detail, .result, .notice, .return-key)';
-    const name = ({ id, className, textContent }: Element) => id || textContent?.trim() || className;
-    const shown = [...document.querySelectorAll(`:is(${parts}) ${things}`)].flatMap((one) => {
-      // A label stands for its control; what is scrolled out of the row of tools is out of the way.
-      if (one.matches('.field') || !one.checkVisibility({ visibilityProperty: true })) return [];
-      const { left, top, right, bottom } = one.getBoundingClientRect();
-      const row = one.closest('.tools')?.getBoundingClientRect();
-      const box = {
-        left: Math.max(left, row?.left ?? left),
-        top: Math.max(top, row?.top ?? top),
-        right: Math.min(right, row?.right ?? right),
-        bottom: Math.min(bottom, row?.bottom ?? bottom),
-      };
-      return box.right > box.left && box.bottom > box.top ? [{ one, ...box }] : [];
-    });
-    const { clientWidth, clientHeight } = document.documentElement;
-    const cut = shown
-      .filter(({ left, right, bottom }) => left < 0 || right > clientWidth || (wholly && bottom > clientHeight))
-      .map(({ one }) => `${name(one)} is cut off`);
-    const overlapping = shown.flatMap((a, index) =>
-      shown
-        .slice(index + 1)
-        .filter((b) => !a.one.contains(b.one) && !b.one.contains(a.one))
-        .filter((b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1)
-        .filter((b) => Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1)
-        .map((b) => `${name(a.one)} and ${name(b.one)}`),
-    );
-    return [...cut, ...overlapping];
-  }, wholly);
-}
-
 // The last is a window of 1280 px at 400 %; it scrolls.
 for (const [width, height] of [
   [390, 844],
@@ -215,7 +178,7 @@ for (const [width, height] of [
     await page.locator('#result').evaluate((result) => result.removeAttribute('hidden'));
     expect(await found(), 'the result').toEqual([]);
     await page.locator('#result').evaluate((result) => result.setAttribute('hidden', ''));
-    await page.locator('#return-key, #return-key li').evaluateAll((parts) => {
+    await page.locator('#view-key, #view-key li').evaluateAll((parts) => {
       for (const part of parts) part.removeAttribute('hidden');
     });
     expect(await found(), 'the key of the returns').toEqual([]);

@@ -1,7 +1,7 @@
 import { expect, openLab, state, test, until } from './page.ts';
 
 test('returns in rain and on the robot are counted in the key, which follows the layers', async ({ mapless: page }) => {
-  const key = page.locator('#return-key');
+  const key = page.locator('#view-key');
   await expect(key).toBeHidden();
   const overrides = { reality: { sensing: { stray_probability: 0.02, self_returns: 20 } } };
   await page.evaluate((values) => window.mapless?.setOverrides(values), overrides);

@@ -128,7 +128,7 @@ test('by keyboard alone: a ramp from here to there, a boulder, and back', async 
 test('generated terrains have pictures, a start, a goal, and drive', async ({ mapless: page }) => {
   await page.keyboard.press('g');
   await expect(page.locator('#terrains-sheet')).toBeVisible();
-  await page.selectOption('#difficulty', 'easy');
+  await page.selectOption('#family', 'easy');
   await page.locator('#terrain-seed').fill('12');
   await page.locator('#terrain-seed').press('Enter');
   await expect(page.locator('#terrains-sheet')).toBeVisible();

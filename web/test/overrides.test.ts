@@ -49,6 +49,7 @@ test('a complaint of the core is brought to its field', () => {
     range: [0, 1] as [number, number],
     choices: undefined,
     paper: undefined,
+    presets: [],
   } as const;
   const groups: ParameterGroup[] = [
     { table: 'planner.controller', title: '', parameters: [{ ...number, name: 'max_speed_m_s' }] },

@@ -5,7 +5,7 @@ use mapless::PlannerConfig;
 pub use mapless_parameters::{Kind, Parameter, Value};
 use mapless_world::{MotionConfig, RobotConfig, SensingConfig, SensorConfig};
 
-use crate::reality::{PoseConfig, RealityConfig};
+use crate::reality::{PoseConfig, RealityConfig, RealityPreset};
 use crate::scenario::{Preset, Scenario, ScenarioFault};
 
 /// Parameters of one table, with their values.
@@ -28,6 +28,13 @@ pub struct Valued {
     pub value: Value,
 }
 
+/// One group: its table, its title, and the configuration that its parameters are in.
+macro_rules! groups {
+    ($($table:literal $title:literal $type:ty = $config:expr;)*) => {
+        vec![$(group($table, $title, <$type>::PARAMETERS, &$config.values())),*]
+    };
+}
+
 /// All groups, in the order of the method, with the values of these configurations.
 pub fn groups(
     planner: &PlannerConfig,
@@ -35,12 +42,6 @@ pub fn groups(
     robot: &RobotConfig,
     reality: &RealityConfig,
 ) -> Vec<Group> {
-    /// One group: its table, its title, and the configuration that its parameters are in.
-    macro_rules! groups {
-        ($($table:literal $title:literal $type:ty = $config:expr;)*) => {
-            vec![$(group($table, $title, <$type>::PARAMETERS, &$config.values())),*]
-        };
-    }
     use mapless::config::{
         ControllerConfig, DecisionConfig, ElevationWindowConfig, PerceptionConfig, PidGains, SegmentConfig,
         StateLatticeConfig,
@@ -51,7 +52,7 @@ pub fn groups(
 
     let learning = &planner.perception.learning;
     let controller = &planner.controller;
-    groups! {
+    let mut groups = groups! {
         "planner" "Planner" PlannerConfig = planner;
         "planner.perception" "Perception" PerceptionConfig = planner.perception;
         "planner.perception.kernel" "Kernel" RationalQuadratic = planner.perception.kernel;
@@ -68,6 +69,19 @@ pub fn groups(
         "planner.sensor" "Sensor as the planner knows it; follows the sensor unless set" SensorModel = planner.sensor;
         "sensor" "Sensor" SensorConfig = sensor;
         "robot" "Robot" RobotConfig = robot;
+    };
+    groups.extend(reality_groups(reality));
+    groups
+}
+
+/// The groups of `[reality]` with the values of every preset, in the order of [`RealityPreset::ALL`].
+pub fn reality_presets() -> Vec<(&'static str, Vec<Group>)> {
+    let of = |preset: &RealityPreset| (preset.word(), reality_groups(&preset.config()));
+    RealityPreset::ALL.iter().map(of).collect()
+}
+
+fn reality_groups(reality: &RealityConfig) -> Vec<Group> {
+    groups! {
         "reality" "Reality" RealityConfig = reality;
         "reality.sensing" "What spoils the scans" SensingConfig = reality.sensing;
         "reality.pose" "What is wrong with the believed pose" PoseConfig = reality.pose;

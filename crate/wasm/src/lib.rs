@@ -17,7 +17,7 @@ mod terrain;
 pub use decision::{Cost, Forecast, PathPoint, ReachEnd, Refusal, Segment, Subgoal, Verdict};
 pub use objects::{ObjectList, Solid, SolidList};
 pub use opening::{Learning, Preset, ScenarioRead, SessionOptions, TextFile, read_scenario};
-pub use parameters::{Parameter, ParameterGroup, ParameterKind};
+pub use parameters::{Parameter, ParameterGroup, ParameterKind, PresetValue};
 pub use places::{Goal, Heading, Place, Route};
 pub use returns::SetAside;
 pub use session::{
@@ -27,8 +27,8 @@ pub use session::{
 pub use shared::{Metrics, Outcome, OverrideValue, Overrides, Pose};
 pub use stroke::{Stroke, StrokeKind};
 pub use terrain::{
-    Ground, GroundPatch, ImportRequest, LevelPlaces, TerrainFiles, generated_recipe, import_of, level_places,
-    terrain_preview,
+    Ground, GroundPatch, ImportRequest, LevelPlaces, TerrainFiles, TerrainPreview, generated_recipe,
+    import_of, level_places, terrain_preview,
 };
 
 use wasm_bindgen::prelude::wasm_bindgen;

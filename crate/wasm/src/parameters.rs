@@ -1,6 +1,6 @@
 //! Every parameter that a scenario file may set, described for people.
 
-use mapless_trials::parameters::{self, Kind, Value, Valued};
+use mapless_trials::parameters::{self, Group, Kind, Value, Valued};
 use mapless_trials::{Preset, Scenario};
 use serde::Serialize;
 use tsify::Tsify;
@@ -35,6 +35,17 @@ pub struct Parameter {
     /// What the paper gives, where it gives one.
     #[tsify(type = "OverrideValue | undefined")]
     paper: Option<Value>,
+    /// What the presets of `reality` give; empty outside it.
+    #[tsify(type = "readonly PresetValue[]")]
+    presets: Vec<PresetValue>,
+}
+
+/// What a preset gives for a parameter.
+#[derive(Debug, Serialize, Tsify)]
+pub struct PresetValue {
+    preset: &'static str,
+    #[tsify(type = "OverrideValue")]
+    value: Value,
 }
 
 /// What a parameter's value may be.
@@ -60,16 +71,30 @@ pub(crate) fn groups(
     running: &Scenario,
     preset: Preset,
 ) -> Result<Vec<ParameterGroup>, JsError> {
+    let presets = parameters::reality_presets();
     let values = parameters::values(file, running, preset)?;
-    let groups = values.into_iter().map(|group| ParameterGroup {
-        table: group.table,
-        title: group.title,
-        parameters: group.parameters.iter().map(described).collect(),
+    let groups = values.into_iter().map(|group| {
+        let given = |index: usize| preset_values(&presets, group.table, index);
+        let parameters = group.parameters.iter().enumerate();
+        ParameterGroup {
+            table: group.table,
+            title: group.title,
+            parameters: parameters.map(|(index, one)| described(one, given(index))).collect(),
+        }
     });
     Ok(groups.collect())
 }
 
-fn described(Valued { parameter, value }: &Valued) -> Parameter {
+/// What each preset gives for a parameter of a table.
+fn preset_values(presets: &[(&'static str, Vec<Group>)], table: &str, index: usize) -> Vec<PresetValue> {
+    let values = presets.iter().filter_map(|(preset, groups)| {
+        let group = groups.iter().find(|group| group.table == table)?;
+        Some(PresetValue { preset, value: group.parameters.get(index)?.value })
+    });
+    values.collect()
+}
+
+fn described(Valued { parameter, value }: &Valued, presets: Vec<PresetValue>) -> Parameter {
     let (kind, range, choices) = match parameter.kind {
         Kind::Number(low, high) => (ParameterKind::Number, Some([low, high]), None),
         Kind::Whole(low, high) => (ParameterKind::Whole, Some([low.into(), high.into()]), None),
@@ -86,5 +111,6 @@ fn described(Valued { parameter, value }: &Valued) -> Parameter {
         choices,
         value: *value,
         paper: parameter.paper,
+        presets,
     }
 }

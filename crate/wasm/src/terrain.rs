@@ -3,11 +3,12 @@
 use js_sys::{Float32Array, Uint8Array};
 use mapless_terrain::generate::{Family, terrain_recipe};
 use mapless_terrain::{Fault, Grid, Import, Imported, Terrain, load_recipe};
-use mapless_world::{HeightField, SampleRect};
+use mapless_world::{HeightField, Objects, SampleRect};
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
+use crate::objects::{Solid, SolidList};
 use crate::places::Place;
 use crate::shared::{give, read};
 
@@ -135,6 +136,15 @@ impl GroundPatch {
     }
 }
 
+/// A terrain for a picture.
+#[derive(Debug, Serialize, Tsify)]
+pub struct TerrainPreview {
+    /// Coarsely.
+    ground: Ground,
+    /// The shapes of what stands and walks on it.
+    solids: SolidList,
+}
+
 /// Two level places of a terrain far from each other.
 #[derive(Debug, Serialize, Tsify)]
 pub struct LevelPlaces {
@@ -165,21 +175,25 @@ pub fn import_of(file: &str, recipe: &str) -> Result<Option<Ts<ImportRequest>>, 
     give(&ImportRequest { file, cell_m, height_min_m, height_max_m, holes }).map(Some)
 }
 
-/// Two level places of a terrain far from each other, for a start and a goal.
+/// Two level places of a terrain far from each other and from its objects, for a start and a goal.
 ///
 /// # Errors
 /// A fault of the terrain, with place, value and expectation.
 #[wasm_bindgen]
 pub fn level_places(terrain: Ts<TerrainFiles>) -> Result<Ts<LevelPlaces>, JsError> {
-    let [start, goal] = read(terrain)?.load()?.field.level_places();
+    let Terrain { field, objects, .. } = read(terrain)?.load()?;
+    let [start, goal] = field.level_places(Objects::new(objects, &field).solids());
     give(&LevelPlaces { start: start.into(), goal: goal.into() })
 }
 
-/// A terrain as a coarse grid for a picture, with at most `most` samples along a side.
+/// A terrain for a picture: its objects, and a coarse grid with at most `most` samples along a side.
 ///
 /// # Errors
 /// A fault of the terrain, with place, value and expectation.
 #[wasm_bindgen]
-pub fn terrain_preview(terrain: Ts<TerrainFiles>, most: u32) -> Result<Ts<Ground>, JsError> {
-    give(&Ground::coarse(&read(terrain)?.load()?.field, most))
+pub fn terrain_preview(terrain: Ts<TerrainFiles>, most: u32) -> Result<Ts<TerrainPreview>, JsError> {
+    let Terrain { field, objects, .. } = read(terrain)?.load()?;
+    let objects = Objects::new(objects, &field);
+    let solids = SolidList(objects.solids().iter().map(Solid::from).collect());
+    give(&TerrainPreview { ground: Ground::coarse(&field, most), solids })
 }

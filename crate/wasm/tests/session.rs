@@ -3,7 +3,7 @@
 // Clippy does not know these functions as tests.
 #![allow(clippy::panic, clippy::unwrap_used, clippy::float_cmp)]
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use js_sys::{Array, Float32Array, Object, Reflect, Uint8Array};
 use mapless_wasm::{Session, generated_recipe, import_of, level_places, read_scenario, terrain_preview};
 use tsify::{Ts, Tsify};
@@ -434,10 +434,28 @@ fn ground_that_changes_before_the_first_tick_is_where_the_trial_begins() {
 #[wasm_bindgen_test]
 fn a_preview_is_a_coarse_grid_of_the_same_ground() {
     let preview = got(terrain_preview(terrain(RECIPE), 50));
+    assert!(items(&preview, "solids").is_empty());
+    let preview = at(&preview, "ground");
     let size = ["columns", "rows", "cell_m"].map(|name| number(&preview, name));
     let coarse = heights(&preview);
     assert_eq!((size, coarse.len()), ([41.0, 31.0, 1.0], 41 * 31));
     assert_eq!(coarse[18 * 41 + 20], heights(&got(session().ground()))[72 * COLUMNS + 80]);
+}
+
+#[wasm_bindgen_test]
+fn a_preview_has_the_objects_of_its_family_and_its_places_keep_clear_of_them() {
+    let recipe = generated_recipe("posts", 3).unwrap_or_default();
+    let solids = items(&got(terrain_preview(terrain(&recipe), 50)), "solids");
+    assert!(solids.len() > 10);
+    let places = got(level_places(terrain(&recipe)));
+    for place in ["start", "goal"] {
+        for solid in &solids {
+            let [x, y] = ["x", "y"].map(|axis| number(&places, &format!("{place}.{axis}")));
+            let [east, north] = ["centre_m.0", "centre_m.1"].map(|axis| number(solid, axis));
+            let away_m = DVec2::new(east - x, north - y).length();
+            assert!(away_m > 0.8, "{place}: {}", json(solid.clone()));
+        }
+    }
 }
 
 #[wasm_bindgen_test]
@@ -462,7 +480,7 @@ fn a_recipe_that_imports_asks_for_the_file() {
     let files = JsValue::from(terrain::<mapless_wasm::TerrainFiles>(recipe));
     Reflect::set(&files, &"imported".into(), &grid).unwrap();
     let preview = terrain_preview(Ts::new_unchecked(files), 50);
-    assert_eq!(heights(&got(preview))[4], 1.0);
+    assert_eq!(heights(&at(&got(preview), "ground"))[4], 1.0);
 }
 
 #[wasm_bindgen_test]
@@ -487,6 +505,36 @@ fn a_place_off_the_terrain_changes_nothing() {
     assert!(session.set_start(given(r#"{ "x": 99, "y": 8, "heading_rad": 0 }"#)).is_err());
     assert!(session.set_start(given(r#"{ "x": 9, "y": 8 }"#)).is_err());
     assert_eq!((json(got(session.scene())), session.digest()), before);
+}
+
+#[wasm_bindgen_test]
+fn what_the_robot_believes_is_told_where_that_may_be_wrong() {
+    let mut session = session();
+    assert_eq!(text(&got(session.scene()), "reality"), "ideal");
+    assert!(at(&frame(&mut session).0, "believed").is_undefined());
+    for (overrides, name, believed) in [
+        (r#"{ "reality": { "preset": "harsh" } }"#, "harsh", true),
+        (r#"{ "reality": { "preset": "field", "pose": { "latency_s": 0.2 } } }"#, "own", true),
+        (r#"{ "reality": { "motion": { "friction": 0.5 } } }"#, "own", false),
+    ] {
+        assert!(session.set_parameters(given(overrides), None).is_ok());
+        assert_eq!(text(&got(session.scene()), "reality"), name);
+        tick(&mut session, 20);
+        let frame = frame(&mut session).0;
+        assert_eq!(!at(&frame, "believed").is_undefined(), believed, "{overrides}");
+        if believed {
+            assert!((number(&frame, "pose.x") - number(&frame, "believed.x")).abs() > 1e-4);
+        }
+    }
+    let groups: Vec<JsValue> =
+        session.parameters().unwrap_or_default().into_iter().map(JsValue::from).collect();
+    let motion = groups.iter().find(|group| text(group, "table") == "reality.motion").unwrap();
+    let all = items(motion, "parameters");
+    let friction = all.iter().find(|one| text(one, "name") == "friction").unwrap();
+    assert_eq!(
+        json(at(friction, "presets")),
+        r#"[{"preset":"ideal","value":2},{"preset":"field","value":0.9},{"preset":"harsh","value":0.4}]"#
+    );
 }
 
 /// Drives until the trial ends; gives the last tick.

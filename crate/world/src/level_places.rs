@@ -1,6 +1,7 @@
 //! Safe places on a terrain without chosen ones.
 
 use crate::height_field::HeightField;
+use crate::objects::Solid;
 use glam::DVec2;
 
 /// Radius around a place within which the ground is checked: a Husky turns within it.
@@ -12,9 +13,10 @@ const NEAREST: f64 = 0.08;
 const FARTHEST: f64 = 0.38;
 
 impl HeightField {
-    /// The most level places near the south-western and the north-eastern corner.
+    /// The most level places near the south-western and the north-eastern corner, with room to turn among the
+    /// `solids`.
     #[must_use]
-    pub fn level_places(&self) -> [DVec2; 2] {
+    pub fn level_places(&self, solids: &[Solid]) -> [DVec2; 2] {
         [false, true].map(|opposite| {
             let extent = self.extent_m();
             let mut best = (f64::INFINITY, extent / 2.0);
@@ -26,7 +28,7 @@ impl HeightField {
                     // Centimetres read well in a file.
                     let place = (place * 100.0).round() / 100.0;
                     let steepest = self.steepest_around(place);
-                    if steepest < best.0 {
+                    if steepest < best.0 && solids.iter().all(|solid| leaves_room(solid, place)) {
                         best = (steepest, place);
                     }
                 }
@@ -48,9 +50,16 @@ impl HeightField {
     }
 }
 
+/// Whether a robot can turn at a place, seen from above.
+fn leaves_room(solid: &Solid, place: DVec2) -> bool {
+    let nearest = solid.nearest(place.extend(solid.centre_m.z));
+    nearest.truncate().distance(place) > REACH_M
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::objects::Shape;
 
     #[test]
     fn start_and_goal_stand_on_the_level_part_of_their_corner() {
@@ -61,7 +70,7 @@ mod tests {
             if shelf(c, r) || shelf(100 - c, 100 - r) { 3.0 } else { 0.2 * c as f32 }
         });
         let field = HeightField::new(101, 101, 0.5, heights_m.collect()).unwrap();
-        let [start, goal] = field.level_places();
+        let [start, goal] = field.level_places(&[]);
         for (place, mirrored) in [(start, start), (goal, field.extent_m() - goal)] {
             assert_eq!(field.height_m(place), Some(3.0), "{place}");
             assert!((7.0..11.0).contains(&mirrored.x) && (8.0..12.0).contains(&mirrored.y), "{place}");
@@ -71,6 +80,19 @@ mod tests {
     #[test]
     fn a_terrain_too_small_to_stand_on_has_its_middle() {
         let field = HeightField::new(2, 2, 0.5, vec![0.0; 4]).unwrap();
-        assert_eq!(field.level_places(), [DVec2::splat(0.25); 2]);
+        assert_eq!(field.level_places(&[]), [DVec2::splat(0.25); 2]);
+    }
+
+    #[test]
+    fn neither_stands_on_or_near_an_object() {
+        let field = HeightField::new(101, 101, 0.5, vec![0.0; 101 * 101]).unwrap();
+        let [start, goal] = field.level_places(&[]);
+        let shape = Shape::Cylinder { radius_m: 1.0, half_height_m: 0.5 };
+        let solids =
+            [start, goal].map(|at| Solid { centre_m: at.extend(0.5), shape, object: 0, is_grounded: true });
+        let moved = field.level_places(&solids);
+        for place in moved {
+            assert!(solids.iter().all(|solid| solid.centre_m.truncate().distance(place) > 1.8), "{place}");
+        }
     }
 }

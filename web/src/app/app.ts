@@ -11,13 +11,13 @@ import { HeightField } from '../ground/heightField.ts';
 import type {
   Beginning,
   Frame,
-  Ground,
   GroundPatch,
   Loaded,
   NamedFile,
   SessionInfo,
   Solid,
   Source,
+  TerrainPreview,
 } from '../protocol/simulationProtocol.ts';
 import { RunRecord } from '../run/record.ts';
 import { SPEEDS } from '../run/speeds.ts';
@@ -146,6 +146,7 @@ export class App {
       goal: info.goal,
       objects: info.objects,
       overrides: info.overrides,
+      reality: info.reality,
       playing: this.#playing,
       speed: this.#speed,
       ground: { columns: field.columns, rows: field.rows, cell_m: field.cell_m },
@@ -206,8 +207,8 @@ export class App {
     return this.#field;
   }
 
-  /** The ground of a terrain, coarsely, for a picture. */
-  preview(terrain: Experiment['terrain']): Promise<Ground> {
+  /** A terrain, coarsely, for a picture. */
+  preview(terrain: Experiment['terrain']): Promise<TerrainPreview> {
     return this.#core.request({ type: 'preview', terrain });
   }
 

@@ -23,7 +23,7 @@ type Drawn = 'buffers' | 'trail' | 'rows' | 'anew' | 'ahead' | 'movers' | 'path'
 export type MaplessState = Omit<Frame, Drawn | 'stop_reason' | 'set_aside' | 'mount_misfit' | 'waypoints_passed'> &
   Pick<
     SessionInfo,
-    'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'waypoints' | 'goal' | 'objects' | 'overrides'
+    'scenario' | 'preset' | 'learning' | 'seed' | 'start' | 'waypoints' | 'goal' | 'objects' | 'overrides' | 'reality'
   > & {
     /** Why the planner stopped, where it did. */
     readonly stopReason: string | undefined;

@@ -20,6 +20,8 @@ export interface Theme {
   /** What stands on the ground, and what walks on it. */
   readonly object: Rgb;
   readonly mover: Rgb;
+  /** The robot where it believes to be. */
+  readonly believed: Rgb;
   /** An object in hand. */
   readonly held: Rgb;
   readonly contour: Rgb;
@@ -52,6 +54,7 @@ export function readTheme(): Theme {
     rock: colour('relief-rock'),
     object: colour('object'),
     mover: colour('mover'),
+    believed: colour('believed'),
     held: colour('accent-fill'),
     contour: colour('relief-contour'),
     variance: [0, 1, 2].map((step) => colour(`variance-${step}`)),

@@ -2,12 +2,15 @@
 
 import { ramp } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
-import type { Ground } from '../protocol/simulationProtocol.ts';
+import type { Solid, TerrainPreview } from '../protocol/simulationProtocol.ts';
 
 /** Exaggerates slopes, which are gentle from above. */
 const STEEPER = 2.2;
 
-export function drawRelief(canvas: HTMLCanvasElement, ground: Ground, theme: Theme): void {
+/** Objects are drawn no smaller than so many samples. */
+const LEAST_SIZE = 1.4;
+
+export function drawRelief(canvas: HTMLCanvasElement, { ground, solids }: TerrainPreview, theme: Theme): void {
   const { columns, rows, cell_m, heights_m } = ground;
   canvas.width = columns;
   canvas.height = rows;
@@ -35,4 +38,22 @@ export function drawRelief(canvas: HTMLCanvasElement, ground: Ground, theme: The
     }
   }
   context.putImageData(image, 0, 0);
+  context.fillStyle = `rgb(${theme.object.join(' ')})`;
+  for (const solid of solids) drawSolid(context, solid, rows, cell_m);
+}
+
+/** An object as seen from above. */
+function drawSolid(context: CanvasRenderingContext2D, solid: Solid, rows: number, cell_m: number): void {
+  const { shape, centre_m, size_m, sin_cos_yaw } = solid;
+  const [sin, cos] = sin_cos_yaw;
+  const drawn = (size: number) => Math.max(size / cell_m, LEAST_SIZE);
+  const [length, width] = [drawn(size_m[0]), drawn(size_m[1])];
+  context.save();
+  context.translate(centre_m[0] / cell_m + 0.5, rows - 0.5 - centre_m[1] / cell_m);
+  context.transform(cos, -sin, sin, cos, 0, 0);
+  context.beginPath();
+  if (shape === 'box') context.rect(-length / 2, -width / 2, length, width);
+  else context.arc(0, 0, length / 2, 0, 2 * Math.PI);
+  context.fill();
+  context.restore();
 }

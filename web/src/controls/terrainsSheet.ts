@@ -3,16 +3,16 @@
 import { byId, html, setText } from '../base/dom.ts';
 import { readTheme } from '../colours/theme.ts';
 import { CATALOGUE } from '../experiment/catalogue.ts';
-import { DIFFICULTIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
-import type { Ground, NamedFile } from '../protocol/simulationProtocol.ts';
+import { FAMILIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
+import type { NamedFile, TerrainPreview } from '../protocol/simulationProtocol.ts';
 import { drawRelief } from './reliefPicture.ts';
 
 /** Generated terrains shown at once. */
 const GENERATED = 4;
 
 export interface TerrainActions {
-  /** The ground of a terrain, coarsely, for a picture. */
-  preview(terrain: Terrain): Promise<Ground>;
+  /** A terrain, coarsely, for a picture. */
+  preview(terrain: Terrain): Promise<TerrainPreview>;
   runScenario(scenario: string): Promise<void>;
   runTerrain(terrain: Terrain, name: string): Promise<void>;
   /** `holes`: what becomes of samples without a height. */
@@ -26,7 +26,7 @@ export class TerrainsSheet {
   readonly #sheet = byId('terrains-sheet', HTMLDialogElement);
   readonly #cards = byId('terrain-cards', HTMLElement);
   readonly #generated = byId('generated-cards', HTMLElement);
-  readonly #difficulty = byId('difficulty', HTMLSelectElement);
+  readonly #family = byId('family', HTMLSelectElement);
   readonly #seed = byId('terrain-seed', HTMLInputElement);
   readonly #files = byId('files', HTMLInputElement);
   readonly #holes = byId('holes', HTMLSelectElement);
@@ -34,7 +34,7 @@ export class TerrainsSheet {
   constructor(actions: TerrainActions) {
     this.#actions = actions;
     byId('generate', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
-    for (const input of [this.#difficulty, this.#seed]) input.addEventListener('change', () => this.#generate());
+    for (const input of [this.#family, this.#seed]) input.addEventListener('change', () => this.#generate());
     byId('more-terrains', HTMLButtonElement).addEventListener('click', () => {
       const next = this.#seed.valueAsNumber + GENERATED;
       this.#seed.valueAsNumber = next <= MAX_SEED - GENERATED ? next : 0;
@@ -69,11 +69,11 @@ export class TerrainsSheet {
   #generate(): void {
     const first = this.#seed.valueAsNumber;
     if (!this.#seed.reportValidity() || !Number.isInteger(first)) return;
-    const difficulty = DIFFICULTIES.find((one) => one === this.#difficulty.value) ?? 'moderate';
+    const family = FAMILIES.find((one) => one === this.#family.value) ?? 'moderate';
     const cards = Array.from({ length: GENERATED }, (_, step) => {
       const seed = first + step;
-      const terrain = { generated: { difficulty, seed } };
-      const name = `${difficulty} ${seed}`;
+      const terrain = { generated: { difficulty: family, seed } };
+      const name = `${family} ${seed}`;
       return this.#card(terrain, `Seed ${seed}`, () => this.#actions.runTerrain(terrain, name));
     });
     this.#generated.replaceChildren(...cards);
@@ -89,7 +89,7 @@ export class TerrainsSheet {
       this.#actions.attempt(choose());
     });
     this.#actions.preview(terrain).then(
-      (ground) => drawRelief(picture, ground, readTheme()),
+      (terrain) => drawRelief(picture, terrain, readTheme()),
       (error: unknown) => setText(words, `${title}: ${error instanceof Error ? error.message : error}`),
     );
     return html('li', '', [button]);

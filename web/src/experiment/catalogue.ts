@@ -1,5 +1,7 @@
 /** The scenarios and terrains that come with the page, and what each one shows. */
 
+import { FAMILIES } from './experiment.ts';
+
 export interface CatalogueEntry {
   readonly id: string;
   readonly group: string;
@@ -84,7 +86,7 @@ function resolve(path: string): string {
 }
 
 /** Names like those of generated tasks; the core says what is wrong with one. */
-export const TASK = /^(easy|moderate|hard)-\d/;
+export const TASK = new RegExp(`^(${FAMILIES.join('|')})-\\d`);
 
 export function entry(id: string): CatalogueEntry {
   const task = {

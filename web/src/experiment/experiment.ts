@@ -11,8 +11,9 @@ import type { Learning, Preset, Setup } from './setting.ts';
 
 export const VERSION = 1;
 
-export const DIFFICULTIES = ['easy', 'moderate', 'hard'] as const;
-export type Difficulty = (typeof DIFFICULTIES)[number];
+/** Kinds of generated terrain: bare ground by difficulty, then those with obstacles. */
+export const FAMILIES = ['easy', 'moderate', 'hard', 'rocks', 'posts', 'walls', 'ditches', 'mixed', 'movers'] as const;
+export type Family = (typeof FAMILIES)[number];
 
 /** A file as text, for recipes that import a grid of heights. */
 export interface ImportedFile {
@@ -27,7 +28,8 @@ export type Holes = (typeof HOLES)[number];
 /** Where the ground comes from, before any stroke. */
 export type Terrain =
   | { readonly catalogue: string }
-  | { readonly generated: { readonly difficulty: Difficulty; readonly seed: number } }
+  /** `difficulty` is any family: links have named it so since there were only difficulties. */
+  | { readonly generated: { readonly difficulty: Family; readonly seed: number } }
   /** The text of a recipe, and the file that it imports, if it does. */
   | { readonly recipe: string; readonly imported?: ImportedFile };
 

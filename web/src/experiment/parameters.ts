@@ -4,7 +4,7 @@ import type { OverrideValue, Parameter, ParameterGroup } from '../wasm/mapless_w
 
 export type { Parameter, ParameterGroup };
 
-const UNITS = /_(m|m2|rad|s|m_s|m_s2|rad_s|rad_s2|ticks|length_scales)$/;
+const UNITS = /_(m|m2|m_rad|rad|s|m_s|m_s2|rad_s|rad_s2|ticks|length_scales)$/;
 
 /** A parameter's name as people read it: `max_slope_rad` is “max slope”. */
 export function label(name: string): string {

@@ -2,8 +2,8 @@
 
 import { fail, fields, list, number, oneOf, whole } from '../base/checks.ts';
 import {
-  DIFFICULTIES,
   type Experiment,
+  FAMILIES,
   type ImportedFile,
   LEARNING,
   MAX_FILE_BYTES,
@@ -74,7 +74,7 @@ function terrain(value: unknown): Terrain {
     const { difficulty, seed } = fields(found.generated, `${at}.generated`, ['difficulty', 'seed']);
     return {
       generated: {
-        difficulty: oneOf(difficulty, `${at}.generated.difficulty`, DIFFICULTIES),
+        difficulty: oneOf(difficulty, `${at}.generated.difficulty`, FAMILIES),
         seed: whole(seed, `${at}.generated.seed`, 0, MAX_SEED),
       },
     };

@@ -14,8 +14,8 @@ import { bindPointing, bindStepping } from './bindPointing.ts';
 import { DecisionPanel } from './decision.ts';
 import { DetailCard } from './detail.ts';
 import { LayersPanel } from './layersPanel.ts';
-import { ReturnKey } from './returnKey.ts';
 import { neighbour, VarianceImage } from './varianceImage.ts';
+import { ViewKey } from './viewKey.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
 const button = (id: string) => byId(id, HTMLButtonElement);
@@ -39,10 +39,10 @@ export class Inspector implements TourHost {
     element('candidate-count'),
     this.#selection,
   );
-  readonly #returnKey = new ReturnKey();
+  readonly #key = new ViewKey();
   readonly #layers = new LayersPanel((layers) => {
     this.#stage?.layers(layers);
-    this.#returnKey.hide(layers.points === 'none');
+    this.#key.hide(layers.points === 'none');
     this.#watch();
   });
   #imageInSight = false;
@@ -82,7 +82,7 @@ export class Inspector implements TourHost {
 
   frame(frame: Frame): void {
     this.#image.show(frame);
-    this.#returnKey.show(frame.set_aside);
+    this.#key.show(frame);
     this.#decision.show(frame);
     this.#selection.show(frame);
   }

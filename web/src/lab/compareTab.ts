@@ -25,6 +25,7 @@ export class CompareTab implements Tab {
   readonly element = html('div');
   readonly #app: App;
   readonly #stage: Stage | undefined;
+  #choiceChanged: (() => void) | undefined;
   readonly #trails = new GhostTrails();
   readonly #boxes: readonly { rival: Rival; box: HTMLInputElement; label: HTMLLabelElement }[];
   readonly #note = html('p', 'lab-note');
@@ -73,6 +74,10 @@ export class CompareTab implements Tab {
     this.#show();
   }
 
+  shown(): void {
+    this.#show();
+  }
+
   #box(rival: Rival) {
     const box = html('input');
     box.type = 'checkbox';
@@ -89,6 +94,22 @@ export class CompareTab implements Tab {
     return { rival, box, label };
   }
 
+  /** Who is told whenever others are compared with. */
+  onChoice(changed: () => void): void {
+    this.#choiceChanged = changed;
+  }
+
+  /** Whether one is compared with, and whether there is room for another. */
+  stateOf({ planner }: Rival): { chosen: boolean; room: boolean } {
+    return { chosen: this.#chosen.some((rival) => rival.planner === planner), room: this.#chosen.length < MOST };
+  }
+
+  /** Compares with one, or no longer. */
+  pick({ planner }: Rival, picked: boolean): void {
+    for (const { rival, box } of this.#boxes) if (rival.planner === planner) box.checked = picked;
+    this.#choose();
+  }
+
   #choose(): void {
     this.#app.touch();
     this.#chosen = this.#boxes.filter(({ box }) => box.checked).map(({ rival }) => rival);
@@ -101,6 +122,7 @@ export class CompareTab implements Tab {
     for (const { box } of this.#boxes) box.disabled = full && !box.checked;
     const how = `They drive the same course from its start, with the same seed and parameters. At most ${MOST} at once. One that is still catching up is compared with the robot in view at the time it has got to.`;
     setText(this.#note, how);
+    this.#choiceChanged?.();
   }
 
   /** All ghosts from the start of the course as it is now. */

@@ -17,6 +17,8 @@ export interface Tab {
   frame?(frame: Frame): void;
   /** The ground was sculpted. */
   sculpted?(): void;
+  /** It is in sight from now on. */
+  shown?(): void;
 }
 
 export class Lab {
@@ -27,7 +29,8 @@ export class Lab {
 
   constructor(app: App, stage: Stage | undefined, opener: HTMLButtonElement) {
     this.#opener = opener;
-    this.#tabs = [new ParametersTab(app), new CompareTab(app, stage), new SeedsTab(app)];
+    const compare = new CompareTab(app, stage);
+    this.#tabs = [new ParametersTab(app, compare), compare, new SeedsTab(app)];
     this.#buttons = this.#tabs.map((tab, index) => this.#button(tab, index));
     const list = html('div', 'lab-tabs', this.#buttons);
     list.setAttribute('role', 'tablist');
@@ -93,6 +96,7 @@ export class Lab {
       button.tabIndex = at === index ? 0 : -1;
     }
     for (const [at, { element }] of this.#tabs.entries()) element.hidden = at !== index;
+    this.#tabs[index]?.shown?.();
   }
 
   /** Arrow keys go along the tabs, as in every list of tabs. */

@@ -55,5 +55,5 @@ export function presetButtons(group: ParameterGroup, choose: (mount: MountPreset
     button.addEventListener('click', () => choose(mount));
     return button;
   });
-  return [html('div', 'lab-row mount-presets', buttons)];
+  return [html('div', 'lab-row presets', buttons)];
 }

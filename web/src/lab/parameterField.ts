@@ -148,9 +148,13 @@ function makeInputs(parameter: Parameter, path: string): Input[] {
 }
 
 /** What is usual, what holds by itself and what the paper says, in one line. */
-function facts({ value, paper, range, unit }: Parameter): string {
-  const own = `Default ${shown(value, unit)}`;
+function facts({ value, paper, presets, range, unit }: Parameter): string {
   const papers = paper === undefined ? 'paper: not given' : `paper ${shown(paper, unit)}`;
-  const usual = range ? `usual ${range.map((end) => shown(end, unit)).join(' to ')}` : undefined;
-  return [own, papers, usual].filter((fact) => fact !== undefined).join(' · ');
+  const given =
+    presets.length > 0
+      ? presets.map((one) => `${one.preset} ${shown(one.value, unit)}`)
+      : [`default ${shown(value, unit)}`, papers];
+  const usual = range ? [`usual ${range.map((end) => shown(end, unit)).join(' to ')}`] : [];
+  const line = [...given, ...usual].join(' · ');
+  return line.charAt(0).toUpperCase() + line.slice(1);
 }

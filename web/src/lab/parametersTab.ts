@@ -4,11 +4,15 @@ import type { App } from '../app/app.ts';
 import { html, setText } from '../base/dom.ts';
 import { countOverrides, type Overrides, type OverrideValue, override, withOverride } from '../experiment/overrides.ts';
 import { complaintAbout, type ParameterGroup } from '../experiment/parameters.ts';
+import { isEffects, isOn, withReality } from '../experiment/reality.ts';
 import type { Learning } from '../experiment/setting.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { CompareTab } from './compareTab.ts';
 import type { Tab } from './lab.ts';
 import { type MountPreset, mountOf, presetButtons, withMount } from './mount.ts';
 import { ParameterField } from './parameterField.ts';
+import { IDEAL_RIVAL } from './planners.ts';
+import { RealityCard } from './realityCard.ts';
 
 /** This one is chosen in the bar; the field here and the bar are the same setting. */
 const LEARNING_MODE = 'planner.perception.learning.mode';
@@ -20,6 +24,12 @@ interface Section {
   readonly fields: readonly ParameterField[];
 }
 
+/** Its sections are within it. */
+interface Card {
+  readonly card: RealityCard;
+  readonly sections: readonly Section[];
+}
+
 export class ParametersTab implements Tab {
   readonly title = 'Parameters';
   readonly element = html('div');
@@ -29,11 +39,15 @@ export class ParametersTab implements Tab {
   readonly #summary = html('p', 'lab-note');
   readonly #fault = html('p', 'parameter-fault');
   readonly #list = html('div', 'parameter-list');
+  readonly #compare: CompareTab;
   #sections: readonly Section[] = [];
+  #reality: Card | undefined;
   #made = '';
 
-  constructor(app: App) {
+  constructor(app: App, compare: CompareTab) {
     this.#app = app;
+    this.#compare = compare;
+    compare.onChoice(() => this.#showGhost());
     this.#search.type = 'search';
     this.#search.placeholder = 'Search, e.g. noise';
     this.#search.setAttribute('aria-label', 'Search parameters');
@@ -52,16 +66,21 @@ export class ParametersTab implements Tab {
     if (made !== this.#made) this.#build(info.parameters);
     this.#made = made;
     for (const { group, fields, count } of this.#sections) {
-      let changed = 0;
+      let [changed, on] = [0, 0];
       for (const [index, field] of fields.entries()) {
-        const { name, value: own } = group.parameters[index] ?? { name: '', value: '' };
+        const parameter = group.parameters[index];
+        if (!parameter) continue;
+        const { name, value: own } = parameter;
         const set = override(info.overrides, group.table, name);
         const value = field.path === LEARNING_MODE && info.learning !== own ? info.learning : set;
         field.show(value);
         if (value !== undefined) changed += 1;
+        if (isOn(parameter, value ?? own)) on += 1;
       }
-      setText(count, changed > 0 ? `${changed} changed` : '');
+      const words = [on > 0 ? `${on} on` : '', changed > 0 ? `${changed} changed` : ''];
+      setText(count, words.filter(Boolean).join(', '));
     }
+    this.#reality?.card.show(info);
     const total = countOverrides(info.overrides);
     this.#resetAll.disabled = total === 0;
     const kept = total === 0 ? 'All values are the defaults.' : `${total} changed.`;
@@ -71,19 +90,35 @@ export class ParametersTab implements Tab {
 
   #build(groups: readonly ParameterGroup[]): void {
     const [open, focused] = [new Set(this.#openTitles()), document.activeElement?.id];
-    if (open.size === 0 && groups[0]) open.add(groups[0].title);
+    if (open.size === 0) open.add(RealityCard.title);
+    const section = (group: ParameterGroup) => this.#section(group, open.has(group.title));
+    const effects = groups.filter(isEffects).map(section);
+    const card = new RealityCard(
+      groups,
+      effects.map(({ element }) => element),
+      {
+        preset: (name) => void this.#chooseReality(name),
+        ghost: (wanted) => this.#compare.pick(IDEAL_RIVAL, wanted),
+      },
+    );
+    card.element.open = open.has(RealityCard.title);
+    this.#reality = { card, sections: effects };
+    this.#showGhost();
     // What people try first stands first: the world's faults, then the planner in the order of the method.
-    const ordered = groups
+    const others = groups
+      .filter(({ table }) => !table.startsWith('reality'))
       .flatMap(mountOf)
-      .sort((a, b) => Number(a.table.startsWith('planner')) - Number(b.table.startsWith('planner')));
-    this.#sections = ordered.map((group) => this.#section(group, open.has(group.title)));
-    this.#list.replaceChildren(...this.#sections.map(({ element }) => element));
+      .sort((a, b) => Number(a.table.startsWith('planner')) - Number(b.table.startsWith('planner')))
+      .map(section);
+    this.#sections = [...effects, ...others];
+    this.#list.replaceChildren(card.element, ...others.map(({ element }) => element));
     if (focused) document.getElementById(focused)?.focus();
     this.#find();
   }
 
   #openTitles(): string[] {
-    return this.#sections.filter(({ element }) => element.open).map(({ group }) => group.title);
+    const own = this.#reality?.card.element.open ? [RealityCard.title] : [];
+    return [...own, ...this.#sections.filter(({ element }) => element.open).map(({ group }) => group.title)];
   }
 
   #section(group: ParameterGroup, open: boolean): Section {
@@ -95,7 +130,10 @@ export class ParametersTab implements Tab {
         }),
     );
     const element = html('details', 'parameter-group', [
-      html('summary', '', [html('h3', '', [group.title]), count]),
+      html('summary', '', [
+        ...(isEffects(group) ? RealityCard.heading(group) : [html('h3', '', [group.title])]),
+        count,
+      ]),
       ...presetButtons(group, (mount) => void this.#mount(mount, group)),
       ...fields.map((field) => field.element),
     ]);
@@ -113,6 +151,15 @@ export class ParametersTab implements Tab {
       return;
     }
     await this.#apply(withOverride(info.overrides, table, name, value), path);
+  }
+
+  async #chooseReality(preset: string): Promise<void> {
+    const overrides = this.#app.info?.overrides;
+    if (overrides) await this.#apply(withReality(overrides, preset), undefined);
+  }
+
+  #showGhost(): void {
+    this.#reality?.card.ghost(this.#compare.stateOf(IDEAL_RIVAL));
   }
 
   /** Mounts the sensor anew; what else was changed stays. */
@@ -150,5 +197,9 @@ export class ParametersTab implements Tab {
       element.hidden = found.length === 0;
       if (words.length > 0) element.open = true;
     }
+    if (!this.#reality) return;
+    const { card, sections } = this.#reality;
+    card.element.hidden = sections.every(({ element }) => element.hidden);
+    if (words.length > 0) card.element.open = true;
   }
 }

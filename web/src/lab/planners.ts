@@ -1,11 +1,21 @@
 /** What can drive beside the page's own planner: names, words and colours that colour-blind readers tell apart. */
 
+import { IDEAL_WORLD } from '../trials/trialsProtocol.ts';
+
 export interface Rival {
   readonly planner: string;
   readonly name: string;
   readonly meaning: string;
   readonly colour: string;
 }
+
+/** The same planner with the same seed, where nothing goes wrong. */
+export const IDEAL_RIVAL: Rival = {
+  planner: IDEAL_WORLD,
+  name: 'Ideal',
+  meaning: 'the planner in view in an ideal world',
+  colour: '#5f9e00',
+};
 
 export const RIVALS: readonly Rival[] = [
   { planner: 'default', name: 'Best', meaning: 'the best mapless planner of this project', colour: '#b58900' },
@@ -16,4 +26,5 @@ export const RIVALS: readonly Rival[] = [
   { planner: 'vgf_tuned', name: 'VGF tuned', meaning: 'the same with a better search', colour: '#56b4e9' },
   { planner: 'putn', name: 'PUTN', meaning: 'plane-fitting RRT*, with a map', colour: '#7b5cd6' },
   { planner: 'oracle', name: 'Oracle', meaning: 'the shortest safe path over the known ground', colour: '#0072b2' },
+  IDEAL_RIVAL,
 ];

@@ -37,9 +37,7 @@ export class Ghosts {
       });
       const husky = new Husky();
       if (mount) husky.mount(mount);
-      husky.group.traverse((part) => {
-        if (part instanceof Mesh) part.material = look;
-      });
+      husky.wear(look);
       husky.group.visible = false;
       const route = new Route(0.8);
       route.paint(colour);

@@ -41,6 +41,13 @@ export class Husky {
     }
   }
 
+  /** Has all of it look alike; a new mount does not. */
+  wear(look: MeshStandardMaterial): void {
+    this.group.traverse((part) => {
+      if (part instanceof Mesh) part.material = look;
+    });
+  }
+
   pose({ x, y, z, roll, pitch, yaw }: Pose): void {
     this.group.position.set(x, y, z);
     // Positive pitch lifts the nose, which is a negative turn about the left-pointing y axis.

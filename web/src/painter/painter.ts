@@ -7,9 +7,9 @@ import { HeightField } from '../ground/heightField.ts';
 import type { Ground, GroundPatch, Pose, Solid } from '../protocol/simulationProtocol.ts';
 import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
 import { sensorAt } from '../scene/sensor.ts';
+import { Believed } from './believed.ts';
 import { Ghosts } from './ghosts.ts';
 import { Husky } from './husky.ts';
-
 import { Overlays } from './overlays.ts';
 import type { Pacer } from './pacer.ts';
 import { DEPTH_M, type FromPainter, type Look, type Scenery, type Seen, type ToPainter } from './painterProtocol.ts';
@@ -48,6 +48,7 @@ export class Painter {
   readonly #waypoints = new Waypoints();
   readonly #solids = new Solids();
   readonly #ghosts = new Ghosts();
+  readonly #believed = new Believed();
   readonly #husky = new Husky();
   readonly #overlays: Overlays;
   readonly #relief: Relief;
@@ -104,6 +105,7 @@ export class Painter {
       this.#places.group,
       this.#overlays.group,
       this.#ghosts.group,
+      this.#believed.group,
       this.#solids.group,
     );
     this.#theme(theme);
@@ -177,12 +179,14 @@ export class Painter {
       this.#places,
       this.#waypoints,
       this.#solids,
+      this.#believed,
     ];
     for (const part of [this.#relief, ...marks, this.#overlays]) part.theme(theme);
   }
 
   #arrange(scenery: Scenery, ground: Ground | undefined): void {
     this.#husky.mount(scenery.mount);
+    this.#believed.mount(scenery.mount);
     this.#scenery = scenery;
     if (ground) {
       this.#relief.ground(new HeightField(ground));
@@ -193,7 +197,7 @@ export class Painter {
     this.#relief.colouring(this.#colouring, scenery.limits);
     this.#places.show(scenery.goal, scenery.start, this.#height);
     this.#waypoints.show(scenery.waypoints, this.#height);
-    this.#solids.stand(scenery.objects, scenery.solids, this.#height);
+    this.#stand(scenery.solids);
   }
 
   #sculpt(patch: GroundPatch, solids: readonly Solid[]): void {
@@ -202,7 +206,13 @@ export class Painter {
     this.#colourByHeight();
     this.#places.settle(this.#height);
     this.#waypoints.settle(this.#height);
+    this.#stand(solids);
+  }
+
+  /** The shapes of what stands, where it stands now. */
+  #stand(solids: readonly Solid[]): void {
     if (this.#scenery) this.#solids.stand(this.#scenery.objects, solids, this.#height);
+    this.#relief.solids(solids);
   }
 
   #colourByHeight(): void {
@@ -230,7 +240,7 @@ export class Painter {
     this.#overlays.layers(layers);
   }
 
-  #look({ position, quaternion, fieldOfView_deg, robot, eye }: Look): void {
+  #look({ position, quaternion, fieldOfView_deg, robot, believed, eye }: Look): void {
     this.#camera.position.set(...position);
     this.#camera.quaternion.set(...quaternion);
     if (this.#camera.fov !== fieldOfView_deg) {
@@ -238,6 +248,7 @@ export class Painter {
       this.#fits = false;
     }
     this.#husky.group.visible = !eye;
+    this.#believed.show(eye ? undefined : believed);
     this.#move(robot);
   }
 

@@ -54,6 +54,8 @@ export interface Look {
   /** Of the whole height of the view. */
   readonly fieldOfView_deg: number;
   readonly robot: Pose;
+  /** Where the robot believes to be, where that may differ. */
+  readonly believed: Pose | undefined;
   /** Whether the camera is the robot's own eye: then the robot is not drawn. */
   readonly eye: boolean;
 }

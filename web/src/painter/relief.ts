@@ -19,6 +19,7 @@ import type { Rgb } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
 import type { Place } from '../experiment/place.ts';
 import { HeightField } from '../ground/heightField.ts';
+import type { Solid } from '../protocol/simulationProtocol.ts';
 import { COLOURINGS, type Colouring, STEEPEST_SHOWN_RAD } from '../scene/layers.ts';
 import { FRAGMENT, VERTEX } from './reliefShader.ts';
 import { SUN, sunlight } from './sunlight.ts';
@@ -36,6 +37,7 @@ export class Relief {
   readonly #verticesPerSide: number;
   readonly #changed: () => void;
   #field: HeightField;
+  #solids: readonly Solid[] = [];
   #heights = new DataTexture();
   #light = new DataTexture();
   #brightness = new Uint8Array();
@@ -127,6 +129,17 @@ export class Relief {
   sculpted(): void {
     this.#heights.needsUpdate = true;
     this.#fitRange();
+    this.#relightSoon();
+  }
+
+  /** What stands on the ground and casts a shadow. */
+  solids(solids: readonly Solid[]): void {
+    if (JSON.stringify(solids) === JSON.stringify(this.#solids)) return;
+    this.#solids = solids;
+    this.#relightSoon();
+  }
+
+  #relightSoon(): void {
     clearTimeout(this.#relightTimer);
     this.#relightTimer = setTimeout(() => {
       this.#relightTimer = undefined;
@@ -165,7 +178,7 @@ export class Relief {
   }
 
   #relight(): void {
-    sunlight(this.field, this.#brightness);
+    sunlight(this.field, this.#solids, this.#brightness);
     this.#light.needsUpdate = true;
   }
 

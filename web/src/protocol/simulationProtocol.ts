@@ -40,6 +40,7 @@ export type {
   SetAside,
   Solid,
   Subgoal,
+  TerrainPreview,
   Timeline,
   Verdict,
 } from '../wasm/mapless_wasm.js';
@@ -156,7 +157,7 @@ export type Command =
   | { type: 'sculpt'; stroke: Stroke }
   /** Puts heights back; answered like a stroke. */
   | { type: 'replace'; patch: GroundPatch }
-  /** Answered with the ground of a terrain, coarsely, as a `Ground`. */
+  /** Answered with a terrain, coarsely, as a `TerrainPreview`. */
   | { type: 'preview'; terrain: Terrain }
   /** Answered with the files that `mapless run` reads, as a list of `NamedFile`. */
   | { type: 'export'; experiment: Experiment }

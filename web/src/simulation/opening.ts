@@ -17,7 +17,7 @@ import { readExperiment } from '../experiment/readExperiment.ts';
 import { recipeFile, scenarioFile } from '../experiment/scenarioFiles.ts';
 import type { Setup } from '../experiment/setting.ts';
 import { unzip } from '../files/archive.ts';
-import type { Ground, NamedFile, Source } from '../protocol/simulationProtocol.ts';
+import type { NamedFile, Source, TerrainPreview } from '../protocol/simulationProtocol.ts';
 import type { ScenarioRead, TerrainFiles } from '../wasm/mapless_wasm.js';
 
 const ARCHIVE = /\.zip$/i;
@@ -72,8 +72,8 @@ function baseRecipe(core: Core, terrain: Terrain): string {
   return core.generated_recipe(terrain.generated.difficulty, terrain.generated.seed);
 }
 
-/** A small picture's worth of a terrain's heights. */
-export async function preview(core: Core, terrain: Terrain): Promise<Ground> {
+/** A small picture's worth of a terrain. */
+export async function preview(core: Core, terrain: Terrain): Promise<TerrainPreview> {
   const { files } = await readTerrain(core, filesOfTerrain(core, terrain, []));
   return core.terrain_preview(files, PREVIEW_SAMPLES);
 }

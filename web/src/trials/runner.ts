@@ -1,12 +1,13 @@
 /** Trials on one course, as plain data. Runs in the worker. */
 
 import type { TrialsModule } from '../bindings/trialsModule.ts';
-import { type Overrides, withOverride } from '../experiment/overrides.ts';
+import { withOverride } from '../experiment/overrides.ts';
+import { inIdealWorld } from '../experiment/reality.ts';
 import { scenarioFile } from '../experiment/scenarioFiles.ts';
 import type { Metrics } from '../protocol/simulationProtocol.ts';
 import { METRICS } from '../run/columns.ts';
 import type { Runner as CoreRunner, Ground } from '../wasm/mapless_wasm_baselines.js';
-import { type Course, rowOf, type Summary, type TrialResult } from './trialsProtocol.ts';
+import { type Course, IDEAL_WORLD, rowOf, type Summary, type TrialResult } from './trialsProtocol.ts';
 
 export class Runner {
   readonly planner: string;
@@ -44,7 +45,7 @@ export class RunnerFactory {
   readonly #module: TrialsModule;
   readonly #ground: Ground;
   readonly #scenario: string;
-  readonly #overrides: Overrides;
+  readonly #course: Course;
 
   constructor(module: TrialsModule, course: Course) {
     const { columns, rows, cell_m, heights_m } = course.ground;
@@ -52,11 +53,19 @@ export class RunnerFactory {
     this.#ground = new module.Ground(columns, rows, cell_m, heights_m);
     // Planner, seed and ground are given apart from the file.
     this.#scenario = scenarioFile({ ...course, seed: 0, preset: 'default', overrides: {} }, 'terrain.toml');
-    this.#overrides = withOverride(course.overrides, 'planner.perception.learning', 'mode', course.learning);
+    this.#course = course;
   }
 
   runner(planner: string, seed: number): Runner {
-    const options = { scenario: this.#scenario, overrides: this.#overrides, planner, seed };
+    const { preset, learning, overrides: all } = this.#course;
+    const ideal = planner === IDEAL_WORLD;
+    const overrides = ideal ? inIdealWorld(all) : all;
+    const options = {
+      scenario: this.#scenario,
+      overrides: withOverride(overrides, 'planner.perception.learning', 'mode', learning),
+      planner: ideal ? preset : planner,
+      seed,
+    };
     return new Runner(new this.#module.Runner(this.#ground, options), planner, seed);
   }
 }

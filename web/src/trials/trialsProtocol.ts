@@ -1,19 +1,25 @@
 /** What the page and a worker that runs whole trials say to each other. A worker has one job and is then ended. */
 
+import type { WorldObject } from '../experiment/objects.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
-import type { Learning } from '../experiment/setting.ts';
+import type { Learning, Preset } from '../experiment/setting.ts';
 import type { Ground, Metrics, Outcome } from '../protocol/simulationProtocol.ts';
 import { METRICS, POSE } from '../run/columns.ts';
 import type { Spread, TrialStatus } from '../wasm/mapless_wasm_baselines.js';
 
+/** In place of a planner's name: the planner of the course, where nothing goes wrong. */
+export const IDEAL_WORLD = 'ideal';
+
 /** Everything that all trials of a job have in common. */
 export interface Course {
+  readonly preset: Preset;
   readonly overrides: Overrides;
   readonly learning: Learning;
   readonly start: Heading;
   readonly waypoints: readonly Place[];
   readonly goal: Goal;
+  readonly objects: readonly WorldObject[];
   readonly ground: Ground;
 }
 

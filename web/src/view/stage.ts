@@ -25,11 +25,13 @@ export class Stage {
   readonly #painter: PainterClient;
   readonly #viewpoint: Viewpoint;
   readonly #glide = new Glide();
+  readonly #believedGlide = new Glide();
   #info: SessionInfo | undefined;
   #field: HeightField | undefined;
   #frame: Frame | undefined;
   #solids: readonly Solid[] = [];
   #shown: Pose | undefined;
+  #believed: Pose | undefined;
   #layers = FIRST_LAYERS;
   #speed = 1;
   /** Whether the camera or the robot has moved since the painter heard of them. */
@@ -87,6 +89,7 @@ export class Stage {
     this.#field = field;
     this.#shown = undefined;
     this.#glide.reset();
+    this.#believedGlide.reset();
     const { start, goal } = info;
     const towards = Math.atan2(goal.y - start.y, goal.x - start.x);
     this.#viewpoint.reset();
@@ -96,8 +99,11 @@ export class Stage {
   frame(frame: Frame): void {
     this.#frame = frame;
     if (frame.anew) this.#glide.reset();
+    if (frame.anew || !frame.believed) this.#believedGlide.reset();
     const period_ms = 1000 * (this.#info?.period_s ?? 0);
-    this.#glide.to(frame.pose, performance.now(), Math.min(period_ms / this.#speed, LONGEST_GLIDE_MS));
+    const [now_ms, span_ms] = [performance.now(), Math.min(period_ms / this.#speed, LONGEST_GLIDE_MS)];
+    this.#glide.to(frame.pose, now_ms, span_ms);
+    if (frame.believed) this.#believedGlide.to(frame.believed, now_ms, span_ms);
     this.#painter.send({ type: 'seen', seen: seenIn(frame) });
   }
 
@@ -257,6 +263,7 @@ export class Stage {
       quaternion: quaternion.toArray(),
       fieldOfView_deg: fov,
       robot,
+      believed: this.#believed,
       eye: this.#viewpoint.mode === 'eye',
     };
     this.#painter.send({ type: 'look', look });
@@ -271,7 +278,11 @@ export class Stage {
   }
 
   #moveRobot(): void {
-    const pose = this.#glide.at(performance.now());
+    const now_ms = performance.now();
+    const believed = this.#believedGlide.at(now_ms);
+    if (believed !== this.#believed) this.#moved = true;
+    this.#believed = believed;
+    const pose = this.#glide.at(now_ms);
     if (!pose || pose === this.#shown) return;
     this.#shown = pose;
     this.#viewpoint.track(pose, this.#sensorOf(pose));

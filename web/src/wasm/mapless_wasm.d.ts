@@ -176,6 +176,20 @@ export interface TerrainFiles {
 }
 
 /**
+ * A terrain for a picture.
+ */
+export interface TerrainPreview {
+    /**
+     * Coarsely.
+     */
+    ground: Ground;
+    /**
+     * The shapes of what stands and walks on it.
+     */
+    solids: SolidList;
+}
+
+/**
  * All that a session is opened with.
  */
 export interface SessionOptions {
@@ -209,6 +223,10 @@ export interface Frame {
      */
     stop_reason: string | undefined;
     pose: Pose;
+    /**
+     * Where the robot believes to be; absent where nothing is wrong with that.
+     */
+    believed: Pose | undefined;
     v_m_s: number;
     omega_rad_s: number;
     command: Velocity;
@@ -522,6 +540,14 @@ export interface ScenarioRead {
 export type ParameterKind = "number" | "whole" | "pair" | "switch" | "choice";
 
 /**
+ * What a preset gives for a parameter.
+ */
+export interface PresetValue {
+    preset: string;
+    value: OverrideValue;
+}
+
+/**
  * What a scenario is made of, after its files were read.
  */
 export interface Scene {
@@ -547,6 +573,10 @@ export interface Scene {
     mount: Mount;
     image: ImageSize;
     demands: SegmentDemands;
+    /**
+     * The preset whose values `reality` has, `own` where they are those of none.
+     */
+    reality: 'ideal' | 'field' | 'harsh' | 'own';
 }
 
 /**
@@ -603,6 +633,10 @@ export interface Parameter {
      * What the paper gives, where it gives one.
      */
     paper: OverrideValue | undefined;
+    /**
+     * What the presets of `reality` give; empty outside it.
+     */
+    presets: readonly PresetValue[];
 }
 
 /**
@@ -901,7 +935,7 @@ export function generated_recipe(family: string, seed: number): string;
 export function import_of(file: string, recipe: string): ImportRequest | undefined;
 
 /**
- * Two level places of a terrain far from each other, for a start and a goal.
+ * Two level places of a terrain far from each other and from its objects, for a start and a goal.
  *
  * # Errors
  * A fault of the terrain, with place, value and expectation.
@@ -922,12 +956,12 @@ export function read_scenario(file: string, text: string): ScenarioRead;
 export function start(): void;
 
 /**
- * A terrain as a coarse grid for a picture, with at most `most` samples along a side.
+ * A terrain for a picture: its objects, and a coarse grid with at most `most` samples along a side.
  *
  * # Errors
  * A fault of the terrain, with place, value and expectation.
  */
-export function terrain_preview(terrain: TerrainFiles, most: number): Ground;
+export function terrain_preview(terrain: TerrainFiles, most: number): TerrainPreview;
 
 export type InitInput = RequestInfo | URL | Response | BufferSource | WebAssembly.Module;
 

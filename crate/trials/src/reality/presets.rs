@@ -9,6 +9,15 @@ use super::pose_config::PoseConfig;
 
 const DEGREE: f64 = PI / 180.0;
 
+impl RealityConfig {
+    /// The preset whose values these are; `None` where they differ from those of every preset.
+    #[must_use]
+    pub fn matching_preset(&self) -> Option<RealityPreset> {
+        let is_it = |preset: &RealityPreset| Self { preset: *preset, ..self.clone() } == preset.config();
+        RealityPreset::ALL.iter().copied().find(is_it)
+    }
+}
+
 impl RealityPreset {
     /// Every value of this preset.
     #[must_use]
@@ -138,5 +147,22 @@ fn harsh() -> RealityConfig {
             payload: 1.0,
             ..field.motion
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_preset_is_known_by_its_values_however_they_were_set() {
+        for &preset in RealityPreset::ALL {
+            assert_eq!(preset.config().matching_preset(), Some(preset));
+            let by_hand = RealityConfig { preset: RealityPreset::Ideal, ..preset.config() };
+            assert_eq!(by_hand.matching_preset(), Some(preset));
+            let mut own = preset.config();
+            own.motion.friction = 0.77;
+            assert_eq!(own.matching_preset(), None);
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use js_sys::{Float32Array, Uint8Array};
+use mapless_trials::PoseConfig;
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -23,6 +24,8 @@ pub struct Frame {
     /// Why the planner stopped, or what the body touched, where the trial ended so.
     stop_reason: Option<String>,
     pose: Pose,
+    /// Where the robot believes to be; absent where nothing is wrong with that.
+    believed: Option<Pose>,
     v_m_s: f64,
     omega_rad_s: f64,
     command: Velocity,
@@ -157,6 +160,7 @@ impl Session {
             activity: step.status.into(),
             stop_reason: trial.end_reason(),
             pose: Pose::of(trial),
+            believed: self.may_err_in_pose().then(|| trial.believed_pose().into()),
             v_m_s: robot.speed_m_s,
             omega_rad_s: robot.turn_rate_rad_s,
             command: step.command.into(),
@@ -180,6 +184,10 @@ impl Session {
     /// Digest of the trajectory so far.
     pub fn digest(&self) -> String {
         self.now.trial.digest()
+    }
+
+    fn may_err_in_pose(&self) -> bool {
+        self.running.reality.pose != PoseConfig::default()
     }
 
     fn timeline(&self) -> Timeline {

@@ -2,6 +2,7 @@
 
 use mapless::SensorModel;
 use mapless::skyline::columns::COLUMNS;
+use mapless_trials::RealityPreset;
 use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -27,6 +28,9 @@ pub struct Scene {
     mount: Mount,
     image: ImageSize,
     demands: SegmentDemands,
+    /// The preset whose values `reality` has, `own` where they are those of none.
+    #[tsify(type = "'ideal' | 'field' | 'harsh' | 'own'")]
+    reality: &'static str,
 }
 
 /// Where the sensor sits on the robot and how it is turned there, as the planner is told.
@@ -112,6 +116,7 @@ impl Session {
                 max_slope_rad: config.segments.max_slope_rad,
                 subgoals_on_unknown: config.segments.subgoals_on_unknown,
             },
+            reality: self.running.reality.matching_preset().map_or("own", RealityPreset::word),
         })
     }
 }

@@ -18,8 +18,14 @@ pub struct Pose {
 
 impl Pose {
     pub(crate) fn of<N: Navigator>(trial: &Trial<N>) -> Self {
-        let [x, y, z, roll, pitch, yaw, ..] = trial.motion();
-        Self { x, y, z, roll, pitch, yaw }
+        trial.pose().into()
+    }
+}
+
+impl From<mapless::Pose> for Pose {
+    fn from(pose: mapless::Pose) -> Self {
+        let [x, y, z] = pose.position_m.to_array();
+        Self { x, y, z, roll: pose.roll_rad, pitch: pose.pitch_rad, yaw: pose.yaw_rad }
     }
 }
 
