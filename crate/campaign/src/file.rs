@@ -426,6 +426,8 @@ mod tests {
             "reality-effects",
             "reality-full",
             "verti-bench",
+            "verti-bench-maps",
+            "verti-bench-full-size",
         ] {
             let error =
                 Campaign::read(&folder.join(name).with_extension("toml")).map_err(|error| error.to_string());
