@@ -15,7 +15,7 @@
 //! path = "planner.decision.steepness_weight"
 //! values = [0.0, 0.5, 1.0]
 //!
-//! [[realities]]                           # besides the scenarios' own [reality], one of these for each trial
+//! [[realities]]                           # beside the scenarios' own [reality]
 //! name = "slippery"
 //! reality = { motion = { friction = 0.4 } }   # laid over the scenario's own; a preset replaces all of it
 //! planners = ["default"]                  # these alone; all when absent
@@ -426,6 +426,8 @@ mod tests {
             "reality-effects",
             "reality-full",
             "verti-bench",
+            "verti-bench-maps",
+            "verti-bench-full-size",
         ] {
             let error =
                 Campaign::read(&folder.join(name).with_extension("toml")).map_err(|error| error.to_string());
