@@ -295,9 +295,9 @@ impl<N: Navigator> Trial<N> {
         outcome
     }
 
-    /// As [`Trial::act`], where `motion` moves the robot in place of its own kinematic motion. In every motion
-    /// step it is given what the drive tries to do and the seconds to do it in. What it does not know of,
-    /// objects that walk, do so all the same.
+    /// As [`Trial::act`], where `motion` moves the robot in place of its own kinematic motion. In every
+    /// motion step it is given what the drive tries to do and the seconds to do it in. Objects that walk do
+    /// so all the same.
     ///
     /// # Errors
     /// Those of `motion`; the trial then stands within a period and cannot go on.

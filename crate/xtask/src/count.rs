@@ -1,6 +1,11 @@
 //! Counts of tests, read from the output of the test runners.
 
+use std::io::{self, Read as _, Write as _};
 use std::ops::AddAssign;
+use std::process::{Command, Stdio};
+
+use anyhow::{Context as _, ensure};
+use xshell::Cmd;
 
 /// A test runner, by the closing lines it prints.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +62,32 @@ impl Runner {
         }
         sum
     }
+}
+
+/// Runs a test runner, shows its output as it comes, and counts the tests in it.
+pub(crate) fn count(command: Cmd<'_>, runner: Runner) -> anyhow::Result<Count> {
+    let shown = command.to_string();
+    eprintln!("$ {shown}");
+    let mut child = Command::from(command).stdout(Stdio::piped()).spawn().with_context(|| shown.clone())?;
+    let mut stdout = child.stdout.take().context("the runner has no output")?;
+    let mut output = Vec::new();
+    let mut chunk = [0; 4096];
+    loop {
+        let length = stdout.read(&mut chunk)?;
+        if length == 0 {
+            break;
+        }
+        let read = chunk.get(..length).unwrap_or_default();
+        io::stdout().write_all(read)?;
+        io::stdout().flush()?;
+        output.extend_from_slice(read);
+    }
+    let status = child.wait()?;
+    ensure!(status.success(), "`{shown}` ended with {status}");
+    let count = runner.count(&String::from_utf8_lossy(&output));
+    ensure!(count.failed == 0, "`{shown}` reported {} failed tests, yet ended well", count.failed);
+    ensure!(count.passed > 0, "`{shown}` ran no test");
+    Ok(count)
 }
 
 impl Count {

@@ -2,18 +2,16 @@
 
 use std::env;
 use std::fmt::Write as _;
-use std::io::{self, Read as _, Write as _};
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, anyhow, ensure};
+use anyhow::{Context as _, anyhow};
 use clap::ValueEnum;
 use xshell::{Cmd, Shell, cmd};
 
 use crate::browser::Browser;
-use crate::count::{Count, Runner};
+use crate::count::{Count, Runner, count};
 use crate::python::Environment;
 use crate::{page, physics, setup};
 
@@ -290,32 +288,6 @@ fn ray(sh: &Shell) -> anyhow::Result<PathBuf> {
 fn check(command: Cmd<'_>) -> anyhow::Result<Count> {
     command.run()?;
     Ok(Count::default())
-}
-
-/// Runs a test runner, shows its output as it comes, and counts the tests in it.
-pub(crate) fn count(command: Cmd<'_>, runner: Runner) -> anyhow::Result<Count> {
-    let shown = command.to_string();
-    eprintln!("$ {shown}");
-    let mut child = Command::from(command).stdout(Stdio::piped()).spawn().with_context(|| shown.clone())?;
-    let mut stdout = child.stdout.take().context("the runner has no output")?;
-    let mut output = Vec::new();
-    let mut chunk = [0; 4096];
-    loop {
-        let length = stdout.read(&mut chunk)?;
-        if length == 0 {
-            break;
-        }
-        let read = chunk.get(..length).unwrap_or_default();
-        io::stdout().write_all(read)?;
-        io::stdout().flush()?;
-        output.extend_from_slice(read);
-    }
-    let status = child.wait()?;
-    ensure!(status.success(), "`{shown}` ended with {status}");
-    let count = runner.count(&String::from_utf8_lossy(&output));
-    ensure!(count.failed == 0, "`{shown}` reported {} failed tests, yet ended well", count.failed);
-    ensure!(count.passed > 0, "`{shown}` ran no test");
-    Ok(count)
 }
 
 #[cfg(test)]

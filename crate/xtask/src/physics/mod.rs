@@ -11,7 +11,7 @@ use std::process::Command;
 use anyhow::{Context as _, ensure};
 use xshell::{Shell, cmd};
 
-use crate::count::Count;
+use crate::count::{Count, Runner, count};
 use crate::python::Environment;
 use crate::setup;
 use crate::work::run_all;
@@ -118,7 +118,7 @@ pub(crate) fn python(sh: &Shell) -> anyhow::Result<PathBuf> {
 
 fn check(sh: &Shell) -> anyhow::Result<Count> {
     let python = python(sh)?;
-    crate::test::count(cmd!(sh, "{python} {CHECKS}"), crate::count::Runner::Playwright)
+    count(cmd!(sh, "{python} {CHECKS}"), Runner::Playwright)
 }
 
 fn drive_short(sh: &Shell) -> anyhow::Result<Drives> {

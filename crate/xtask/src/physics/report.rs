@@ -20,7 +20,7 @@ pub(super) fn page(drives: &Drives) -> Result<String, fmt::Error> {
         text,
         "Written by `cargo xtask physics`: preset `default` on {} tasks, each once. `ideal` and `field` are our own kinematic world; in \
          `mujoco` and `mujoco-field` MuJoCo moves the robot, with exact sensing and pose, or with sensing, pose and dead time of commands \
-         as in `field`. [What the model is, and why they differ](../design/physics.md).\n",
+         as in `field`.\n",
         tasks.len()
     )?;
     simulators(&mut text, &tasks)?;
@@ -30,7 +30,8 @@ pub(super) fn page(drives: &Drives) -> Result<String, fmt::Error> {
     writeln!(text, "\n## By task\n")?;
     writeln!(
         text,
-        "Outcome, path, largest |roll| and |pitch| below 5 Hz. Limits are 30° of roll and 45° of pitch.\n"
+        "Outcome, path, largest |roll| and |pitch| below 5 Hz. Limits are 30° of roll and 45° of pitch. [What the model is, and \
+         why they differ](../design/physics.md).\n"
     )?;
     by_task_table(&mut text, &tasks)?;
     failures(&mut text, &tasks)?;
