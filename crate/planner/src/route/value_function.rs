@@ -129,7 +129,6 @@ impl ValueFunction {
     pub(crate) fn at(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<f64> {
         let steps = map.steps_from_centre(position_m);
         let low = steps.floor();
-        let share = steps - low;
         let low = low.as_ivec2();
         let (heading, turn) = heading_below(yaw_rad);
         let headings = [(heading, turn), ((heading + 1) % HEADINGS, 1.0 - turn)];
