@@ -11,6 +11,7 @@ use crate::decision::forecast_policy::ForecastPolicy;
 use crate::decision::goal_progress::GoalProgress;
 use crate::decision::paper_policy::PaperPolicy;
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
+use crate::decision::receding_horizon_policy::RecedingHorizonPolicy;
 use crate::decision::step::{PerceptionOverride, Status, Step, StopReason};
 use crate::goal::Goal;
 use crate::gp::GpError;
@@ -62,6 +63,7 @@ pub struct Planner {
 enum Policy {
     Paper(PaperPolicy),
     Forecast(Box<ForecastPolicy>),
+    RecedingHorizon(Box<RecedingHorizonPolicy>),
 }
 
 impl Policy {
@@ -69,6 +71,7 @@ impl Policy {
         match config.decision.cost_model {
             CostModel::Paper => Self::Paper(PaperPolicy),
             CostModel::Forecast => Self::Forecast(Box::new(ForecastPolicy::new(config))),
+            CostModel::RecedingHorizon => Self::RecedingHorizon(Box::new(RecedingHorizonPolicy::new(config))),
         }
     }
 
@@ -76,6 +79,7 @@ impl Policy {
         match self {
             Self::Paper(paper) => paper,
             Self::Forecast(forecast) => &**forecast,
+            Self::RecedingHorizon(policy) => &**policy,
         }
     }
 
@@ -83,6 +87,7 @@ impl Policy {
         match self {
             Self::Paper(paper) => paper,
             Self::Forecast(forecast) => &mut **forecast,
+            Self::RecedingHorizon(policy) => &mut **policy,
         }
     }
 }
@@ -169,12 +174,14 @@ impl Planner {
     /// both poses count.
     pub fn relocalise(&mut self, before: &Pose, after: &Pose) {
         self.progress.relocalise();
-        // The paper's choice remembers nothing.
-        if let Policy::Forecast(forecast) = &mut self.policy
-            && before.is_finite()
-            && after.is_finite()
-        {
-            forecast.relocalise(&FrameChange::between(before, after));
+        if before.is_finite() && after.is_finite() {
+            let change = FrameChange::between(before, after);
+            match &mut self.policy {
+                // The paper's choice remembers nothing.
+                Policy::Paper(_) => {}
+                Policy::Forecast(policy) => policy.relocalise(&change),
+                Policy::RecedingHorizon(policy) => policy.relocalise(&change),
+            }
         }
     }
 

@@ -9,6 +9,7 @@ use std::cell::Cell;
 use core::time::Duration;
 
 use glam::DVec2;
+use mapless::config::CostModel;
 use mapless::{Goal, Planner, PlannerConfig, Pose, RobotModel, SensorModel, Status};
 use mapless_world::{Caster, DriveCommand, HeightField, Lidar, Robot, RobotConfig, Scan, SensorConfig};
 
@@ -59,11 +60,11 @@ fn hills() -> HeightField {
 }
 
 /// Drives for this many steps over the hills; returns the allocations of each step.
-fn drive(ticks: u64, sensor: SensorConfig, model: SensorModel) -> Vec<usize> {
+fn drive(ticks: u64, sensor: SensorConfig, config: PlannerConfig) -> Vec<usize> {
     let caster = Caster::new(hills());
     let sensor = Lidar::new(sensor).unwrap();
     let mut husky = Robot::new(RobotConfig::default(), caster.field(), DVec2::splat(8.0), 0.7).unwrap();
-    let mut planner = Planner::new(PlannerConfig::for_robot(model, RobotModel::husky())).unwrap();
+    let mut planner = Planner::new(config).unwrap();
     planner.set_goal(Goal::at(DVec2::splat(33.0)));
     let mut scan = Scan::default();
     let mut allocations = Vec::new();
@@ -99,7 +100,11 @@ fn assert_frugal(allocations: &[usize]) {
 
 #[test]
 fn a_step_allocates_nothing_after_the_first_ones() {
-    assert_frugal(&drive(120, SensorConfig::default(), SensorModel::default()));
+    for cost_model in [CostModel::Forecast, CostModel::RecedingHorizon] {
+        let mut config = PlannerConfig::for_robot(SensorModel::default(), RobotModel::husky());
+        config.decision.cost_model = cost_model;
+        assert_frugal(&drive(120, SensorConfig::default(), config));
+    }
 }
 
 #[test]
@@ -116,5 +121,5 @@ fn nor_does_one_with_a_tilted_sensor_of_many_rings() {
     let mut model = SensorModel::default();
     (model.rings, model.columns, model.pitch_rad) = (64, 720, pitch_rad);
     (model.lowest_elevation_rad, model.highest_elevation_rad) = (lowest_elevation_rad, highest_elevation_rad);
-    assert_frugal(&drive(120, sensor, model));
+    assert_frugal(&drive(120, sensor, PlannerConfig::for_robot(model, RobotModel::husky())));
 }

@@ -7,7 +7,7 @@ use core::time::Duration;
 
 use glam::{DVec2, DVec3, Vec3};
 use mapless::Pose;
-use mapless::config::InducingInputs;
+use mapless::config::{CostModel, InducingInputs};
 use mapless::decision::PerceptionOverride;
 use mapless::decision::subgoals::Subgoal;
 use mapless::skyline::profile::Column;
@@ -56,9 +56,11 @@ fn walled(radius_m: f64) -> impl Fn(DVec3) -> Option<f64> {
     }
 }
 
-/// Both presets, with a short spin recovery: a scan full of walls is the most expensive one.
-fn both_presets() -> [Planner; 2] {
-    [PlannerConfig::default(), PlannerConfig::paper()].map(|mut config| {
+/// Every policy, with a short spin recovery: a scan full of walls is the most expensive one.
+fn every_policy() -> [Planner; 3] {
+    let mut receding_horizon = PlannerConfig::default();
+    receding_horizon.decision.cost_model = CostModel::RecedingHorizon;
+    [PlannerConfig::default(), PlannerConfig::paper(), receding_horizon].map(|mut config| {
         config.decision.spin_recovery_s = 0.3;
         Planner::new(config).unwrap()
     })
@@ -66,8 +68,13 @@ fn both_presets() -> [Planner; 2] {
 
 #[test]
 fn level_ground_is_seen_level_all_around_and_driven_over() {
-    for mut planner in both_presets() {
-        let step = step(&mut planner, &scan(level), &START, AHEAD);
+    for mut planner in every_policy() {
+        let seen = scan(level);
+        // Until a controller that limits its acceleration is at full speed.
+        for _ in 0..9 {
+            step(&mut planner, &seen, &START, AHEAD);
+        }
+        let step = step(&mut planner, &seen, &START, AHEAD);
         assert_eq!(step.status, Status::Driving);
         assert!(
             step.command.linear_m_s > 0.5 && step.command.angular_rad_s.abs() < 0.2,
@@ -82,7 +89,7 @@ fn level_ground_is_seen_level_all_around_and_driven_over() {
 
 #[test]
 fn a_wall_all_around_ends_in_a_named_stop() {
-    for mut planner in both_presets() {
+    for mut planner in every_policy() {
         let points = scan(walled(1.5));
         let first = step(&mut planner, &points, &START, AHEAD);
         assert!(first.segments.iter().all(|segment| segment.verdict == Verdict::Wall));
@@ -99,7 +106,7 @@ fn a_wall_all_around_ends_in_a_named_stop() {
 
 #[test]
 fn a_planner_that_gave_up_goes_on_once_the_world_has_changed() {
-    let [mut planner, _] = both_presets();
+    let [mut planner, ..] = every_policy();
     let points = scan(walled(1.5));
     for _ in 0..=3 {
         step(&mut planner, &points, &START, AHEAD);
@@ -112,7 +119,7 @@ fn a_planner_that_gave_up_goes_on_once_the_world_has_changed() {
 
 #[test]
 fn a_goal_in_sight_is_driven_to_and_arrived_at() {
-    for mut planner in both_presets() {
+    for mut planner in every_policy() {
         let points = scan(level);
         let goal = DVec2::new(0.0, 4.0);
         let found = step(&mut planner, &points, &START, goal);
@@ -374,7 +381,7 @@ proptest! {
         goal_x in -50.0..50.0_f64, goal_y in -50.0..50.0_f64,
     ) {
         let pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, roll, pitch, yaw);
-        for mut planner in both_presets() {
+        for mut planner in every_policy() {
             let limits = planner.config().controller;
             let step = step(&mut planner, &points, &pose, DVec2::new(goal_x, goal_y));
             prop_assert!(step.command.linear_m_s.abs() <= limits.max_speed_m_s);

@@ -158,6 +158,8 @@ choices! {
         Paper = "paper",
         /// Steepness from the predicted tilt of the path; every term on a fixed physical scale.
         Forecast = "forecast",
+        /// One price and one cost-to-go for search and learning, and an optimised trajectory down it.
+        RecedingHorizon = "receding_horizon",
     }
 }
 

@@ -2,3 +2,4 @@
 
 pub(crate) mod backtrack;
 pub mod controller;
+pub(crate) mod trajectory_optimiser;

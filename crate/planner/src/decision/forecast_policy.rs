@@ -8,7 +8,7 @@
 use core::f64::consts::PI;
 use core::time::Duration;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use crate::config::{DecisionConfig, PlannerConfig, StateLatticeConfig};
 use crate::control::backtrack::{Backtrack, BacktrackCommand};
@@ -17,6 +17,7 @@ use crate::decision::candidates::Candidates;
 use crate::decision::committed_target::CommittedTarget;
 use crate::decision::cost::choose_cheapest;
 use crate::decision::detour_budget::DetourBudget;
+use crate::decision::observation::take_up;
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::subgoals::{Cost, Subgoal, bearing_rad, on_segments};
 use crate::math::angle::{difference_rad, wrap_rad};
@@ -32,8 +33,6 @@ const LEARN_SPACING_M: f64 = 0.5;
 const LEAST_BACKTRACK_M: f64 = 0.3;
 /// Share of the slope costs that counts beyond the detour budget.
 const OVER_BUDGET_SHARE: f64 = 0.25;
-/// Under the robot the ground is taken for known at places no farther apart than this.
-const WHEEL_GROUND_M: f64 = 0.35;
 /// A target that the robot cannot reach, and the places around it, get this much added to their cost-to-go.
 const UNREACHABLE_PENALTY_M: f64 = 7.0;
 const UNREACHABLE_HALF_SIDE_M: f64 = 1.0;
@@ -306,38 +305,11 @@ impl SubgoalPolicy for ForecastPolicy {
         self.backtrack.clear();
     }
 
-    /// Forgets remembered ground that the scan sees through, and adds the near part of the scan and the
-    /// ground under the wheels to the elevation window.
     fn observe(&mut self, config: &PlannerConfig, scan: &ScanFilter, pose: &Pose, elapsed: Duration) {
-        self.window.advance(elapsed);
-        let world_from_robot = pose.world_from_robot();
-        let sensor = pose.position_m + world_from_robot * config.sensor.offset_m();
-        let mount = config.sensor.robot_from_sensor();
-        let world_from_sensor = mount.map_or(world_from_robot, |mount| world_from_robot * mount);
-        self.window.looked_from(sensor, world_from_sensor);
-        let robot_from_world = world_from_robot.transpose();
+        take_up(&mut self.window, config, scan, pose, elapsed);
         let reach_m = self.window.reach_m();
-        let is_refuted = |place_m: DVec3| scan.refutes(robot_from_world * (place_m - sensor));
-        for &place_m in self.window.forget_where(is_refuted) {
+        for &place_m in self.window.refuted_m() {
             self.lattice.forget_near(place_m, reach_m);
-        }
-        let radius_squared = config.elevation_window.radius_m * config.elevation_window.radius_m;
-        for point in scan.surface_m() {
-            let point = point.as_dvec3();
-            if point.length_squared() <= radius_squared {
-                self.window.add(sensor + world_from_sensor * point);
-            }
-        }
-        for &face_m in scan.faces_m() {
-            self.window.add_face((sensor + world_from_robot * face_m).truncate());
-        }
-        let half_width = 0.5 * config.robot.width_m;
-        let parts = (half_width / WHEEL_GROUND_M).ceil() as i32;
-        let place = |part: i32| half_width * (f64::from(part) / f64::from(parts));
-        for x in -parts..=parts {
-            for y in -parts..=parts {
-                self.window.add(pose.position_m + world_from_robot * DVec3::new(place(x), place(y), 0.0));
-            }
         }
     }
 

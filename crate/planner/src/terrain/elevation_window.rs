@@ -153,9 +153,8 @@ impl ElevationWindow {
         }
     }
 
-    /// Forgets the cells whose ground a scan refutes, and returns where they were. Each scan looks at a part
-    /// of the cells, in turn.
-    pub(crate) fn forget_where(&mut self, is_refuted: impl Fn(DVec3) -> bool) -> &[DVec2] {
+    /// Forgets the cells whose ground a scan refutes. Each scan looks at a part of the cells, in turn.
+    pub(crate) fn forget_where(&mut self, is_refuted: impl Fn(DVec3) -> bool) {
         let (cells, refuted_m) = (&mut self.cells, &mut self.refuted_m);
         refuted_m.clear();
         self.part = (self.part + 1) % PARTS;
@@ -166,7 +165,11 @@ impl ElevationWindow {
             }
             !forgets
         });
-        refuted_m
+    }
+
+    /// Where the last scan refuted ground.
+    pub(crate) fn refuted_m(&self) -> &[DVec2] {
+        &self.refuted_m
     }
 
     /// Notes that a scan shows an upright face at a place where it has returns.

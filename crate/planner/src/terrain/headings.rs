@@ -1,7 +1,7 @@
 //! The sixteen headings of the state lattice, those of a king's and a knight's moves. The oracle's lattice
 //! shares them.
 
-use core::f64::consts::FRAC_1_SQRT_2;
+use core::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4, TAU};
 
 use glam::{DVec2, IVec2};
 
@@ -65,6 +65,20 @@ pub(crate) fn nearest(direction: DVec2) -> usize {
     best.0
 }
 
+/// Angles of the headings of a quarter circle, and of the next one's first.
+const QUARTER_RAD: [f64; 5] =
+    [0.0, 0.463_647_609_000_806_1, FRAC_PI_4, FRAC_PI_2 - 0.463_647_609_000_806_1, FRAC_PI_2];
+
+/// The heading next to an angle on its clockwise side, and the share of the way from it to the next.
+pub(crate) fn heading_below(yaw_rad: f64) -> (usize, f64) {
+    let quarters = yaw_rad.rem_euclid(TAU) / FRAC_PI_2;
+    let quarter = quarters.floor();
+    let rest_rad = (quarters - quarter) * FRAC_PI_2;
+    let below = (1..4).rev().find(|&k| QUARTER_RAD[k] <= rest_rad).unwrap_or(0);
+    let width_rad = QUARTER_RAD[below + 1] - QUARTER_RAD[below];
+    ((quarter as usize * 4 + below) % HEADINGS, (rest_rad - QUARTER_RAD[below]) / width_rad)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -76,6 +90,23 @@ mod tests {
             let unit = DIRECTIONS[heading % 8] * if heading < 8 { 1.0 } else { -1.0 };
             assert!((unit * step.as_dvec2().length() - step.as_dvec2()).length() < 1e-15);
             assert_eq!(STEPS[(heading + 8) % HEADINGS], -*step);
+        }
+    }
+
+    #[test]
+    fn an_angle_lies_between_the_headings_beside_it() {
+        for k in -200..200 {
+            let yaw_rad = f64::from(k) * 0.05;
+            let (heading, share) = heading_below(yaw_rad);
+            assert!((0.0..=1.0).contains(&share));
+            let angle_rad = |heading: usize| {
+                let step = STEPS[heading % HEADINGS].as_dvec2();
+                libm::atan2(step.y, step.x)
+            };
+            let below_rad = angle_rad(heading);
+            let width_rad = (angle_rad(heading + 1) - below_rad).rem_euclid(TAU);
+            let off_rad = (yaw_rad - below_rad - share * width_rad).rem_euclid(TAU);
+            assert!(off_rad.min(TAU - off_rad) < 1e-9, "{yaw_rad}: heading {heading}, share {share}");
         }
     }
 

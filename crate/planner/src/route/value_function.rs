@@ -1,0 +1,257 @@
+//! The value function: cost-to-go of every state of the lattice, by one search backward from the ends.
+
+use glam::{DVec2, IVec2};
+
+use crate::config::StateLatticeConfig;
+use crate::route::queue::BucketQueue;
+use crate::terrain::headings::{HEADINGS, STEPS, heading_below};
+use crate::terrain::place_map::PlaceMap;
+
+const MILLIMETRES: f64 = 1000.0;
+const FARTHEST_M: usize = 150;
+const LEAST_COST_MM: u32 = 100;
+const UNREACHED: u32 = u32::MAX;
+/// States that differ by less are interpolated.
+const SMOOTH_M: f64 = 2.5;
+
+/// A motion that ends at a place with a heading.
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    /// From its begin to its end, and to the place passed, in places.
+    step: IVec2,
+    passed: IVec2,
+    /// Heading at its begin.
+    heading: usize,
+    /// Length in steps, times its price.
+    length: f64,
+}
+
+/// The cost-to-go.
+#[derive(Clone, Debug)]
+pub(crate) struct ValueFunction {
+    config: StateLatticeConfig,
+    cost_mm: Vec<u32>,
+    least_m: f64,
+    queue: BucketQueue,
+    /// For each heading, the motions that end with it.
+    motions: Vec<Vec<Motion>>,
+}
+
+impl ValueFunction {
+    pub(crate) fn new(config: StateLatticeConfig, places: usize) -> Self {
+        let states = places * HEADINGS;
+        Self {
+            cost_mm: vec![UNREACHED; states],
+            least_m: 0.0,
+            queue: BucketQueue::new(
+                LEAST_COST_MM,
+                FARTHEST_M * MILLIMETRES as usize / LEAST_COST_MM as usize,
+                8 * states,
+            ),
+            motions: (0..HEADINGS).map(|heading| motions_to(heading, config.reverse_price)).collect(),
+            config,
+        }
+    }
+
+    /// Searches backward from `ends`: places with their cost-to-go, at every heading.
+    pub(crate) fn search(&mut self, map: &PlaceMap, ends: &[(IVec2, f64)]) {
+        self.cost_mm.fill(UNREACHED);
+        self.queue.clear();
+        self.least_m = ends.iter().map(|end| end.1).fold(f64::INFINITY, f64::min);
+        for &(offset, left_m) in ends {
+            for heading in 0..HEADINGS {
+                if map.risk(offset, heading).is_finite() {
+                    self.relax(
+                        map.index(offset) * HEADINGS + heading,
+                        ((left_m - self.least_m) * MILLIMETRES) as u32,
+                    );
+                }
+            }
+        }
+        let turn_mm = (self.config.turn_cost_m * MILLIMETRES) as u32;
+        let step_m = self.config.step_m;
+        while let Some((state, cost_mm)) = self.queue.pop() {
+            if self.cost_mm[state as usize] != cost_mm {
+                continue;
+            }
+            let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
+            let offset = map.offset(place);
+            for turned in [(heading + 1) % HEADINGS, (heading + HEADINGS - 1) % HEADINGS] {
+                if map.risk(offset, turned).is_finite() {
+                    self.relax(place * HEADINGS + turned, cost_mm.saturating_add(turn_mm));
+                }
+            }
+            let risk = map.risk(offset, heading);
+            let height_m = map.plane(offset).map_or(0.0, |plane| plane.height_m);
+            for index in 0..self.motions[heading].len() {
+                let Motion { step, passed, heading: from_heading, length } = self.motions[heading][index];
+                let from = offset - step;
+                if !map.holds(from) {
+                    continue;
+                }
+                let from_risk = map.risk(from, from_heading);
+                let between = map.risk(from + passed, from_heading).max(map.risk(from + passed, heading));
+                let mean = (risk + from_risk + between) / 3.0;
+                if !mean.is_finite() {
+                    continue;
+                }
+                let climb_m = map.plane(from).map_or(0.0, |plane| (plane.height_m - height_m).abs());
+                let price_m = length * step_m * (1.0 + self.config.tilt_price * mean)
+                    + self.config.climb_price * climb_m;
+                self.relax(
+                    map.index(from) * HEADINGS + from_heading,
+                    cost_mm.saturating_add((price_m * MILLIMETRES) as u32),
+                );
+            }
+        }
+    }
+
+    fn relax(&mut self, state: usize, cost_mm: u32) {
+        if cost_mm < self.cost_mm[state] && self.queue.takes(cost_mm) {
+            self.cost_mm[state] = cost_mm;
+            self.queue.push(state as u32, cost_mm);
+        }
+    }
+
+    fn of_state(&self, place: usize, heading: usize) -> Option<f64> {
+        let cost_mm = self.cost_mm[place * HEADINGS + heading];
+        (cost_mm != UNREACHED).then(|| self.least_m + f64::from(cost_mm) / MILLIMETRES)
+    }
+
+    /// Cost-to-go of a place with its best heading.
+    pub(crate) fn of_place(&self, place: usize) -> Option<f64> {
+        (0..HEADINGS).filter_map(|heading| self.of_state(place, heading)).min_by(f64::total_cmp)
+    }
+
+    /// Cost-to-go of a pose: the lesser of two estimates from the states around it, none of which is too low.
+    /// The mean of theirs, weighted by nearness, is smooth. The least of theirs and of the straight way there
+    /// finds a narrow pass between states that are worse than both its ends.
+    pub(crate) fn at(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<f64> {
+        let steps = map.steps_from_centre(position_m);
+        let low = steps.floor();
+        let low = low.as_ivec2();
+        let (heading, turn) = heading_below(yaw_rad);
+        let headings = [(heading, turn), ((heading + 1) % HEADINGS, 1.0 - turn)];
+        let (mut mean, mut weights, mut least) = (0.0, 0.0, f64::INFINITY);
+        let (mut lowest_m, mut highest_m) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (dx, dy) in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| (dx, dy))) {
+            let offset = low + IVec2::new(dx, dy);
+            if !map.holds(offset) {
+                continue;
+            }
+            let away = (offset.as_dvec2() - steps).abs();
+            let weight = (1.0 - away.x).max(0.0) * (1.0 - away.y).max(0.0);
+            for (heading, turned) in headings {
+                if let Some(value_m) = self.of_state(map.index(offset), heading) {
+                    let risk = map.risk(offset, heading).min(1.0);
+                    let way_m = away.length() * self.config.step_m * (1.0 + self.config.tilt_price * risk);
+                    least = least.min(value_m + way_m + turned * self.config.turn_cost_m);
+                    mean += weight * (1.0 - turned) * value_m;
+                    weights += weight * (1.0 - turned);
+                    if weight > 0.0 {
+                        lowest_m = lowest_m.min(value_m);
+                        highest_m = highest_m.max(value_m);
+                    }
+                }
+            }
+        }
+        if weights > 1.0 - 1e-9 && highest_m - lowest_m < SMOOTH_M {
+            return Some(mean);
+        }
+        least.is_finite().then_some(least)
+    }
+}
+
+/// The motions that end with a heading: straight, bends out of the next two headings to either side, and straight
+/// in reverse.
+fn motions_to(heading: usize, reverse_price: f64) -> Vec<Motion> {
+    let end = STEPS[heading];
+    let half = |step: IVec2| if step.x.abs() + step.y.abs() == 3 { step / 2 } else { IVec2::ZERO };
+    let straight = Motion { step: end, passed: half(end), heading, length: end.as_dvec2().length() };
+    let reverse =
+        Motion { step: -end, passed: half(-end), length: reverse_price * straight.length, ..straight };
+    let bends = [1, HEADINGS - 1, 2, HEADINGS - 2].map(|turn| {
+        let from = (heading + turn) % HEADINGS;
+        let (begin, end) = (STEPS[from].as_dvec2(), end.as_dvec2());
+        let at = |t: f64| begin * (2.0 * t - t * t) + end * (t * t);
+        let length = (0..16).map(|k| at(f64::from(k) / 16.0).distance(at(f64::from(k + 1) / 16.0))).sum();
+        Motion {
+            step: STEPS[from] + STEPS[heading],
+            passed: at(0.5).round().as_ivec2(),
+            heading: from,
+            length,
+        }
+    });
+    [straight, reverse].into_iter().chain(bends).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::PlannerConfig;
+    use crate::terrain::plane::Plane;
+    use proptest::prelude::*;
+
+    const LEVEL: Plane = Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 };
+    const GOAL: IVec2 = IVec2::new(10, 0);
+
+    fn value_on(ground: impl Fn(DVec2) -> Option<Plane>) -> (PlaceMap, ValueFunction) {
+        let config = PlannerConfig::default();
+        let mut map = PlaceMap::new(config.state_lattice, &config.robot, 7.0);
+        map.look(&ground, DVec2::ZERO, LEVEL, 3.0);
+        let mut value = ValueFunction::new(config.state_lattice, map.count());
+        value.search(&map, &[(GOAL, 0.0)]);
+        (map, value)
+    }
+
+    #[test]
+    fn on_level_ground_it_is_the_way_and_the_turns() {
+        let (map, value) = value_on(|_| Some(LEVEL));
+        let at = |x: f64, y: f64, yaw_rad: f64| value.at(&map, DVec2::new(x, y), yaw_rad).unwrap();
+        assert!((at(0.0, 0.0, 0.0) - 5.0).abs() < 0.01, "{}", at(0.0, 0.0, 0.0));
+        assert!((at(0.8, 0.0, 0.0) - 4.2).abs() < 0.01, "between places too");
+        // Eight turns of a sixteenth, or the same way in reverse at twice the price.
+        let turned_m = at(0.0, 0.0, core::f64::consts::PI) - 5.0;
+        assert!((turned_m - 8.0 * 0.15).abs() < 0.2, "{turned_m}");
+        assert!(at(0.0, 3.0, 0.0) > 5.8 && at(0.0, 3.0, 0.0) < 6.8, "{}", at(0.0, 3.0, 0.0));
+    }
+
+    #[test]
+    fn behind_a_wall_it_is_the_way_around_or_nothing() {
+        let wall = |whole: bool| {
+            move |place_m: DVec2| {
+                let is_wall = (2.3..3.2).contains(&place_m.x) && (whole || place_m.y < 2.3);
+                let gradient = if is_wall { DVec2::new(3.0, 3.0) } else { DVec2::ZERO };
+                Some(Plane { gradient, ..LEVEL })
+            }
+        };
+        let (map, value) = value_on(wall(false));
+        assert!(value.at(&map, DVec2::ZERO, 0.0).unwrap() > 6.0);
+        let (map, value) = value_on(wall(true));
+        assert!(value.at(&map, DVec2::ZERO, 0.0).is_none());
+    }
+
+    proptest! {
+        /// One motion never gains more than it costs: the estimate is consistent.
+        #[test]
+        fn no_motion_gains_more_than_its_price(slope in 0.0..0.4_f64, x in -8..8_i32, y in -8..8_i32, heading in 0..HEADINGS) {
+            let (map, value) = value_on(move |place_m| {
+                let gradient = DVec2::new(slope * libm::sin(place_m.y), 0.5 * slope);
+                Some(Plane { gradient, ..LEVEL })
+            });
+            let to = IVec2::new(x, y);
+            for motion in &value.motions[heading] {
+                let from = to - motion.step;
+                if !map.holds(from) {
+                    continue;
+                }
+                let before = value.of_state(map.index(from), motion.heading);
+                let after = value.of_state(map.index(to), heading);
+                if let (Some(before), Some(after)) = (before, after) {
+                    let dearest_m = motion.length * value.config.step_m * (1.0 + value.config.tilt_price * 3.0);
+                    prop_assert!(before <= after + dearest_m + 1e-9);
+                }
+            }
+        }
+    }
+}
