@@ -1,8 +1,8 @@
-//! The optimising controller: the best short trajectory from the present motion, by its price along the way and
-//! the cost-to-go at its end.
+//! The optimising controller: the best short trajectory from the present motion, by its price along the way
+//! and the cost-to-go at its end.
 //!
-//! A trajectory is a speed and two turn rates, one early and one at the end of the horizon, with a straight line
-//! through time between them. A deterministic pattern search finds the best.
+//! A trajectory is a speed and two turn rates, one early and one at the end of the horizon, with a straight
+//! line through time between them. A deterministic pattern search finds the best.
 
 use glam::DVec2;
 

@@ -12,8 +12,8 @@ use crate::terrain::elevation_window::ElevationWindow;
 /// Under the robot the ground is taken for known at places no farther apart than this.
 const WHEEL_GROUND_M: f64 = 0.35;
 
-/// Forgets remembered ground that the scan sees through, and adds the near part of the scan and the ground under
-/// the wheels. Where ground was forgotten, [`ElevationWindow::refuted_m`] says.
+/// Forgets remembered ground that the scan sees through, and adds the near part of the scan and the ground
+/// under the wheels. Where ground was forgotten, [`ElevationWindow::refuted_m`] says.
 pub(crate) fn take_up(
     window: &mut ElevationWindow,
     config: &PlannerConfig,

@@ -5,8 +5,8 @@
 //!   ([`crate::route::value_function`]). The same numbers are learned (LSS-LRTA*), so search, learning and
 //!   choice share one price, and what is learned only grows.
 //! - **Trajectory.** The best of short trajectories by its price along the way and the cost-to-go at its end
-//!   ([`crate::control::trajectory_optimiser`]). Smoothness is part of the price. Driving back and turning on the
-//!   spot are trajectories like any other; no state of the policy tells them apart.
+//!   ([`crate::control::trajectory_optimiser`]). Smoothness is part of the price. Driving back and turning on
+//!   the spot are trajectories like any other; no state of the policy tells them apart.
 
 use core::f64::consts::PI;
 use core::time::Duration;
@@ -33,7 +33,8 @@ use crate::terrain::plane::Plane;
 const LEARN_SPACING_M: f64 = 0.5;
 /// The frontier begins this far from the robot: unseen ground nearer by stays unseen from any nearer place.
 const NEAR_M: f64 = 1.2;
-/// A target is left only for one that is cheaper by this much, and a place this near to it counts as the same.
+/// A target is left only for one that is cheaper by this much, and a place this near to it counts as the
+/// same.
 const COMMITMENT_M: f64 = 1.0;
 const SAME_TARGET_M: f64 = 1.5;
 /// Standard deviation of the slope under the robot, by its attitude.

@@ -162,8 +162,8 @@ impl ValueFunction {
     }
 }
 
-/// The motions that end with a heading: straight, bends out of the next two headings to either side, and straight
-/// in reverse.
+/// The motions that end with a heading: straight, bends out of the next two headings to either side, and
+/// straight in reverse.
 fn motions_to(heading: usize, reverse_price: f64) -> Vec<Motion> {
     let end = STEPS[heading];
     let half = |step: IVec2| if step.x.abs() + step.y.abs() == 3 { step / 2 } else { IVec2::ZERO };

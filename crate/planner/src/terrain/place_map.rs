@@ -1,4 +1,5 @@
-//! The place map: what the ground around the robot does to its attitude, on a lattice that is fixed in the world.
+//! The place map: what the ground around the robot does to its attitude, on a lattice that is fixed in the
+//! world.
 
 use glam::{DVec2, IVec2};
 
@@ -16,8 +17,8 @@ use crate::terrain::slopes::Slopes;
 const LOOKS: i32 = 4;
 /// Axes of travel: a robot on its wheels tilts alike in both directions.
 pub(crate) const AXES: usize = HEADINGS / 2;
-/// Unseen ground is bridged between seen places no farther apart than the first; under the lowest beams, where
-/// no look can settle it, than the second. Standard deviation of its slope per metre of the bridge.
+/// Unseen ground is bridged between seen places no farther apart than the first; under the lowest beams,
+/// where no look can settle it, than the second. Standard deviation of its slope per metre of the bridge.
 const GAP_M: f64 = 2.5;
 const GAP_DEVIATION_PER_M: f64 = 0.1;
 /// Price of a metre over bridged ground, as a risk.
@@ -233,8 +234,8 @@ impl PlaceMap {
         place.plane.filter(|_| !place.is_bridged)
     }
 
-    /// Risk of an attitude: (slope / limit)², the worse of roll and pitch, and more on tight or bridged ground;
-    /// infinite if it is not safe.
+    /// Risk of an attitude: (slope / limit)², the worse of roll and pitch, and more on tight or bridged
+    /// ground; infinite if it is not safe.
     fn risk_of(&self, plane: &Plane, slopes: Option<Slopes>, direction: DVec2, is_bridged: bool) -> f64 {
         let (slopes, deviation) = match slopes {
             Some(slopes) => (slopes, WHEELS_DEVIATION),
@@ -364,8 +365,8 @@ impl PlaceMap {
     }
 }
 
-/// The ground at a share of the way between two seen places: a cubic through both heights and slopes along the
-/// direction, the mean of the slopes across.
+/// The ground at a share of the way between two seen places: a cubic through both heights and slopes along
+/// the direction, the mean of the slopes across.
 fn between(from: &Plane, to: &Plane, direction: DVec2, length_m: f64, t: f64) -> Plane {
     let (s0, s1) = (from.gradient.dot(direction), to.gradient.dot(direction));
     let rise_m = to.height_m - from.height_m;
