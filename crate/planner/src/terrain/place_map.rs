@@ -48,6 +48,8 @@ struct Known {
     footprint_slopes: [Option<Slopes>; AXES],
     is_negative_obstacle: bool,
     touches_upright: bool,
+    /// The ground when the robot stood here, by its attitude.
+    stood: Option<Plane>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -131,22 +133,26 @@ impl PlaceMap {
             let known = match before {
                 Some(known) if !due => known,
                 _ => {
-                    let was = before.is_some_and(|known| known.is_negative_obstacle);
-                    let known = self.query(ground, self.position_m(offset), here_m, was);
+                    let known = self.query(ground, self.position_m(offset), here_m, before.as_ref());
                     self.cache.set(world, known);
                     known
                 }
             };
-            let plane = known.plane.filter(|plane| {
+            let is_seen = |plane: &Plane| {
+                let axes = known.footprint_slopes.iter().zip(DIRECTIONS);
                 plane.gradient_deviation <= GUESS_DEVIATION
-                    || known.footprint_slopes.iter().any(Option::is_some)
-            });
+                    || axes.into_iter().any(|(slopes, direction)| {
+                        slopes.is_some() || self.risk_of(plane, None, direction, false).is_finite()
+                    })
+            };
+            let plane = known.plane.filter(is_seen).or(known.stood);
             self.places[index] = Place { plane, ..UNKNOWN };
         }
         let here = self.index(IVec2::ZERO);
-        if self.places[here].plane.is_none() {
-            self.places[here].plane = Some(own);
+        if let Some(known) = self.cache.get_mut(self.centre) {
+            known.stood = Some(own);
         }
+        self.places[here].plane.get_or_insert(own);
         self.bridge(here_m, blind_m);
         for index in 0..self.places.len() {
             let offset = self.offset(index);
@@ -170,7 +176,14 @@ impl PlaceMap {
         }
     }
 
-    fn query(&self, ground: &dyn TerrainQuery, place_m: DVec2, here_m: DVec2, was: bool) -> Known {
+    fn query(
+        &self,
+        ground: &dyn TerrainQuery,
+        place_m: DVec2,
+        here_m: DVec2,
+        before: Option<&Known>,
+    ) -> Known {
+        let was = before.is_some_and(|known| known.is_negative_obstacle);
         let plane = ground.plane_at(place_m);
         let footprint_slopes = plane.map_or([None; AXES], |plane| {
             DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
@@ -183,6 +196,7 @@ impl PlaceMap {
             footprint_slopes,
             is_negative_obstacle,
             touches_upright: ground.touches_upright(place_m),
+            stood: before.and_then(|known| known.stood),
         }
     }
 
