@@ -4,6 +4,8 @@
 //! A trajectory is a speed and two turn rates, one early and one at the end of the horizon, with a straight
 //! line through time between them. A deterministic pattern search finds the best.
 
+use core::f64::consts::TAU;
+
 use glam::DVec2;
 
 use crate::control::controller::Command;
@@ -13,6 +15,11 @@ const STEP_S: f64 = 0.1;
 const STEPS: usize = 20;
 const EARLY_S: f64 = 0.6;
 const HORIZON_S: f64 = STEP_S * STEPS as f64;
+/// A point of a path is passed within this distance; turn rate for each radian to the next one, and the angle
+/// beyond which the robot turns on the spot.
+const PASSED_M: f64 = 0.3;
+const FOLLOW_GAIN: f64 = 2.0;
+const TURN_FIRST_RAD: f64 = 0.5;
 /// Rounds of the pattern search; each halves its reach.
 const ROUNDS: usize = 4;
 
@@ -59,6 +66,8 @@ pub(crate) trait Course {
     fn met(&self, pose: &PlanPose) -> Option<Met>;
     /// Cost-to-go from a pose.
     fn cost_to_go_m(&self, pose: &PlanPose) -> Option<f64>;
+    /// A path to follow, as points and whether each is driven to in reverse.
+    fn path(&self) -> impl Iterator<Item = (DVec2, bool)>;
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +78,26 @@ struct Plan {
 }
 
 const STAND: Plan = Plan { speed_m_s: 0.0, early_rad_s: 0.0, late_rad_s: 0.0 };
+
+impl Plan {
+    /// The turn rate at a time, beginning with `now_rad_s`.
+    fn turn_rate_rad_s(&self, time_s: f64, now_rad_s: f64) -> f64 {
+        if time_s <= EARLY_S {
+            now_rad_s + (self.early_rad_s - now_rad_s) * (time_s / EARLY_S)
+        } else {
+            let share = (time_s - EARLY_S) / (HORIZON_S - EARLY_S);
+            self.early_rad_s + (self.late_rad_s - self.early_rad_s) * share
+        }
+    }
+}
+
+/// What makes a trajectory.
+#[derive(Clone, Copy, Debug)]
+enum Law<'a> {
+    Plan(&'a Plan),
+    /// Drive from point to point of the path, and turn on the spot to what is aside.
+    Follow,
+}
 
 /// Keeps the last trajectory, from which the next search begins.
 #[derive(Clone, Debug)]
@@ -91,12 +120,12 @@ impl TrajectoryOptimiser {
     /// The command that begins the best trajectory; `None` if there is none but to stand.
     pub(crate) fn drive(
         &mut self,
-        course: &dyn Course,
+        course: &impl Course,
         from: PlanPose,
         path: &mut Vec<PlanPose>,
     ) -> Option<Command> {
         let Limits { speed_m_s, reverse_m_s, turn_rate_rad_s, .. } = self.limits;
-        let cost = |plan: &Plan| self.roll_out(course, from, plan, None).0;
+        let cost = |plan: &Plan| self.roll_out(course, from, Law::Plan(plan), None).0;
         let mut best = (self.last, cost(&self.last));
         let try_plan = |best: &mut (Plan, f64), plan: Plan| {
             let plan = Plan {
@@ -130,8 +159,14 @@ impl TrajectoryOptimiser {
             }
             reach *= 0.5;
         }
+        // What no such trajectory can do, as to turn first and then to drive, following the path can.
+        let law = if self.roll_out(course, from, Law::Follow, None).0 < best.1 {
+            Law::Follow
+        } else {
+            Law::Plan(&best.0)
+        };
         path.clear();
-        let (cost, command) = self.roll_out(course, from, &best.0, Some(path));
+        let (cost, command) = self.roll_out(course, from, law, Some(path));
         if !cost.is_finite() {
             self.reset();
             return None;
@@ -141,12 +176,26 @@ impl TrajectoryOptimiser {
         Some(command)
     }
 
+    /// Speed and turn rate towards a point.
+    fn towards(&self, pose: &PlanPose, point_m: DVec2, reverse: bool) -> (f64, f64) {
+        let Limits { speed_m_s, reverse_m_s, turn_rate_rad_s, .. } = self.limits;
+        let path_m = point_m - pose.position_m;
+        let path_m = if reverse { -path_m } else { path_m };
+        let aside_rad = libm::remainder(libm::atan2(path_m.y, path_m.x) - pose.yaw_rad, TAU);
+        let turn = (FOLLOW_GAIN * aside_rad).clamp(-turn_rate_rad_s, turn_rate_rad_s);
+        if aside_rad.abs() > TURN_FIRST_RAD {
+            return (0.0, turn);
+        }
+        let speed = if reverse { -reverse_m_s } else { speed_m_s };
+        (speed * libm::cos(aside_rad), turn)
+    }
+
     /// Cost of a trajectory, and its first command.
     fn roll_out(
         &self,
-        course: &dyn Course,
+        course: &impl Course,
         from: PlanPose,
-        plan: &Plan,
+        law: Law<'_>,
         mut path: Option<&mut Vec<PlanPose>>,
     ) -> (f64, Command) {
         let limits = &self.limits;
@@ -155,21 +204,23 @@ impl TrajectoryOptimiser {
         let mut cost = 0.0;
         let mut first = self.command;
         let mut met = course.met(&pose).unwrap_or(Met { risk: 1.0, utilisation: 1.0 });
+        let mut way = course.path().peekable();
         for step in 0..STEPS {
             let time_s = STEP_S * (step + 1) as f64;
-            let wanted = if time_s <= EARLY_S {
-                self.command.angular_rad_s
-                    + (plan.early_rad_s - self.command.angular_rad_s) * (time_s / EARLY_S)
-            } else {
-                plan.early_rad_s
-                    + (plan.late_rad_s - plan.early_rad_s) * ((time_s - EARLY_S) / (HORIZON_S - EARLY_S))
+            let (wanted_speed, wanted) = match law {
+                Law::Plan(plan) => (plan.speed_m_s, plan.turn_rate_rad_s(time_s, self.command.angular_rad_s)),
+                Law::Follow => {
+                    while way.next_if(|(point_m, _)| point_m.distance(pose.position_m) < PASSED_M).is_some() {
+                    }
+                    way.peek().map_or((0.0, 0.0), |&(point_m, reverse)| self.towards(&pose, point_m, reverse))
+                }
             };
             let most = limits.turn_acceleration_rad_s2 * STEP_S;
             let next_turn = turn + (wanted - turn).clamp(-most, most);
             let kept =
                 ((1.0 - met.utilisation) / (1.0 - limits.regulate_from)).clamp(limits.least_share, 1.0);
             let most_speed = limits.speed_m_s * kept;
-            let wanted = plan.speed_m_s.clamp(-most_speed, most_speed);
+            let wanted = wanted_speed.clamp(-most_speed, most_speed);
             let most = limits.acceleration_m_s2 * STEP_S;
             let next_speed = speed + (wanted - speed).clamp(-most, most);
             let bend = (next_turn - turn) / STEP_S;
@@ -240,6 +291,10 @@ mod tests {
             let bearing_rad = libm::atan2(path_m.y, path_m.x) - pose.yaw_rad;
             let turn_rad = libm::remainder(bearing_rad, core::f64::consts::TAU).abs();
             Some(path_m.length() + LIMITS.turn_m_rad * turn_rad)
+        }
+
+        fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
+            core::iter::once((self.target_m, false))
         }
     }
 

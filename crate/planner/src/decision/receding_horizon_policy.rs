@@ -21,8 +21,8 @@ use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::subgoals::{Cost, Subgoal, bearing_rad};
 use crate::pose::{FrameChange, Pose};
 use crate::route::heuristic_table::HeuristicTable;
-use crate::route::state_lattice::PathPoint;
-use crate::route::value_function::ValueFunction;
+use crate::route::state_lattice::{PathPoint, length_m};
+use crate::route::value_function::{MOST_WAYPOINTS, ValueFunction, Waypoint};
 use crate::skyline::scan_filter::ScanFilter;
 use crate::terrain::attitude::AttitudeEstimate;
 use crate::terrain::elevation_window::{ElevationWindow, TerrainQuery};
@@ -43,8 +43,6 @@ const OWN_DEVIATION: f64 = 0.05;
 const UNSAFE_PRICE: f64 = 4.0;
 /// Ground under the lowest beams reaches a little farther than on level ground.
 const BLIND_SHARE: f64 = 1.3;
-/// The most places of a path that is shown.
-const MOST_SHOWN: usize = 40;
 
 /// The policy's memory.
 #[derive(Clone, Debug)]
@@ -57,6 +55,7 @@ pub(crate) struct RecedingHorizonPolicy {
     attitude: AttitudeEstimate,
     ends: Vec<(IVec2, f64)>,
     trajectory: Vec<PlanPose>,
+    way: Vec<Waypoint>,
     target_m: Option<DVec2>,
     learned_at_m: Option<DVec2>,
     /// Ground nearer than this may lie below the lowest beams.
@@ -68,6 +67,7 @@ struct SeenCourse<'a> {
     map: &'a PlaceMap,
     value: &'a ValueFunction,
     ground: &'a dyn TerrainQuery,
+    way: &'a [Waypoint],
     /// Largest share of unsafe places around an admissible pose: a robot beside them may leave them.
     unsafe_share: f64,
 }
@@ -82,6 +82,10 @@ impl Course for SeenCourse<'_> {
 
     fn cost_to_go_m(&self, pose: &PlanPose) -> Option<f64> {
         self.value.at(self.map, pose.position_m, pose.yaw_rad)
+    }
+
+    fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
+        self.way.iter().map(|point| (point.position_m, point.reverse))
     }
 }
 
@@ -118,6 +122,7 @@ impl RecedingHorizonPolicy {
             attitude: AttitudeEstimate::default(),
             ends: Vec::with_capacity(map.count() + 4),
             trajectory: Vec::with_capacity(64),
+            way: Vec::with_capacity(MOST_WAYPOINTS),
             target_m: None,
             learned_at_m: None,
             blind_m: blind_m.min(config.state_lattice.blind_radius_m),
@@ -167,28 +172,6 @@ impl RecedingHorizonPolicy {
         self.heuristic.relocalise(change);
         self.target_m = self.target_m.map(|place_m| change.place_m(place_m));
         self.learned_at_m = self.learned_at_m.map(|place_m| change.place_m(place_m));
-    }
-
-    /// Follows the cost-to-go downhill from the end of the trajectory: the path to show, and its target.
-    fn descend(&self, path: &mut Vec<PathPoint>) -> Option<DVec2> {
-        let mut at_m = self.trajectory.last()?.position_m;
-        let mut left_m = self.value.at(&self.map, at_m, self.trajectory.last()?.yaw_rad)?;
-        for _ in 0..MOST_SHOWN {
-            let offset = self.map.steps_from_centre(at_m).round().as_ivec2();
-            let next = (-1..=1)
-                .flat_map(|y| (-1..=1).map(move |x| offset + IVec2::new(x, y)))
-                .filter(|&place| self.map.holds(place))
-                .filter_map(|place| Some((self.value.of_place(self.map.index(place))?, place)))
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((value_m, place)) = next else { break };
-            if value_m >= left_m {
-                break;
-            }
-            left_m = value_m;
-            at_m = self.map.position_m(place);
-            path.push(PathPoint { position_m: at_m, cost_m: 0.0, reverse: false });
-        }
-        Some(at_m)
     }
 }
 
@@ -251,15 +234,19 @@ impl SubgoalPolicy for RecedingHorizonPolicy {
             None => self.map.look(&self.window, here_m, own, self.blind_m),
         }
         self.find_ends(situation);
-        self.value.search(&self.map, &self.ends);
+        self.value.search(&self.map, &self.ends, None);
+        if self.value.at(&self.map, here_m, pose.yaw_rad).is_none() {
+            self.value.search(&self.map, &self.ends, Some(IVec2::ZERO));
+        }
         self.learn(situation);
+        self.value.path_from(&self.map, here_m, pose.yaw_rad, &mut self.way);
         let ground: &dyn TerrainQuery = match &terrain {
             Some(told) => told,
             None => &self.window,
         };
         let from = PlanPose { position_m: here_m, yaw_rad: pose.yaw_rad };
         let unsafe_share = (self.map.risk_at(ground, here_m, pose.yaw_rad).unsafe_share + 0.02).max(0.5);
-        let course = SeenCourse { map: &self.map, value: &self.value, ground, unsafe_share };
+        let course = SeenCourse { map: &self.map, value: &self.value, ground, way: &self.way, unsafe_share };
         let Some(command) = self.optimiser.drive(&course, from, &mut self.trajectory) else {
             self.target_m = None;
             return Motion::NoCandidate;
@@ -268,7 +255,12 @@ impl SubgoalPolicy for RecedingHorizonPolicy {
         let point = |position_m| PathPoint { position_m, cost_m: 0.0, reverse };
         plan.path.push(point(here_m));
         plan.path.extend(self.trajectory.iter().map(|pose| point(pose.position_m)));
-        let target_m = self.descend(&mut plan.path).unwrap_or(here_m);
+        let target_m = self.way.last().map_or(here_m, |end| end.position_m);
+        let beyond_m = length_m(&plan.path);
+        plan.path.extend(
+            (self.way.iter().filter(|way| way.position_m.distance(here_m) > beyond_m))
+                .map(|way| point(way.position_m)),
+        );
         self.target_m = Some(target_m);
         plan.chosen = Some(0);
         plan.subgoals.push(self.subgoal(situation, target_m));

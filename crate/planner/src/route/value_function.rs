@@ -11,6 +11,8 @@ const MILLIMETRES: f64 = 1000.0;
 const FARTHEST_M: usize = 150;
 const LEAST_COST_MM: u32 = 100;
 const UNREACHED: u32 = u32::MAX;
+/// The most places of a path.
+pub(crate) const MOST_WAYPOINTS: usize = 64;
 /// States that differ by less are interpolated.
 const SMOOTH_M: f64 = 2.5;
 
@@ -26,11 +28,21 @@ struct Motion {
     length: f64,
 }
 
+/// A place on the way to an end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Waypoint {
+    pub(crate) position_m: DVec2,
+    /// Whether it is driven to in reverse.
+    pub(crate) reverse: bool,
+}
+
 /// The cost-to-go.
 #[derive(Clone, Debug)]
 pub(crate) struct ValueFunction {
     config: StateLatticeConfig,
     cost_mm: Vec<u32>,
+    /// The next state on the way to an end; the state itself at an end.
+    next: Vec<u32>,
     least_m: f64,
     queue: BucketQueue,
     /// For each heading, the motions that end with it.
@@ -42,6 +54,7 @@ impl ValueFunction {
         let states = places * HEADINGS;
         Self {
             cost_mm: vec![UNREACHED; states],
+            next: vec![0; states],
             least_m: 0.0,
             queue: BucketQueue::new(
                 LEAST_COST_MM,
@@ -53,18 +66,22 @@ impl ValueFunction {
         }
     }
 
-    /// Searches backward from `ends`: places with their cost-to-go, at every heading.
-    pub(crate) fn search(&mut self, map: &PlaceMap, ends: &[(IVec2, f64)]) {
+    /// Searches backward from `ends`: places with their cost-to-go, at every heading. A robot that stands unsafe at
+    /// the place `escapes_from` may leave it.
+    pub(crate) fn search(&mut self, map: &PlaceMap, ends: &[(IVec2, f64)], escapes_from: Option<IVec2>) {
+        let risk_at = |offset: IVec2, heading: usize| match escapes_from {
+            Some(from) => map.escape_risk(offset, heading, from),
+            None => map.risk(offset, heading),
+        };
         self.cost_mm.fill(UNREACHED);
         self.queue.clear();
         self.least_m = ends.iter().map(|end| end.1).fold(f64::INFINITY, f64::min);
         for &(offset, left_m) in ends {
+            let cost_mm = ((left_m - self.least_m) * MILLIMETRES) as u32;
             for heading in 0..HEADINGS {
                 if map.risk(offset, heading).is_finite() {
-                    self.relax(
-                        map.index(offset) * HEADINGS + heading,
-                        ((left_m - self.least_m) * MILLIMETRES) as u32,
-                    );
+                    let state = map.index(offset) * HEADINGS + heading;
+                    self.relax(state, state as u32, cost_mm);
                 }
             }
         }
@@ -77,11 +94,11 @@ impl ValueFunction {
             let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
             let offset = map.offset(place);
             for turned in [(heading + 1) % HEADINGS, (heading + HEADINGS - 1) % HEADINGS] {
-                if map.risk(offset, turned).is_finite() {
-                    self.relax(place * HEADINGS + turned, cost_mm.saturating_add(turn_mm));
+                if risk_at(offset, turned).is_finite() {
+                    self.relax(place * HEADINGS + turned, state, cost_mm.saturating_add(turn_mm));
                 }
             }
-            let risk = map.risk(offset, heading);
+            let risk = risk_at(offset, heading);
             let height_m = map.plane(offset).map_or(0.0, |plane| plane.height_m);
             for index in 0..self.motions[heading].len() {
                 let Motion { step, passed, heading: from_heading, length } = self.motions[heading][index];
@@ -89,8 +106,8 @@ impl ValueFunction {
                 if !map.holds(from) {
                     continue;
                 }
-                let from_risk = map.risk(from, from_heading);
-                let between = map.risk(from + passed, from_heading).max(map.risk(from + passed, heading));
+                let from_risk = risk_at(from, from_heading);
+                let between = risk_at(from + passed, from_heading).max(risk_at(from + passed, heading));
                 let mean = (risk + from_risk + between) / 3.0;
                 if !mean.is_finite() {
                     continue;
@@ -100,15 +117,17 @@ impl ValueFunction {
                     + self.config.climb_price * climb_m;
                 self.relax(
                     map.index(from) * HEADINGS + from_heading,
+                    state,
                     cost_mm.saturating_add((price_m * MILLIMETRES) as u32),
                 );
             }
         }
     }
 
-    fn relax(&mut self, state: usize, cost_mm: u32) {
+    fn relax(&mut self, state: usize, next: u32, cost_mm: u32) {
         if cost_mm < self.cost_mm[state] && self.queue.takes(cost_mm) {
             self.cost_mm[state] = cost_mm;
+            self.next[state] = next;
             self.queue.push(state as u32, cost_mm);
         }
     }
@@ -121,6 +140,51 @@ impl ValueFunction {
     /// Cost-to-go of a place with its best heading.
     pub(crate) fn of_place(&self, place: usize) -> Option<f64> {
         (0..HEADINGS).filter_map(|heading| self.of_state(place, heading)).min_by(f64::total_cmp)
+    }
+
+    /// Writes the path from a pose to an end to `path`: the places that it passes.
+    pub(crate) fn path_from(
+        &self,
+        map: &PlaceMap,
+        position_m: DVec2,
+        yaw_rad: f64,
+        path: &mut Vec<Waypoint>,
+    ) {
+        path.clear();
+        let steps = map.steps_from_centre(position_m);
+        let low = steps.floor().as_ivec2();
+        let (heading, turn) = heading_below(yaw_rad);
+        let mut best: Option<(f64, u32)> = None;
+        for offset in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| low + IVec2::new(dx, dy))) {
+            if !map.holds(offset) {
+                continue;
+            }
+            let away_m = (offset.as_dvec2() - steps).length() * self.config.step_m;
+            for (heading, turned) in [(heading, turn), ((heading + 1) % HEADINGS, 1.0 - turn)] {
+                let place = map.index(offset);
+                let Some(value_m) = self.of_state(place, heading) else { continue };
+                let total_m = value_m + away_m + turned * self.config.turn_cost_m;
+                if best.is_none_or(|(least_m, _)| total_m < least_m) {
+                    best = Some((total_m, (place * HEADINGS + heading) as u32));
+                }
+            }
+        }
+        let Some((_, mut state)) = best else { return };
+        let mut last = position_m;
+        while path.len() < MOST_WAYPOINTS {
+            let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
+            let at_m = map.position_m(map.offset(place));
+            let reverse = (at_m - last).dot(STEPS[heading].as_dvec2()) < 0.0;
+            if path.last().is_none_or(|last: &Waypoint| last.position_m != at_m) {
+                path.push(Waypoint { position_m: at_m, reverse: reverse && !path.is_empty() });
+                last = at_m;
+            }
+            let next = self.next[state as usize];
+            if next == state {
+                break;
+            }
+            state = next;
+        }
     }
 
     /// Cost-to-go of a pose: the lesser of two estimates from the states around it, none of which is too low.
@@ -200,7 +264,7 @@ mod tests {
         let mut map = PlaceMap::new(config.state_lattice, &config.robot, 7.0);
         map.look(&ground, DVec2::ZERO, LEVEL, 3.0);
         let mut value = ValueFunction::new(config.state_lattice, map.count());
-        value.search(&map, &[(GOAL, 0.0)]);
+        value.search(&map, &[(GOAL, 0.0)], None);
         (map, value)
     }
 

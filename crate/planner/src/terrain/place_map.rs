@@ -31,6 +31,10 @@ const GUESS_DEVIATION: f64 = 0.15;
 const TIGHT_SHARE: f64 = 0.5;
 const TIGHT_RISK: f64 = 2.0;
 
+/// A robot that stands unsafe may drive over unsafe ground within so many steps, at this risk.
+const ESCAPE_STEPS: i32 = 4;
+const ESCAPE_RISK: f64 = 10.0;
+
 /// The risk at a pose between places.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Risk {
@@ -366,6 +370,17 @@ impl PlaceMap {
             return f64::INFINITY;
         }
         f64::from(self.places[self.index(offset)].risk[heading % AXES])
+    }
+
+    /// As [`PlaceMap::risk`], but known ground this near to a robot that stands unsafe costs much instead of being
+    /// closed: the way off it leads over it.
+    pub(crate) fn escape_risk(&self, offset: IVec2, heading: usize, from: IVec2) -> f64 {
+        let risk = self.risk(offset, heading);
+        let near = (offset - from).length_squared() <= ESCAPE_STEPS * ESCAPE_STEPS;
+        if risk.is_infinite() && near && self.holds(offset) && self.plane(offset).is_some() {
+            return ESCAPE_RISK;
+        }
+        risk
     }
 
     /// Whether a place borders on ground that is neither seen nor bridged, or on the border of the lattice.
