@@ -1,8 +1,11 @@
 //! The value function: cost-to-go of every state of the lattice, by one search backward from the ends.
 
+use core::f64::consts::{PI, TAU};
+
 use glam::{DVec2, IVec2};
 
 use crate::config::StateLatticeConfig;
+use crate::math::angle::difference_rad;
 use crate::route::queue::BucketQueue;
 use crate::terrain::headings::{HEADINGS, STEPS, heading_below};
 use crate::terrain::place_map::PlaceMap;
@@ -151,25 +154,7 @@ impl ValueFunction {
         path: &mut Vec<Waypoint>,
     ) {
         path.clear();
-        let steps = map.steps_from_centre(position_m);
-        let low = steps.floor().as_ivec2();
-        let (heading, turn) = heading_below(yaw_rad);
-        let mut best: Option<(f64, u32)> = None;
-        for offset in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| low + IVec2::new(dx, dy))) {
-            if !map.holds(offset) {
-                continue;
-            }
-            let away_m = (offset.as_dvec2() - steps).length() * self.config.step_m;
-            for (heading, turned) in [(heading, turn), ((heading + 1) % HEADINGS, 1.0 - turn)] {
-                let place = map.index(offset);
-                let Some(value_m) = self.of_state(place, heading) else { continue };
-                let total_m = value_m + away_m + turned * self.config.turn_cost_m;
-                if best.is_none_or(|(least_m, _)| total_m < least_m) {
-                    best = Some((total_m, (place * HEADINGS + heading) as u32));
-                }
-            }
-        }
-        let Some((_, mut state)) = best else { return };
+        let Some((_, mut state)) = self.connect(map, position_m, yaw_rad) else { return };
         let mut last = position_m;
         while path.len() < MOST_WAYPOINTS {
             let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
@@ -187,42 +172,67 @@ impl ValueFunction {
         }
     }
 
-    /// Cost-to-go of a pose: the lesser of two estimates from the states around it, none of which is too low.
-    /// The mean of theirs, weighted by nearness, is smooth. The least of theirs and of the straight way there
-    /// finds a narrow pass between states that are worse than both its ends.
-    pub(crate) fn at(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<f64> {
-        let steps = map.steps_from_centre(position_m);
-        let low = steps.floor();
-        let low = low.as_ivec2();
-        let (heading, turn) = heading_below(yaw_rad);
-        let headings = [(heading, turn), ((heading + 1) % HEADINGS, 1.0 - turn)];
-        let (mut mean, mut weights, mut least) = (0.0, 0.0, f64::INFINITY);
-        let (mut lowest_m, mut highest_m) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (dx, dy) in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| (dx, dy))) {
-            let offset = low + IVec2::new(dx, dy);
+    /// The state around a pose with the least cost-to-go and way to it: a turn on the spot and a straight drive,
+    /// forward or in reverse.
+    fn connect(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<(f64, u32)> {
+        let low = map.steps_from_centre(position_m).floor().as_ivec2();
+        let turn_m_rad = self.config.turn_cost_m * HEADINGS as f64 / TAU;
+        let mut best: Option<(f64, u32)> = None;
+        for offset in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| low + IVec2::new(dx, dy))) {
             if !map.holds(offset) {
                 continue;
             }
-            let away = (offset.as_dvec2() - steps).abs();
-            let weight = (1.0 - away.x).max(0.0) * (1.0 - away.y).max(0.0);
-            for (heading, turned) in headings {
-                if let Some(value_m) = self.of_state(map.index(offset), heading) {
-                    let risk = map.risk(offset, heading).min(1.0);
-                    let way_m = away.length() * self.config.step_m * (1.0 + self.config.tilt_price * risk);
-                    least = least.min(value_m + way_m + turned * self.config.turn_cost_m);
-                    mean += weight * (1.0 - turned) * value_m;
-                    weights += weight * (1.0 - turned);
-                    if weight > 0.0 {
-                        lowest_m = lowest_m.min(value_m);
-                        highest_m = highest_m.max(value_m);
-                    }
+            let place = map.index(offset);
+            let way = map.position_m(offset) - position_m;
+            let way_m = way.length();
+            let bearing_rad = if way_m > 0.0 { libm::atan2(way.y, way.x) } else { yaw_rad };
+            for (facing_rad, price) in [(bearing_rad, 1.0), (bearing_rad + PI, self.config.reverse_price)] {
+                let (below, share) = heading_below(facing_rad);
+                let heading = if share < 0.5 { below } else { (below + 1) % HEADINGS };
+                let Some(value_m) = self.of_state(place, heading) else { continue };
+                let risk = map.risk(offset, heading).min(1.0);
+                // The nearer the place, the less does its direction say.
+                let turn_rad =
+                    difference_rad(facing_rad, yaw_rad).abs() * (way_m / self.config.step_m).min(1.0);
+                let total_m =
+                    value_m + turn_m_rad * turn_rad + price * way_m * (1.0 + self.config.tilt_price * risk);
+                if best.is_none_or(|(least_m, _)| total_m < least_m) {
+                    best = Some((total_m, (place * HEADINGS + heading) as u32));
                 }
             }
         }
-        if weights > 1.0 - 1e-9 && highest_m - lowest_m < SMOOTH_M {
+        best
+    }
+
+    /// Cost-to-go of a pose: the mean of the states around it, weighted by nearness, where they are all reached
+    /// and differ little; elsewhere that of the best of them and of the way to it. In a narrow pass the states on
+    /// either side are worse than both its ends.
+    pub(crate) fn at(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<f64> {
+        let steps = map.steps_from_centre(position_m);
+        let low = steps.floor().as_ivec2();
+        let share = steps - low.as_dvec2();
+        let (heading, turn) = heading_below(yaw_rad);
+        let (mut mean, mut lowest_m, mut highest_m) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
+        for (step, weight) in [
+            (IVec2::ZERO, (1.0 - share.x) * (1.0 - share.y)),
+            (IVec2::X, share.x * (1.0 - share.y)),
+            (IVec2::Y, (1.0 - share.x) * share.y),
+            (IVec2::ONE, share.x * share.y),
+        ] {
+            for (heading, part) in [(heading, 1.0 - turn), ((heading + 1) % HEADINGS, turn)] {
+                let offset = low + step;
+                let value_m = map.holds(offset).then(|| self.of_state(map.index(offset), heading)).flatten();
+                let value_m = value_m.unwrap_or(f64::INFINITY);
+                lowest_m = lowest_m.min(value_m);
+                highest_m = highest_m.max(value_m);
+                mean += weight * part * value_m;
+            }
+        }
+        // Also false for infinite ones.
+        if highest_m - lowest_m < SMOOTH_M {
             return Some(mean);
         }
-        least.is_finite().then_some(least)
+        self.connect(map, position_m, yaw_rad).map(|(total_m, _)| total_m)
     }
 }
 
