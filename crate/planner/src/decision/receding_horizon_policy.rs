@@ -39,8 +39,6 @@ const COMMITMENT_M: f64 = 1.0;
 const SAME_TARGET_M: f64 = 1.5;
 /// Standard deviation of the slope under the robot, by its attitude.
 const OWN_DEVIATION: f64 = 0.05;
-/// Risk of a pose among unsafe places alone.
-const UNSAFE_PRICE: f64 = 4.0;
 /// Ground under the lowest beams reaches a little farther than on level ground.
 const BLIND_SHARE: f64 = 1.3;
 
@@ -75,9 +73,8 @@ struct SeenCourse<'a> {
 impl Course for SeenCourse<'_> {
     fn met(&self, pose: &PlanPose) -> Option<Met> {
         let risk = self.map.risk_at(self.ground, pose.position_m, pose.yaw_rad);
-        let beside = UNSAFE_PRICE * (risk.unsafe_share - 0.5).max(0.0);
         (risk.unsafe_share <= self.unsafe_share)
-            .then_some(Met { risk: risk.price + beside, utilisation: risk.utilisation })
+            .then_some(Met { risk: risk.price, utilisation: risk.utilisation })
     }
 
     fn cost_to_go_m(&self, pose: &PlanPose) -> Option<f64> {
