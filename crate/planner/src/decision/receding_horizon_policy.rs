@@ -39,6 +39,8 @@ const COMMITMENT_M: f64 = 1.0;
 const SAME_TARGET_M: f64 = 1.5;
 /// Standard deviation of the slope under the robot, by its attitude.
 const OWN_DEVIATION: f64 = 0.05;
+/// The place next to a goal is never farther from it than this.
+const LEAST_GOAL_M: f64 = 0.5;
 /// Ground under the lowest beams reaches a little farther than on level ground.
 const BLIND_SHARE: f64 = 1.3;
 
@@ -86,6 +88,11 @@ impl Course for SeenCourse<'_> {
     }
 }
 
+/// Places this near to the goal are ends: those within its tolerance, and at least those beside it.
+fn at_goal_m(goal_tolerance_m: f64) -> f64 {
+    goal_tolerance_m.max(LEAST_GOAL_M)
+}
+
 impl RecedingHorizonPolicy {
     /// A policy with an empty window. The configuration must have been validated.
     pub(crate) fn new(config: &PlannerConfig) -> Self {
@@ -119,7 +126,7 @@ impl RecedingHorizonPolicy {
             attitude: AttitudeEstimate::default(),
             ends: Vec::with_capacity(map.count() + 4),
             trajectory: Vec::with_capacity(64),
-            way: Vec::with_capacity(MOST_WAYPOINTS),
+            way: Vec::with_capacity(MOST_WAYPOINTS + 1),
             target_m: None,
             learned_at_m: None,
             blind_m: blind_m.min(config.state_lattice.blind_radius_m),
@@ -137,7 +144,7 @@ impl RecedingHorizonPolicy {
             let Some(_) = self.map.plane(offset) else { continue };
             let place_m = self.map.position_m(offset);
             let to_goal_m = (goal_m - place_m).length();
-            if to_goal_m <= goal_tolerance_m.max(0.5) {
+            if to_goal_m <= at_goal_m(goal_tolerance_m) {
                 self.ends.push((offset, to_goal_m));
             } else if (place_m - here_m).length() > NEAR_M && self.map.is_frontier(offset) {
                 let kept =
@@ -218,7 +225,7 @@ impl SubgoalPolicy for RecedingHorizonPolicy {
     }
 
     fn decide(&mut self, situation: &Situation<'_>, _: &mut Controller, plan: &mut Plan) -> Motion {
-        let Situation { pose, elapsed, terrain, .. } = *situation;
+        let Situation { pose, goal_m, goal_tolerance_m, elapsed, terrain, .. } = *situation;
         let here_m = pose.plan_m();
         self.attitude.be_at(pose, elapsed);
         let own = Plane {
@@ -237,6 +244,14 @@ impl SubgoalPolicy for RecedingHorizonPolicy {
         }
         self.learn(situation);
         self.value.path_from(&self.map, here_m, pose.yaw_rad, &mut self.way);
+        if let Some(end) = self
+            .way
+            .last()
+            .copied()
+            .filter(|end| end.position_m.distance(goal_m) <= at_goal_m(goal_tolerance_m))
+        {
+            self.way.push(Waypoint { position_m: goal_m, ..end });
+        }
         let ground: &dyn TerrainQuery = match &terrain {
             Some(told) => told,
             None => &self.window,

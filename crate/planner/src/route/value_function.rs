@@ -69,8 +69,8 @@ impl ValueFunction {
         }
     }
 
-    /// Searches backward from `ends`: places with their cost-to-go, at every heading. A robot that stands unsafe at
-    /// the place `escapes_from` may leave it.
+    /// Searches backward from `ends`: places with their cost-to-go, at every heading. A robot that stands
+    /// unsafe at the place `escapes_from` may leave it.
     pub(crate) fn search(&mut self, map: &PlaceMap, ends: &[(IVec2, f64)], escapes_from: Option<IVec2>) {
         let risk_at = |offset: IVec2, heading: usize| match escapes_from {
             Some(from) => map.escape_risk(offset, heading, from),
@@ -172,8 +172,8 @@ impl ValueFunction {
         }
     }
 
-    /// The state around a pose with the least cost-to-go and way to it: a turn on the spot and a straight drive,
-    /// forward or in reverse.
+    /// The state around a pose with the least cost-to-go and way to it: a turn on the spot and a straight
+    /// drive, forward or in reverse.
     fn connect(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<(f64, u32)> {
         let low = map.steps_from_centre(position_m).floor().as_ivec2();
         let turn_m_rad = self.config.turn_cost_m * HEADINGS as f64 / TAU;
@@ -204,9 +204,9 @@ impl ValueFunction {
         best
     }
 
-    /// Cost-to-go of a pose: the mean of the states around it, weighted by nearness, where they are all reached
-    /// and differ little; elsewhere that of the best of them and of the way to it. In a narrow pass the states on
-    /// either side are worse than both its ends.
+    /// Cost-to-go of a pose: the mean of the states around it, weighted by nearness, where they are all
+    /// reached and differ little; elsewhere that of the best of them and of the way to it. In a narrow pass
+    /// the states on either side are worse than both its ends.
     pub(crate) fn at(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<f64> {
         let steps = map.steps_from_centre(position_m);
         let low = steps.floor().as_ivec2();

@@ -372,8 +372,8 @@ impl PlaceMap {
         f64::from(self.places[self.index(offset)].risk[heading % AXES])
     }
 
-    /// As [`PlaceMap::risk`], but known ground this near to a robot that stands unsafe costs much instead of being
-    /// closed: the way off it leads over it.
+    /// As [`PlaceMap::risk`], but known ground this near to a robot that stands unsafe costs much instead of
+    /// being closed: the way off it leads over it.
     pub(crate) fn escape_risk(&self, offset: IVec2, heading: usize, from: IVec2) -> f64 {
         let risk = self.risk(offset, heading);
         let near = (offset - from).length_squared() <= ESCAPE_STEPS * ESCAPE_STEPS;
