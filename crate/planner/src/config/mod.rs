@@ -4,6 +4,7 @@
 mod checks;
 mod presets;
 
+use core::f64::consts::TAU;
 use core::time::Duration;
 
 use mapless_parameters::{choices, parameters};
@@ -230,6 +231,9 @@ const LEAST_CELLS_PER_SIDE: usize = 96;
 const MOST_CELLS_PER_SIDE: usize = 1024;
 const SPARE_CELLS: usize = 6;
 
+/// [`StateLatticeConfig::turn_cost_m`] is that of so many parts of a circle.
+const HEADINGS_OF_TURN_COST: f64 = 16.0;
+
 impl ElevationWindowConfig {
     /// Cells on a side, such that no two places inside the window share a slot.
     pub(crate) fn cells_per_side(&self) -> usize {
@@ -240,6 +244,13 @@ impl ElevationWindowConfig {
     /// Time after which ground that is not seen again is forgotten.
     pub(crate) fn memory(&self) -> Duration {
         Duration::from_secs_f64(self.memory_s)
+    }
+}
+
+impl StateLatticeConfig {
+    /// Cost of a radian turned, in metres driven.
+    pub(crate) fn turn_m_rad(&self) -> f64 {
+        self.turn_cost_m * HEADINGS_OF_TURN_COST / TAU
     }
 }
 

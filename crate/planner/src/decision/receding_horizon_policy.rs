@@ -41,6 +41,15 @@ const SAME_TARGET_M: f64 = 1.5;
 const OWN_DEVIATION: f64 = 0.05;
 /// The place next to a goal is never farther from it than this.
 const LEAST_GOAL_M: f64 = 0.5;
+/// Largest speed in reverse, as a share of that forward; largest accelerations.
+const REVERSE_SHARE: f64 = 0.5;
+const ACCELERATION_M_S2: f64 = 0.8;
+const TURN_ACCELERATION_RAD_S2: f64 = 1.5;
+/// Costs of a second at (1 rad/s²)² and at (1 m/s²)², in metres, and the weight of the cost-to-go at a
+/// trajectory's end, which pays for progress.
+const SMOOTHNESS: f64 = 0.45;
+const SPEED_SMOOTHNESS: f64 = 0.15;
+const PROGRESS: f64 = 3.0;
 /// Ground under the lowest beams reaches a little farther than on level ground.
 const BLIND_SHARE: f64 = 1.3;
 
@@ -110,14 +119,14 @@ impl RecedingHorizonPolicy {
             heuristic: HeuristicTable::new(config.state_lattice.step_m),
             optimiser: TrajectoryOptimiser::new(Limits {
                 speed_m_s: controller.max_speed_m_s,
-                reverse_m_s: 0.5 * controller.max_speed_m_s,
+                reverse_m_s: REVERSE_SHARE * controller.max_speed_m_s,
                 turn_rate_rad_s: controller.max_turn_rate_rad_s,
-                acceleration_m_s2: 0.8,
-                turn_acceleration_rad_s2: 1.5,
-                smoothness: 0.45,
-                speed_smoothness: 0.15,
-                turn_m_rad: config.state_lattice.turn_cost_m * 16.0 / core::f64::consts::TAU,
-                progress: 3.0,
+                acceleration_m_s2: ACCELERATION_M_S2,
+                turn_acceleration_rad_s2: TURN_ACCELERATION_RAD_S2,
+                smoothness: SMOOTHNESS,
+                speed_smoothness: SPEED_SMOOTHNESS,
+                turn_m_rad: config.state_lattice.turn_m_rad(),
+                progress: PROGRESS,
                 tilt_price: config.state_lattice.tilt_price,
                 reverse_price: config.state_lattice.reverse_price,
                 regulate_from: controller.regulate_from_utilisation,
@@ -177,9 +186,7 @@ impl RecedingHorizonPolicy {
         self.target_m = self.target_m.map(|place_m| change.place_m(place_m));
         self.learned_at_m = self.learned_at_m.map(|place_m| change.place_m(place_m));
     }
-}
 
-impl RecedingHorizonPolicy {
     /// The target as a subgoal; its cost is the cost-to-go from here.
     fn subgoal(&self, situation: &Situation<'_>, target_m: DVec2) -> Subgoal {
         let Situation { config, pose, .. } = *situation;
@@ -239,10 +246,11 @@ impl SubgoalPolicy for RecedingHorizonPolicy {
         }
         self.find_ends(situation);
         self.value.search(&self.map, &self.ends, None);
+        // What a way out of unsafe ground costs is not learned: it holds only from where the robot stands.
+        self.learn(situation);
         if self.value.at(&self.map, here_m, pose.yaw_rad).is_none() {
             self.value.search(&self.map, &self.ends, Some(IVec2::ZERO));
         }
-        self.learn(situation);
         self.value.path_from(&self.map, here_m, pose.yaw_rad, &mut self.way);
         if let Some(end) = self
             .way

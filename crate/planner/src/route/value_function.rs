@@ -1,6 +1,6 @@
 //! The value function: cost-to-go of every state of the lattice, by one search backward from the ends.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 
 use glam::{DVec2, IVec2};
 
@@ -10,8 +10,11 @@ use crate::route::queue::BucketQueue;
 use crate::terrain::headings::{HEADINGS, STEPS, heading_below};
 use crate::terrain::place_map::PlaceMap;
 
+/// Costs are whole millimetres of level ground.
 const MILLIMETRES: f64 = 1000.0;
+/// Largest cost that is searched, beyond that of the best end.
 const FARTHEST_M: usize = 150;
+/// Lower bound on the cost of a step.
 const LEAST_COST_MM: u32 = 100;
 const UNREACHED: u32 = u32::MAX;
 /// The most places of a path.
@@ -53,6 +56,7 @@ pub(crate) struct ValueFunction {
 }
 
 impl ValueFunction {
+    /// For a map of so many places; nothing is searched yet.
     pub(crate) fn new(config: StateLatticeConfig, places: usize) -> Self {
         let states = places * HEADINGS;
         Self {
@@ -176,7 +180,7 @@ impl ValueFunction {
     /// drive, forward or in reverse.
     fn connect(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<(f64, u32)> {
         let low = map.steps_from_centre(position_m).floor().as_ivec2();
-        let turn_m_rad = self.config.turn_cost_m * HEADINGS as f64 / TAU;
+        let turn_m_rad = self.config.turn_m_rad();
         let mut best: Option<(f64, u32)> = None;
         for offset in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| low + IVec2::new(dx, dy))) {
             if !map.holds(offset) {

@@ -16,7 +16,7 @@ use crate::terrain::slopes::Slopes;
 /// meanwhile.
 const LOOKS: i32 = 4;
 /// Axes of travel: a robot on its wheels tilts alike in both directions.
-pub(crate) const AXES: usize = HEADINGS / 2;
+const AXES: usize = HEADINGS / 2;
 /// Unseen ground is bridged between seen places no farther apart than the first; under the lowest beams,
 /// where no look can settle it, than the second. Standard deviation of its slope per metre of the bridge.
 const GAP_M: f64 = 2.5;
@@ -46,6 +46,7 @@ pub(crate) struct Risk {
     pub(crate) unsafe_share: f64,
 }
 
+/// The last query's result at a place of the world's lattice.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     plane: Option<Plane>,
