@@ -115,7 +115,7 @@ impl RecedingHorizonPolicy {
         };
         Self {
             window: ElevationWindow::new(config),
-            value: ValueFunction::new(config.state_lattice, map.count()),
+            value: ValueFunction::new(config.state_lattice, map.places.count()),
             heuristic: HeuristicTable::new(config.state_lattice.step_m),
             optimiser: TrajectoryOptimiser::new(Limits {
                 speed_m_s: controller.max_speed_m_s,
@@ -133,7 +133,7 @@ impl RecedingHorizonPolicy {
                 least_share: controller.min_speed_share,
             }),
             attitude: AttitudeEstimate::default(),
-            ends: Vec::with_capacity(map.count() + 4),
+            ends: Vec::with_capacity(map.places.count() + 4),
             trajectory: Vec::with_capacity(64),
             way: Vec::with_capacity(MOST_WAYPOINTS + 1),
             target_m: None,
@@ -148,10 +148,10 @@ impl RecedingHorizonPolicy {
         let Situation { pose, goal_m, goal_tolerance_m, .. } = *situation;
         let here_m = pose.plan_m();
         self.ends.clear();
-        for index in 0..self.map.count() {
-            let offset = self.map.offset(index);
+        for index in 0..self.map.places.count() {
+            let offset = self.map.places.offset(index);
             let Some(_) = self.map.plane(offset) else { continue };
-            let place_m = self.map.position_m(offset);
+            let place_m = self.map.places.position_m(offset);
             let to_goal_m = (goal_m - place_m).length();
             if to_goal_m <= at_goal_m(goal_tolerance_m) {
                 self.ends.push((offset, to_goal_m));
@@ -170,9 +170,9 @@ impl RecedingHorizonPolicy {
             return;
         }
         self.learned_at_m = Some(here_m);
-        for index in 0..self.map.count() {
+        for index in 0..self.map.places.count() {
             if let Some(value_m) = self.value.of_place(index) {
-                let place_m = self.map.position_m(self.map.offset(index));
+                let place_m = self.map.places.position_m(self.map.places.offset(index));
                 self.heuristic.learn(place_m, situation.goal_m, value_m);
             }
         }
@@ -191,7 +191,7 @@ impl RecedingHorizonPolicy {
     fn subgoal(&self, situation: &Situation<'_>, target_m: DVec2) -> Subgoal {
         let Situation { config, pose, .. } = *situation;
         let here_m = pose.plan_m();
-        let offset = self.map.nearest(target_m);
+        let offset = self.map.places.nearest(target_m);
         let height_m =
             offset.and_then(|offset| self.map.plane(offset)).map_or(pose.position_m.z, |p| p.height_m);
         let over_sensor_m = height_m - pose.position_m.z - config.sensor.height_m;
@@ -227,7 +227,7 @@ impl SubgoalPolicy for RecedingHorizonPolicy {
         take_up(&mut self.window, config, scan, pose, elapsed);
         let reach_m = self.window.reach_m();
         for &place_m in self.window.refuted_m() {
-            self.map.forget_near(place_m, reach_m);
+            self.map.places.forget_near(place_m, reach_m);
         }
     }
 

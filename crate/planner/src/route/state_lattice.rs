@@ -142,7 +142,7 @@ impl StateLattice {
     /// A lattice over the places within `radius_m` of the robot.
     pub(crate) fn new(config: StateLatticeConfig, limits: &RobotModel, radius_m: f64) -> Self {
         let traversability = TraversabilityMap::new(config, limits, radius_m);
-        let states = traversability.count() * HEADINGS;
+        let states = traversability.places.count() * HEADINGS;
         // Each state is entered by two drives, some gaps, two turns and the first directions.
         let entries = 6 * states + 16 * FIRST_DIRECTIONS;
         let direction = |k: usize| {
@@ -177,7 +177,7 @@ impl StateLattice {
 
     /// Number of places.
     pub(crate) fn count(&self) -> usize {
-        self.traversability.count()
+        self.traversability.places.count()
     }
 
     /// Searches paths from `pose` over `ground`, `elapsed` after the last search.
@@ -190,7 +190,7 @@ impl StateLattice {
             self.changes = 0;
         }
         self.traversability.drive_on(moved_m.length());
-        self.traversability.look(ground, self.here_m);
+        self.traversability.places.look(ground, self.here_m);
         self.search_with(Caution::Usual);
     }
 
@@ -301,7 +301,7 @@ impl StateLattice {
     /// over a virtual surface ahead.
     fn steps(&self, state: u32, prices: &Prices) -> [Option<(usize, u32)>; 5] {
         let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
-        let offset = self.traversability.offset(place);
+        let offset = self.traversability.places.offset(place);
         let turn = |turned: usize| {
             let price_mm = (self.config.turn_cost_m * MILLIMETRES) as u32;
             self.traversability
@@ -314,11 +314,11 @@ impl StateLattice {
             let (to, risk) = self.traversability.drive(offset, heading, forward)?;
             let price_mm = price * step_mm * (1.0 + prices.tilt * risk)
                 + prices.climb * self.traversability.climb_m(offset, to) * MILLIMETRES;
-            Some((self.traversability.index(to) * HEADINGS + heading, price_mm as u32))
+            Some((self.traversability.places.index(to) * HEADINGS + heading, price_mm as u32))
         };
         let gap = || {
             let (to, price_m) = self.cross_gap(offset, heading, prices)?;
-            Some((self.traversability.index(to) * HEADINGS + heading, (price_m * MILLIMETRES) as u32))
+            Some((self.traversability.places.index(to) * HEADINGS + heading, (price_m * MILLIMETRES) as u32))
         };
         [
             turn((heading + 1) % HEADINGS),
@@ -354,7 +354,7 @@ impl StateLattice {
 
     /// Forgets the ground within `radius_m` of a place; it is queried again.
     pub(crate) fn forget_near(&mut self, place_m: DVec2, radius_m: f64) {
-        self.traversability.forget_near(place_m, radius_m);
+        self.traversability.places.forget_near(place_m, radius_m);
     }
 
     /// Moves the remembered state from one world frame to another.

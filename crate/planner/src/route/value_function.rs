@@ -87,7 +87,7 @@ impl ValueFunction {
             let cost_mm = ((left_m - self.least_m) * MILLIMETRES) as u32;
             for heading in 0..HEADINGS {
                 if map.risk(offset, heading).is_finite() {
-                    let state = map.index(offset) * HEADINGS + heading;
+                    let state = map.places.index(offset) * HEADINGS + heading;
                     self.relax(state, state as u32, cost_mm);
                 }
             }
@@ -99,7 +99,7 @@ impl ValueFunction {
                 continue;
             }
             let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
-            let offset = map.offset(place);
+            let offset = map.places.offset(place);
             for turned in [(heading + 1) % HEADINGS, (heading + HEADINGS - 1) % HEADINGS] {
                 if risk_at(offset, turned).is_finite() {
                     self.relax(place * HEADINGS + turned, state, cost_mm.saturating_add(turn_mm));
@@ -110,7 +110,7 @@ impl ValueFunction {
             for index in 0..self.motions[heading].len() {
                 let Motion { step, passed, heading: from_heading, length } = self.motions[heading][index];
                 let from = offset - step;
-                if !map.holds(from) {
+                if !map.places.holds(from) {
                     continue;
                 }
                 let from_risk = risk_at(from, from_heading);
@@ -123,7 +123,7 @@ impl ValueFunction {
                 let price_m = length * step_m * (1.0 + self.config.tilt_price * mean)
                     + self.config.climb_price * climb_m;
                 self.relax(
-                    map.index(from) * HEADINGS + from_heading,
+                    map.places.index(from) * HEADINGS + from_heading,
                     state,
                     cost_mm.saturating_add((price_m * MILLIMETRES) as u32),
                 );
@@ -162,7 +162,7 @@ impl ValueFunction {
         let mut last = position_m;
         while path.len() < MOST_WAYPOINTS {
             let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
-            let at_m = map.position_m(map.offset(place));
+            let at_m = map.places.position_m(map.places.offset(place));
             let reverse = (at_m - last).dot(STEPS[heading].as_dvec2()) < 0.0;
             if path.last().is_none_or(|last: &Waypoint| last.position_m != at_m) {
                 path.push(Waypoint { position_m: at_m, reverse: reverse && !path.is_empty() });
@@ -179,15 +179,15 @@ impl ValueFunction {
     /// The state around a pose with the least cost-to-go and way to it: a turn on the spot and a straight
     /// drive, forward or in reverse.
     fn connect(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<(f64, u32)> {
-        let low = map.steps_from_centre(position_m).floor().as_ivec2();
+        let low = map.places.steps_from_centre(position_m).floor().as_ivec2();
         let turn_m_rad = self.config.turn_m_rad();
         let mut best: Option<(f64, u32)> = None;
         for offset in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| low + IVec2::new(dx, dy))) {
-            if !map.holds(offset) {
+            if !map.places.holds(offset) {
                 continue;
             }
-            let place = map.index(offset);
-            let way = map.position_m(offset) - position_m;
+            let place = map.places.index(offset);
+            let way = map.places.position_m(offset) - position_m;
             let way_m = way.length();
             let bearing_rad = if way_m > 0.0 { libm::atan2(way.y, way.x) } else { yaw_rad };
             for (facing_rad, price) in [(bearing_rad, 1.0), (bearing_rad + PI, self.config.reverse_price)] {
@@ -212,7 +212,7 @@ impl ValueFunction {
     /// reached and differ little; elsewhere that of the best of them and of the way to it. In a narrow pass
     /// the states on either side are worse than both its ends.
     pub(crate) fn at(&self, map: &PlaceMap, position_m: DVec2, yaw_rad: f64) -> Option<f64> {
-        let steps = map.steps_from_centre(position_m);
+        let steps = map.places.steps_from_centre(position_m);
         let low = steps.floor().as_ivec2();
         let share = steps - low.as_dvec2();
         let (heading, turn) = heading_below(yaw_rad);
@@ -225,7 +225,11 @@ impl ValueFunction {
         ] {
             for (heading, part) in [(heading, 1.0 - turn), ((heading + 1) % HEADINGS, turn)] {
                 let offset = low + step;
-                let value_m = map.holds(offset).then(|| self.of_state(map.index(offset), heading)).flatten();
+                let value_m = map
+                    .places
+                    .holds(offset)
+                    .then(|| self.of_state(map.places.index(offset), heading))
+                    .flatten();
                 let value_m = value_m.unwrap_or(f64::INFINITY);
                 lowest_m = lowest_m.min(value_m);
                 highest_m = highest_m.max(value_m);
@@ -277,7 +281,7 @@ mod tests {
         let config = PlannerConfig::default();
         let mut map = PlaceMap::new(config.state_lattice, &config.robot, 7.0);
         map.look(&ground, DVec2::ZERO, LEVEL, 3.0);
-        let mut value = ValueFunction::new(config.state_lattice, map.count());
+        let mut value = ValueFunction::new(config.state_lattice, map.places.count());
         value.search(&map, &[(GOAL, 0.0)], None);
         (map, value)
     }
@@ -320,11 +324,11 @@ mod tests {
             let to = IVec2::new(x, y);
             for motion in &value.motions[heading] {
                 let from = to - motion.step;
-                if !map.holds(from) {
+                if !map.places.holds(from) {
                     continue;
                 }
-                let before = value.of_state(map.index(from), motion.heading);
-                let after = value.of_state(map.index(to), heading);
+                let before = value.of_state(map.places.index(from), motion.heading);
+                let after = value.of_state(map.places.index(to), heading);
                 if let (Some(before), Some(after)) = (before, after) {
                     let dearest_m = motion.length * value.config.step_m * (1.0 + value.config.tilt_price * 3.0);
                     prop_assert!(before <= after + dearest_m + 1e-9);

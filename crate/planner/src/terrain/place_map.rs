@@ -4,19 +4,14 @@
 use glam::{DVec2, IVec2};
 
 use crate::config::StateLatticeConfig;
-use crate::math::elementary::floor;
 use crate::robot_model::RobotModel;
 use crate::terrain::elevation_window::TerrainQuery;
-use crate::terrain::headings::{DIRECTIONS, HEADINGS, STEPS, heading_below};
+use crate::terrain::headings::{DIRECTIONS, STEPS, heading_below};
+use crate::terrain::place_lattice::{AXES, PlaceLattice, around};
 use crate::terrain::plane::Plane;
 use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 
-/// A place is queried again after this many scans: the ground is static, and the robot drives about a step
-/// meanwhile.
-const LOOKS: i32 = 4;
-/// Axes of travel: a robot on its wheels tilts alike in both directions.
-const AXES: usize = HEADINGS / 2;
 /// Unseen ground is bridged between seen places no farther apart than the first; under the lowest beams,
 /// where no look can settle it, than the second. Standard deviation of its slope per metre of the bridge.
 const GAP_M: f64 = 2.5;
@@ -31,6 +26,10 @@ const GUESS_DEVIATION: f64 = 0.15;
 const TIGHT_SHARE: f64 = 0.5;
 const TIGHT_RISK: f64 = 2.0;
 
+/// Places this near to the border of the lattice are its horizon, in steps.
+const HORIZON: i32 = 2;
+/// Places on a side of the memory of where the robot stood.
+const STOOD_SIDE: usize = 64;
 /// A robot that stands unsafe may drive over unsafe ground within so many steps, at this risk.
 const ESCAPE_STEPS: i32 = 4;
 const ESCAPE_RISK: f64 = 10.0;
@@ -44,17 +43,6 @@ pub(crate) struct Risk {
     pub(crate) utilisation: f64,
     /// Share of the places around, by nearness, that are not safe.
     pub(crate) unsafe_share: f64,
-}
-
-/// The last query's result at a place of the world's lattice.
-#[derive(Clone, Copy, Debug)]
-struct Known {
-    plane: Option<Plane>,
-    footprint_slopes: [Option<Slopes>; AXES],
-    is_negative_obstacle: bool,
-    touches_upright: bool,
-    /// The ground when the robot stood here, by its attitude.
-    stood: Option<Plane>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -75,104 +63,66 @@ pub(crate) struct PlaceMap {
     limits: Slopes,
     allowed: Slopes,
     most: Slopes,
-    half: i32,
-    centre: IVec2,
-    places: Vec<Place>,
-    cache: RollingGrid<Known>,
-    looks: i32,
+    /// The places, and the ground at each.
+    pub(crate) places: PlaceLattice,
+    judged: Vec<Place>,
+    /// The ground where the robot stood, by its attitude.
+    stood: RollingGrid<Plane>,
 }
 
 impl PlaceMap {
     /// A map of the places within `radius_m`.
     pub(crate) fn new(config: StateLatticeConfig, robot: &RobotModel, radius_m: f64) -> Self {
-        let half = (radius_m / config.step_m).ceil() as i32 + 1;
-        let side = (2 * half + 1) as usize;
+        let places = PlaceLattice::new(&config, radius_m);
         Self {
             config,
             limits: Slopes::of_limits(robot, 0.0),
             allowed: Slopes::of_limits(robot, config.tilt_margin_rad),
             most: Slopes::of_limits(robot, config.recovery_margin_rad),
-            half,
-            centre: IVec2::ZERO,
-            places: vec![UNKNOWN; side * side],
-            cache: RollingGrid::new(side),
-            looks: 0,
+            judged: vec![UNKNOWN; places.count()],
+            stood: RollingGrid::new(STOOD_SIDE),
+            places,
         }
     }
 
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
-        self.cache.clear();
-        self.looks = 0;
-    }
-
-    /// Forgets the ground within `radius_m` of a place; it is queried again.
-    pub(crate) fn forget_near(&mut self, place_m: DVec2, radius_m: f64) {
-        let (low, high) = (self.index_of(place_m - radius_m), self.index_of(place_m + radius_m));
-        for y in low.y..=high.y {
-            for x in low.x..=high.x {
-                self.cache.remove(IVec2::new(x, y));
-            }
-        }
-    }
-
-    fn index_of(&self, place_m: DVec2) -> IVec2 {
-        let cells = place_m / self.config.step_m;
-        IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5))
+        self.places.clear();
+        self.stood.clear();
     }
 
     /// Queries the ground around the robot, bridges what is hidden, and judges every place.
     pub(crate) fn look(&mut self, ground: &dyn TerrainQuery, here_m: DVec2, own: Plane, blind_m: f64) {
-        self.centre = self.index_of(here_m);
-        self.looks = (self.looks + 1) % LOOKS;
-        let reach = self.half * self.half;
-        for index in 0..self.places.len() {
-            let offset = self.offset(index);
-            self.places[index] = UNKNOWN;
-            if offset.length_squared() > reach {
-                continue;
-            }
-            let world = self.centre + offset;
-            let before = self.cache.get(world).copied();
-            let due = (world.x + 2 * world.y).rem_euclid(LOOKS) == self.looks;
-            let known = match before {
-                Some(known) if !due => known,
-                _ => {
-                    let known = self.query(ground, self.position_m(offset), here_m, before.as_ref());
-                    self.cache.set(world, known);
-                    known
-                }
-            };
-            let is_seen = |plane: &Plane| {
-                let axes = known.footprint_slopes.iter().zip(DIRECTIONS);
-                plane.gradient_deviation <= GUESS_DEVIATION
-                    || axes.into_iter().any(|(slopes, direction)| {
-                        slopes.is_some() || self.risk_of(plane, None, direction, false).is_finite()
-                    })
-            };
-            let plane = known.plane.filter(is_seen).or(known.stood);
-            self.places[index] = Place { plane, ..UNKNOWN };
+        self.places.look(ground, here_m);
+        self.stood.set(self.places.world_index(here_m), own);
+        for index in 0..self.judged.len() {
+            let offset = self.places.offset(index);
+            let seen = self.places.known(offset).and_then(|known| {
+                let plane = known.plane?;
+                let is_safe = |direction| self.risk_of(&plane, None, direction, false).is_finite();
+                let is_seen = plane.gradient_deviation <= GUESS_DEVIATION
+                    || known.footprint_slopes.iter().any(Option::is_some)
+                    || DIRECTIONS.into_iter().any(is_safe);
+                is_seen.then_some(plane)
+            });
+            let world = self.places.world_index(self.places.position_m(offset));
+            self.judged[index] = Place { plane: seen.or_else(|| self.stood.get(world).copied()), ..UNKNOWN };
         }
-        let here = self.index(IVec2::ZERO);
-        if let Some(known) = self.cache.get_mut(self.centre) {
-            known.stood = Some(own);
-        }
-        self.places[here].plane.get_or_insert(own);
         self.bridge(here_m, blind_m);
-        for index in 0..self.places.len() {
-            let offset = self.offset(index);
-            let known = self.cache.get(self.centre + offset).copied();
-            let place = self.places[index];
-            let is_blocked = known.is_some_and(|known| known.touches_upright)
-                || self.config.avoids_negative_obstacles && self.is_beside_negative_obstacle(offset);
+        for index in 0..self.judged.len() {
+            let offset = self.places.offset(index);
+            let known = self.places.known(offset).copied();
+            let place = self.judged[index];
+            let is_blocked =
+                known.is_some_and(|known| known.touches_upright) || self.places.is_at_cliff(offset);
             let Some(plane) = place.plane else {
-                self.places[index].is_blocked = is_blocked;
+                self.judged[index].is_blocked = is_blocked;
                 continue;
             };
             let slopes =
                 known.filter(|_| !place.is_bridged).map_or([None; AXES], |known| known.footprint_slopes);
-            self.places[index].is_blocked = is_blocked;
-            self.places[index].risk = core::array::from_fn(|axis| {
+            self.judged[index].is_blocked = is_blocked;
+            self.judged[index].risk = core::array::from_fn(|axis| {
                 if is_blocked {
                     return f32::INFINITY;
                 }
@@ -181,44 +131,15 @@ impl PlaceMap {
         }
     }
 
-    fn query(
-        &self,
-        ground: &dyn TerrainQuery,
-        place_m: DVec2,
-        here_m: DVec2,
-        before: Option<&Known>,
-    ) -> Known {
-        let was = before.is_some_and(|known| known.is_negative_obstacle);
-        let plane = ground.plane_at(place_m);
-        let footprint_slopes = plane.map_or([None; AXES], |plane| {
-            DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
-        });
-        let is_negative_obstacle = self.config.avoids_negative_obstacles
-            && footprint_slopes.iter().any(Option::is_none)
-            && ground.is_negative_obstacle(place_m, here_m, was);
-        Known {
-            plane,
-            footprint_slopes,
-            is_negative_obstacle,
-            touches_upright: ground.touches_upright(place_m),
-            stood: before.and_then(|known| known.stood),
-        }
-    }
-
-    fn is_beside_negative_obstacle(&self, offset: IVec2) -> bool {
-        around(self.centre + offset)
-            .any(|world| self.cache.get(world).is_some_and(|known| known.is_negative_obstacle))
-    }
-
     /// Interpolates unseen ground between seen places.
     fn bridge(&mut self, here_m: DVec2, blind_m: f64) {
-        for index in 0..self.places.len() {
-            let place = self.places[index];
+        for index in 0..self.judged.len() {
+            let place = self.judged[index];
             if place.plane.is_some() {
                 continue;
             }
-            let offset = self.offset(index);
-            let away_m = (self.position_m(offset) - here_m).length();
+            let offset = self.places.offset(index);
+            let away_m = (self.places.position_m(offset) - here_m).length();
             let most_m = if away_m < blind_m { 2.0 * blind_m } else { GAP_M };
             let mut best: Option<(f64, Plane)> = None;
             for axis in 0..AXES {
@@ -240,16 +161,16 @@ impl PlaceMap {
                 best = Some((length_m, between(&from, &to, DIRECTIONS[axis], length_m, t)));
             }
             if let Some((_, plane)) = best {
-                self.places[index] = Place { plane: Some(plane), is_bridged: true, ..place };
+                self.judged[index] = Place { plane: Some(plane), is_bridged: true, ..place };
             }
         }
     }
 
     fn seen(&self, offset: IVec2) -> Option<Plane> {
-        if !self.holds(offset) {
+        if !self.places.holds(offset) {
             return None;
         }
-        let place = &self.places[self.index(offset)];
+        let place = &self.judged[self.places.index(offset)];
         place.plane.filter(|_| !place.is_bridged)
     }
 
@@ -275,7 +196,7 @@ impl PlaceMap {
     /// The risk at a pose in the plane, between the places around it: its price and the share of the limits,
     /// averaged over those that are safe, and the weight of the others.
     pub(crate) fn risk_at(&self, ground: &dyn TerrainQuery, place_m: DVec2, yaw_rad: f64) -> Risk {
-        let steps = self.steps_from_centre(place_m);
+        let steps = self.places.steps_from_centre(place_m);
         let low = steps.floor();
         let part = steps - low;
         let low = low.as_ivec2();
@@ -314,63 +235,22 @@ impl PlaceMap {
         risk
     }
 
-    /// The place nearest to a point; `None` off the lattice.
-    pub(crate) fn nearest(&self, point_m: DVec2) -> Option<IVec2> {
-        let offset = self.index_of(point_m) - self.centre;
-        self.holds(offset).then_some(offset)
-    }
-
     /// The limits less the smallest margin, as slopes.
     pub(crate) fn most(&self) -> &Slopes {
         &self.most
     }
 
-    /// Number of places.
-    pub(crate) fn count(&self) -> usize {
-        self.places.len()
-    }
-
-    fn side(&self) -> i32 {
-        2 * self.half + 1
-    }
-
-    /// Index of the place at an offset from the centre, which lies on the lattice.
-    pub(crate) fn index(&self, offset: IVec2) -> usize {
-        ((offset.y + self.half) * self.side() + offset.x + self.half) as usize
-    }
-
-    /// Offset of the place with an index.
-    pub(crate) fn offset(&self, index: usize) -> IVec2 {
-        let index = index as i32;
-        IVec2::new(index % self.side() - self.half, index / self.side() - self.half)
-    }
-
-    /// Whether an offset lies on the lattice.
-    pub(crate) fn holds(&self, offset: IVec2) -> bool {
-        offset.x.abs() <= self.half && offset.y.abs() <= self.half
-    }
-
-    /// Position of a place in the world, seen from above.
-    pub(crate) fn position_m(&self, offset: IVec2) -> DVec2 {
-        (self.centre + offset).as_dvec2() * self.config.step_m
-    }
-
-    /// A point in steps from the centre.
-    pub(crate) fn steps_from_centre(&self, point_m: DVec2) -> DVec2 {
-        point_m / self.config.step_m - self.centre.as_dvec2()
-    }
-
     /// The ground at a place, if it is seen or bridged.
     pub(crate) fn plane(&self, offset: IVec2) -> Option<&Plane> {
-        self.places[self.index(offset)].plane.as_ref()
+        self.judged[self.places.index(offset)].plane.as_ref()
     }
 
     /// The risk at a place with a heading; infinite if that is not safe.
     pub(crate) fn risk(&self, offset: IVec2, heading: usize) -> f64 {
-        if !self.holds(offset) {
+        if !self.places.holds(offset) {
             return f64::INFINITY;
         }
-        f64::from(self.places[self.index(offset)].risk[heading % AXES])
+        f64::from(self.judged[self.places.index(offset)].risk[heading % AXES])
     }
 
     /// As [`PlaceMap::risk`], but known ground this near to a robot that stands unsafe costs much instead of
@@ -378,7 +258,7 @@ impl PlaceMap {
     pub(crate) fn escape_risk(&self, offset: IVec2, heading: usize, from: IVec2) -> f64 {
         let risk = self.risk(offset, heading);
         let near = (offset - from).length_squared() <= ESCAPE_STEPS * ESCAPE_STEPS;
-        if risk.is_infinite() && near && self.holds(offset) && self.plane(offset).is_some() {
+        if risk.is_infinite() && near && self.places.holds(offset) && self.plane(offset).is_some() {
             return ESCAPE_RISK;
         }
         risk
@@ -386,10 +266,9 @@ impl PlaceMap {
 
     /// Whether a place borders on ground that is neither seen nor bridged, or on the border of the lattice.
     pub(crate) fn is_frontier(&self, offset: IVec2) -> bool {
-        let inner = self.half - 2;
-        offset.length_squared() > inner * inner
-            || around(offset).filter(|&place| self.holds(place)).any(|place| {
-                let place = &self.places[self.index(place)];
+        self.places.is_within_of_border(offset, HORIZON)
+            || around(offset).filter(|&place| self.places.holds(place)).any(|place| {
+                let place = &self.judged[self.places.index(place)];
                 place.plane.is_none() && !place.is_blocked
             })
     }
@@ -413,10 +292,6 @@ fn between(from: &Plane, to: &Plane, direction: DVec2, length_m: f64, t: f64) ->
         gradient: direction * along + direction.perp() * across,
         gradient_deviation: GAP_DEVIATION_PER_M * length_m.min(GAP_M),
     }
-}
-
-fn around(cell: IVec2) -> impl Iterator<Item = IVec2> {
-    (-1..=1).flat_map(move |y| (-1..=1).map(move |x| cell + IVec2::new(x, y)))
 }
 
 #[cfg(test)]

@@ -4,13 +4,11 @@
 use glam::{DVec2, IVec2};
 
 use crate::config::StateLatticeConfig;
-use crate::math::elementary::floor;
 use crate::pose::FrameChange;
 use crate::robot_model::RobotModel;
-use crate::terrain::elevation_window::TerrainQuery;
-use crate::terrain::headings::{DIRECTIONS, HEADINGS, STEPS, passed};
+use crate::terrain::headings::{DIRECTIONS, STEPS, passed};
+use crate::terrain::place_lattice::{AXES, PlaceLattice, around};
 use crate::terrain::plane::Plane;
-use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 
 /// Caution of a search.
@@ -27,11 +25,11 @@ pub(crate) enum Caution {
 struct Place {
     plane: Option<Plane>,
     /// (slope / limit)² for each axis of travel, the worse of roll and pitch; infinite if that is not safe.
-    risk: [f32; HEADINGS / 2],
+    risk: [f32; AXES],
     is_at_cliff: bool,
 }
 
-const UNKNOWN: Place = Place { plane: None, risk: [f32::INFINITY; HEADINGS / 2], is_at_cliff: false };
+const UNKNOWN: Place = Place { plane: None, risk: [f32::INFINITY; AXES], is_at_cliff: false };
 
 /// Places around the robot, on a lattice that is fixed in the world.
 #[derive(Clone, Debug)]
@@ -42,12 +40,9 @@ pub(crate) struct TraversabilityMap {
     limits: Slopes,
     allowed: Slopes,
     most: Slopes,
-    half: i32,
-    centre: IVec2,
-    places: Vec<Place>,
-    /// The ground at each place of the world's lattice.
-    planes: RollingGrid<Known>,
-    looks: i32,
+    /// The places, and the ground at each.
+    pub(crate) places: PlaceLattice,
+    judged: Vec<Place>,
     /// Places with a penalty, some of them with inflated variance around, the newest last.
     marked: Vec<Marked>,
 }
@@ -83,38 +78,18 @@ const GUESS_DEVIATION: f64 = 0.15;
 /// Standard deviation of a slope between wheels with averaged returns under them.
 const WHEELS_DEVIATION: f64 = 0.05;
 
-/// The last query's result at a place of the world's lattice.
-#[derive(Clone, Copy, Debug)]
-struct Known {
-    plane: Option<Plane>,
-    /// Footprint slopes, for each axis of travel.
-    footprint_slopes: [Option<Slopes>; HEADINGS / 2],
-    /// Whether the place is a negative obstacle.
-    is_negative_obstacle: bool,
-    /// Whether the body would touch something upright.
-    touches_upright: bool,
-}
-
-/// A place is queried again after this many scans: the ground is static, and the robot drives about a step
-/// meanwhile.
-const LOOKS: i32 = 4;
-
 impl TraversabilityMap {
     /// A map of the places within `radius_m`.
     pub(crate) fn new(config: StateLatticeConfig, limits: &RobotModel, radius_m: f64) -> Self {
-        let half = (radius_m / config.step_m).ceil() as i32 + 1;
-        let side = (2 * half + 1) as usize;
+        let places = PlaceLattice::new(&config, radius_m);
         Self {
             config,
             tilt_limits: *limits,
             limits: Slopes::of_limits(limits, 0.0),
             allowed: Slopes::of_limits(limits, config.tilt_margin_rad),
             most: Slopes::of_limits(limits, config.recovery_margin_rad),
-            half,
-            centre: IVec2::ZERO,
-            places: vec![UNKNOWN; side * side],
-            planes: RollingGrid::new(side),
-            looks: 0,
+            judged: vec![UNKNOWN; places.count()],
+            places,
             marked: Vec::with_capacity(MOST_MARKED),
         }
     }
@@ -126,30 +101,15 @@ impl TraversabilityMap {
 
     /// Moves the penalties from one world frame to another; the ground is queried again.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
-        self.planes.clear();
+        self.places.query_again();
         for marked in &mut self.marked {
             marked.place_m = change.place_m(marked.place_m);
         }
     }
 
-    /// Forgets the ground within `radius_m` of a place; it is queried again.
-    pub(crate) fn forget_near(&mut self, place_m: DVec2, radius_m: f64) {
-        let index = |place_m: DVec2| {
-            let cells = place_m / self.config.step_m;
-            IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5))
-        };
-        let (low, high) = (index(place_m - radius_m), index(place_m + radius_m));
-        for y in low.y..=high.y {
-            for x in low.x..=high.x {
-                self.planes.remove(IVec2::new(x, y));
-            }
-        }
-    }
-
     /// Forgets the ground.
     pub(crate) fn clear(&mut self) {
-        self.planes.clear();
-        self.looks = 0;
+        self.places.clear();
         self.marked.clear();
     }
 
@@ -196,49 +156,15 @@ impl TraversabilityMap {
         inflated.map(here).sum::<f64>().min(MOST_INFLATION)
     }
 
-    /// Queries the ground around the robot.
-    pub(crate) fn look(&mut self, ground: &dyn TerrainQuery, here_m: DVec2) {
-        let cells = here_m / self.config.step_m;
-        self.centre = IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5));
-        self.looks = (self.looks + 1) % LOOKS;
-        let (half, reach) = (self.half, self.half * self.half);
-        for y in -half..=half {
-            for x in -half..=half {
-                let offset = IVec2::new(x, y);
-                if offset.length_squared() > reach {
-                    continue;
-                }
-                let world = self.centre + offset;
-                let due = (world.x + 2 * world.y).rem_euclid(LOOKS) == self.looks;
-                let before = self.planes.get(world);
-                if due || before.is_none() {
-                    let was_negative_obstacle = before.is_some_and(|known| known.is_negative_obstacle);
-                    let place_m = self.position_m(offset);
-                    let plane = ground.plane_at(place_m);
-                    let footprint_slopes = plane.map_or([None; HEADINGS / 2], |plane| {
-                        DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
-                    });
-                    let is_negative_obstacle = self.config.avoids_negative_obstacles
-                        && footprint_slopes.iter().any(Option::is_none)
-                        && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
-                    let touches_upright = ground.touches_upright(place_m);
-                    self.planes
-                        .set(world, Known { plane, footprint_slopes, is_negative_obstacle, touches_upright });
-                }
-            }
-        }
-    }
-
     /// Computes the risks of all places, for a robot at `here_m`.
     pub(crate) fn judge(&mut self, here_m: DVec2, caution: Caution) {
-        for index in 0..self.places.len() {
-            let offset = self.offset(index);
-            let known = self.planes.get(self.centre + offset).copied();
-            let is_at_cliff =
-                self.config.avoids_negative_obstacles && self.is_beside_negative_obstacle(offset);
-            self.places[index] = match known.and_then(|known| Some((known.plane?, known.footprint_slopes))) {
+        for index in 0..self.judged.len() {
+            let offset = self.places.offset(index);
+            let known = self.places.known(offset).copied();
+            let is_at_cliff = self.places.is_at_cliff(offset);
+            self.judged[index] = match known.and_then(|known| Some((known.plane?, known.footprint_slopes))) {
                 Some((plane, footprint_slopes)) => {
-                    let place_m = self.position_m(offset);
+                    let place_m = self.places.position_m(offset);
                     let away_m = (place_m - here_m).length();
                     let penalty = match caution {
                         Caution::Usual => self.penalty_risk(place_m),
@@ -256,21 +182,14 @@ impl TraversabilityMap {
         }
     }
 
-    /// Whether a place or one beside it is a negative obstacle: the body is wider than the wheels, and
-    /// follows a path to within half a step.
-    fn is_beside_negative_obstacle(&self, offset: IVec2) -> bool {
-        around(self.centre + offset)
-            .any(|world| self.planes.get(world).is_some_and(|known| known.is_negative_obstacle))
-    }
-
     fn risk_of(
         &self,
         plane: &Plane,
-        footprint_slopes: &[Option<Slopes>; HEADINGS / 2],
+        footprint_slopes: &[Option<Slopes>; AXES],
         caution: Caution,
         away_m: f64,
         deviations: f64,
-    ) -> [f32; HEADINGS / 2] {
+    ) -> [f32; AXES] {
         core::array::from_fn(|axis| {
             let (slopes, deviation) = match footprint_slopes[axis] {
                 Some(slopes) => (slopes, WHEELS_DEVIATION),
@@ -310,78 +229,41 @@ impl TraversabilityMap {
         &self.most
     }
 
-    /// Number of places.
-    pub(crate) fn count(&self) -> usize {
-        self.places.len()
-    }
-
-    fn side(&self) -> i32 {
-        2 * self.half + 1
-    }
-
-    /// Index of the place at an offset from the centre, which lies on the lattice.
-    pub(crate) fn index(&self, offset: IVec2) -> usize {
-        ((offset.y + self.half) * self.side() + offset.x + self.half) as usize
-    }
-
-    /// Offset of the place with an index.
-    pub(crate) fn offset(&self, index: usize) -> IVec2 {
-        let index = index as i32;
-        IVec2::new(index % self.side() - self.half, index / self.side() - self.half)
-    }
-
-    /// Whether an offset lies on the lattice.
-    pub(crate) fn holds(&self, offset: IVec2) -> bool {
-        offset.x.abs() <= self.half && offset.y.abs() <= self.half
-    }
-
-    /// Offset of the place nearest to a point; `None` off the lattice.
-    pub(crate) fn nearest(&self, point_m: DVec2) -> Option<IVec2> {
-        let cells = point_m / self.config.step_m;
-        let offset = IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5)) - self.centre;
-        self.holds(offset).then_some(offset)
-    }
-
     /// Whether a place borders on unseen ground: at the border of the lattice, or beside a place without a
     /// plane.
     pub(crate) fn is_frontier(&self, offset: IVec2) -> bool {
-        let inner = self.half - HORIZON;
-        offset.length_squared() > inner * inner || around(offset).any(|place| self.plane(place).is_none())
-    }
-
-    /// Position of a place in the world, seen from above.
-    pub(crate) fn position_m(&self, offset: IVec2) -> DVec2 {
-        (self.centre + offset).as_dvec2() * self.config.step_m
+        self.places.is_within_of_border(offset, HORIZON)
+            || around(offset).any(|place| self.plane(place).is_none())
     }
 
     /// The ground at a place, if it is known.
     pub(crate) fn plane(&self, offset: IVec2) -> Option<&Plane> {
-        self.places[self.index(offset)].plane.as_ref()
+        self.judged[self.places.index(offset)].plane.as_ref()
     }
 
     /// Whether a place is unknown at a heading: unseen, or unsafe only by extrapolation. Places beside a
     /// negative obstacle are known.
     pub(crate) fn is_hidden(&self, offset: IVec2, heading: usize) -> bool {
-        let place = &self.places[self.index(offset)];
+        let place = &self.judged[self.places.index(offset)];
         !place.is_at_cliff
             && place.plane.is_none_or(|plane| {
                 plane.gradient_deviation > GUESS_DEVIATION
                     && self
-                        .planes
-                        .get(self.centre + offset)
-                        .is_none_or(|known| known.footprint_slopes[heading % (HEADINGS / 2)].is_none())
+                        .places
+                        .known(offset)
+                        .is_none_or(|known| known.footprint_slopes[heading % (AXES)].is_none())
                     && self.risk(offset, heading).is_infinite()
             })
     }
 
     /// Whether a place or one beside it is a negative obstacle.
     pub(crate) fn is_at_cliff(&self, offset: IVec2) -> bool {
-        self.places[self.index(offset)].is_at_cliff
+        self.judged[self.places.index(offset)].is_at_cliff
     }
 
     /// The risk at a place with a heading; infinite if that is not safe.
     pub(crate) fn risk(&self, offset: IVec2, heading: usize) -> f64 {
-        f64::from(self.places[self.index(offset)].risk[heading % (HEADINGS / 2)])
+        f64::from(self.judged[self.places.index(offset)].risk[heading % (AXES)])
     }
 
     /// The place one step along a heading, or against it, and the mean risk of the step; `None` if that is
@@ -389,7 +271,7 @@ impl TraversabilityMap {
     pub(crate) fn drive(&self, from: IVec2, heading: usize, forward: bool) -> Option<(IVec2, f64)> {
         let step = if forward { STEPS[heading] } else { -STEPS[heading] };
         let to = from + step;
-        if !self.holds(to) {
+        if !self.places.holds(to) {
             return None;
         }
         let mut risk = self.risk(to, heading);
@@ -414,7 +296,7 @@ impl TraversabilityMap {
         let steps = (gap_m / (step.as_dvec2().length() * self.config.step_m)) as i32;
         for k in 1..=steps {
             let to = from + step * k;
-            if !self.holds(to) {
+            if !self.places.holds(to) {
                 return None;
             }
             if !self.is_hidden(to, heading) {
@@ -423,9 +305,4 @@ impl TraversabilityMap {
         }
         None
     }
-}
-
-/// A cell and those beside it.
-fn around(cell: IVec2) -> impl Iterator<Item = IVec2> {
-    (-1..=1).flat_map(move |y| (-1..=1).map(move |x| cell + IVec2::new(x, y)))
 }

@@ -25,7 +25,7 @@ impl StateLattice {
             let place = reached.state as usize / HEADINGS;
             let cost_mm = ((left_m - least_m) * MILLIMETRES) as u32;
             for heading in 0..HEADINGS {
-                if self.traversability.risk(self.traversability.offset(place), heading).is_finite() {
+                if self.traversability.risk(self.traversability.places.offset(place), heading).is_finite() {
                     self.relax_backward(place * HEADINGS + heading, cost_mm);
                 }
             }
@@ -49,15 +49,18 @@ impl StateLattice {
 
     /// Every reached place, by its cheapest state and its position.
     pub(crate) fn reached(&self) -> impl Iterator<Item = (ReachedState, DVec2)> {
-        (0..self.traversability.count()).filter_map(|place| {
-            Some((self.cheapest(place)?, self.traversability.position_m(self.traversability.offset(place))))
+        (0..self.traversability.places.count()).filter_map(|place| {
+            Some((
+                self.cheapest(place)?,
+                self.traversability.places.position_m(self.traversability.places.offset(place)),
+            ))
         })
     }
 
     /// The reached places that border on unseen ground.
     pub(crate) fn frontier(&self) -> impl Iterator<Item = (ReachedState, DVec2)> {
         self.reached().filter(|&(reached, position_m)| {
-            let offset = self.traversability.offset(reached.state as usize / HEADINGS);
+            let offset = self.traversability.places.offset(reached.state as usize / HEADINGS);
             (position_m - self.here_m).length() > NEAR_M && self.traversability.is_frontier(offset)
         })
     }

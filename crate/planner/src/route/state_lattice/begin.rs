@@ -65,8 +65,8 @@ impl StateLattice {
 
     /// Starts at the place nearest to the robot, if that is too near to drive to.
     fn begin_here(&mut self, index: i32, first: &First, cost_m: f64) {
-        let Some(offset) = self.traversability.nearest(self.here_m) else { return };
-        let away_m = (self.traversability.position_m(offset) - self.here_m).length();
+        let Some(offset) = self.traversability.places.nearest(self.here_m) else { return };
+        let away_m = (self.traversability.places.position_m(offset) - self.here_m).length();
         let heading = nearest(first.facing);
         if away_m < FIRST_STEP_M && self.traversability.risk(offset, heading).is_finite() {
             self.begin_with(offset, heading, index, cost_m + away_m);
@@ -75,7 +75,7 @@ impl StateLattice {
 
     /// Reaches a state as the first of a path, in the robot's own place after turning to direction `index`.
     fn begin_with(&mut self, offset: IVec2, heading: usize, index: i32, cost_m: f64) {
-        let state = self.traversability.index(offset) * HEADINGS + heading;
+        let state = self.traversability.places.index(offset) * HEADINGS + heading;
         let from = BEGIN + index.rem_euclid(FIRST_DIRECTIONS as i32) as u32;
         self.reach(state, from, (cost_m * MILLIMETRES) as u32);
     }
@@ -90,7 +90,9 @@ impl StateLattice {
         let steps = (self.config.blind_radius_m / self.config.step_m) as usize;
         for step in 1..=steps {
             let along_m = self.config.step_m * step as f64;
-            let Some(offset) = self.traversability.nearest(self.here_m + travel * along_m) else { return };
+            let Some(offset) = self.traversability.places.nearest(self.here_m + travel * along_m) else {
+                return;
+            };
             if self.traversability.is_at_cliff(offset) {
                 return;
             }
@@ -121,7 +123,7 @@ impl StateLattice {
     /// Starts straight to a place, at no less than `passed_risk`; false if that is not safe.
     fn begin_at(&mut self, offset: IVec2, index: i32, first: &First, cost_m: f64, passed_risk: f64) -> bool {
         let Some(plane) = self.traversability.plane(offset) else { return false };
-        let path = self.traversability.position_m(offset) - self.here_m;
+        let path = self.traversability.places.position_m(offset) - self.here_m;
         let distance_m = path.length();
         if distance_m < FIRST_STEP_M {
             return true;

@@ -16,13 +16,13 @@ impl StateLattice {
     pub(super) fn cross_gap(&self, from: IVec2, heading: usize, prices: &Prices) -> Option<(IVec2, f64)> {
         let to = self.traversability.beyond_gap(from, heading, GAP_M)?;
         let (begin, end) = (self.traversability.plane(from)?, self.traversability.plane(to)?);
-        let path = self.traversability.position_m(to) - self.traversability.position_m(from);
+        let path = self.traversability.places.position_m(to) - self.traversability.places.position_m(from);
         let distance_m = path.length();
         let start = Station { distance_m: 0.0, height_m: begin.height_m, gradient: begin.gradient };
         let end = Station { distance_m, height_m: end.height_m, gradient: end.gradient };
         let uncertain = GAP_DEVIATION_PER_M
             * distance_m
-            * self.traversability.deviations_at(self.traversability.position_m(to));
+            * self.traversability.deviations_at(self.traversability.places.position_m(to));
         let risk = self.risk_between(&start, &end, path / distance_m, uncertain);
         let climb_m = (end.height_m - start.height_m).abs();
         let price_m = GAP_PRICE * distance_m * (1.0 + prices.tilt * risk);

@@ -23,7 +23,7 @@ pub(crate) fn length_m(path: &[PathPoint]) -> f64 {
 impl StateLattice {
     /// The cheapest path to the place nearest to a point; `None` if there is none.
     pub(crate) fn to(&self, point_m: DVec2) -> Option<ReachedState> {
-        self.cheapest(self.traversability.index(self.traversability.nearest(point_m)?))
+        self.cheapest(self.traversability.places.index(self.traversability.places.nearest(point_m)?))
     }
 
     /// The cheapest path to a place; `None` if there is none.
@@ -57,6 +57,7 @@ impl StateLattice {
         }
         let known = self
             .traversability
+            .places
             .nearest(at(last + 1))
             .is_some_and(|place| self.traversability.plane(place).is_some());
         let end = if known { ReachEnd::Tilt } else { ReachEnd::Unseen };
@@ -77,7 +78,7 @@ impl StateLattice {
             let from = self.came_from[state as usize];
             let turned = from < BEGIN && from as usize / HEADINGS == place;
             if !turned {
-                let offset = self.traversability.offset(place);
+                let offset = self.traversability.places.offset(place);
                 risk_sum += self.traversability.risk(offset, heading);
                 count += 1.0;
                 if let Some(plane) = self.traversability.plane(offset) {
@@ -88,9 +89,11 @@ impl StateLattice {
                 let height_m = |state: u32| self.height_m(ReachedState { state });
                 let last_height_m = if from < BEGIN { height_m(from) } else { self.attitude.height_m };
                 climb_m += (height_m(state) - last_height_m).abs();
-                let position_m = self.traversability.position_m(offset);
+                let position_m = self.traversability.places.position_m(offset);
                 let last_m = if from < BEGIN {
-                    self.traversability.position_m(self.traversability.offset(from as usize / HEADINGS))
+                    self.traversability
+                        .places
+                        .position_m(self.traversability.places.offset(from as usize / HEADINGS))
                 } else {
                     self.here_m
                 };
@@ -123,7 +126,7 @@ impl StateLattice {
 
     /// Height of the ground at a reached place.
     pub(crate) fn height_m(&self, reached: ReachedState) -> f64 {
-        let offset = self.traversability.offset(reached.state as usize / HEADINGS);
+        let offset = self.traversability.places.offset(reached.state as usize / HEADINGS);
         self.traversability.plane(offset).map_or(self.attitude.height_m, |plane| plane.height_m)
     }
 
@@ -153,7 +156,7 @@ impl StateLattice {
         let mut height_m = self.attitude.height_m;
         for k in 1..=count as usize {
             let share = k as f64 / count;
-            let at = self.traversability.nearest(self.here_m + path * share);
+            let at = self.traversability.places.nearest(self.here_m + path * share);
             if let Some(plane) = at.and_then(|at| self.traversability.plane(at)) {
                 climb_m += (plane.height_m - height_m).abs();
                 height_m = plane.height_m;
@@ -190,7 +193,7 @@ impl StateLattice {
                 if (at_m - self.here_m).length() > AHEAD_M {
                     return share;
                 }
-                let place = self.traversability.nearest(at_m);
+                let place = self.traversability.places.nearest(at_m);
                 let risk =
                     place.map_or(f64::INFINITY, |place| self.traversability.risk(place, nearest(path_m)));
                 share = share.max(if risk.is_finite() { risk.sqrt() } else { BLIND_UTILISATION });

@@ -1,0 +1,186 @@
+//! The places around the robot, on a lattice that is fixed in the world, and the ground queried at each.
+
+use glam::{DVec2, IVec2};
+
+use crate::config::StateLatticeConfig;
+use crate::math::elementary::floor;
+use crate::terrain::elevation_window::TerrainQuery;
+use crate::terrain::headings::{DIRECTIONS, HEADINGS};
+use crate::terrain::plane::Plane;
+use crate::terrain::rolling_grid::RollingGrid;
+use crate::terrain::slopes::Slopes;
+
+/// Axes of travel: a robot on its wheels tilts alike in both directions.
+pub(crate) const AXES: usize = HEADINGS / 2;
+/// A place is queried again after this many scans: the ground is static, and the robot drives about a step
+/// meanwhile.
+const LOOKS: i32 = 4;
+
+/// The last query's result at a place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Known {
+    pub(crate) plane: Option<Plane>,
+    /// Footprint slopes, for each axis of travel.
+    pub(crate) footprint_slopes: [Option<Slopes>; AXES],
+    /// Whether the place is a negative obstacle.
+    pub(crate) is_negative_obstacle: bool,
+    /// Whether the body would touch something upright.
+    pub(crate) touches_upright: bool,
+}
+
+/// Places by their offset from the one nearest to the robot.
+#[derive(Clone, Debug)]
+pub(crate) struct PlaceLattice {
+    step_m: f64,
+    avoids_negative_obstacles: bool,
+    half: i32,
+    centre: IVec2,
+    known: RollingGrid<Known>,
+    looks: i32,
+}
+
+impl PlaceLattice {
+    /// The places within `radius_m`; none is known yet.
+    pub(crate) fn new(config: &StateLatticeConfig, radius_m: f64) -> Self {
+        let half = (radius_m / config.step_m).ceil() as i32 + 1;
+        Self {
+            step_m: config.step_m,
+            avoids_negative_obstacles: config.avoids_negative_obstacles,
+            half,
+            centre: IVec2::ZERO,
+            known: RollingGrid::new((2 * half + 1) as usize),
+            looks: 0,
+        }
+    }
+
+    /// Forgets the ground.
+    pub(crate) fn clear(&mut self) {
+        self.known.clear();
+        self.looks = 0;
+    }
+
+    /// Has the ground queried again everywhere; the order of the queries goes on.
+    pub(crate) fn query_again(&mut self) {
+        self.known.clear();
+    }
+
+    /// Forgets the ground within `radius_m` of a place; it is queried again.
+    pub(crate) fn forget_near(&mut self, place_m: DVec2, radius_m: f64) {
+        let (low, high) = (self.world_index(place_m - radius_m), self.world_index(place_m + radius_m));
+        for y in low.y..=high.y {
+            for x in low.x..=high.x {
+                self.known.remove(IVec2::new(x, y));
+            }
+        }
+    }
+
+    /// Moves the lattice to the robot, and queries the ground around it.
+    pub(crate) fn look(&mut self, ground: &dyn TerrainQuery, here_m: DVec2) {
+        self.centre = self.world_index(here_m);
+        self.looks = (self.looks + 1) % LOOKS;
+        for y in -self.half..=self.half {
+            for x in -self.half..=self.half {
+                let offset = IVec2::new(x, y);
+                if offset.length_squared() > self.half * self.half {
+                    continue;
+                }
+                let world = self.centre + offset;
+                let due = (world.x + 2 * world.y).rem_euclid(LOOKS) == self.looks;
+                let before = self.known.get(world);
+                if due || before.is_none() {
+                    let was_negative_obstacle = before.is_some_and(|known| known.is_negative_obstacle);
+                    let known = self.query(ground, self.position_m(offset), here_m, was_negative_obstacle);
+                    self.known.set(world, known);
+                }
+            }
+        }
+    }
+
+    fn query(
+        &self,
+        ground: &dyn TerrainQuery,
+        place_m: DVec2,
+        here_m: DVec2,
+        was_negative_obstacle: bool,
+    ) -> Known {
+        let plane = ground.plane_at(place_m);
+        let footprint_slopes = plane.map_or([None; AXES], |plane| {
+            DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
+        });
+        let is_negative_obstacle = self.avoids_negative_obstacles
+            && footprint_slopes.iter().any(Option::is_none)
+            && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
+        let touches_upright = ground.touches_upright(place_m);
+        Known { plane, footprint_slopes, is_negative_obstacle, touches_upright }
+    }
+
+    /// What the last query found at a place.
+    pub(crate) fn known(&self, offset: IVec2) -> Option<&Known> {
+        self.known.get(self.centre + offset)
+    }
+
+    /// Whether the robot keeps away from a place because it, or one beside it, is a negative obstacle: the
+    /// body is wider than the wheels, and follows a path to within half a step.
+    pub(crate) fn is_at_cliff(&self, offset: IVec2) -> bool {
+        self.avoids_negative_obstacles
+            && around(offset).any(|place| self.known(place).is_some_and(|known| known.is_negative_obstacle))
+    }
+
+    /// Number of places.
+    pub(crate) fn count(&self) -> usize {
+        (self.side() * self.side()) as usize
+    }
+
+    fn side(&self) -> i32 {
+        2 * self.half + 1
+    }
+
+    /// Index of the place at an offset from the centre, which lies on the lattice.
+    pub(crate) fn index(&self, offset: IVec2) -> usize {
+        ((offset.y + self.half) * self.side() + offset.x + self.half) as usize
+    }
+
+    /// Offset of the place with an index.
+    pub(crate) fn offset(&self, index: usize) -> IVec2 {
+        let index = index as i32;
+        IVec2::new(index % self.side() - self.half, index / self.side() - self.half)
+    }
+
+    /// Whether an offset lies on the lattice.
+    pub(crate) fn holds(&self, offset: IVec2) -> bool {
+        offset.x.abs() <= self.half && offset.y.abs() <= self.half
+    }
+
+    /// Whether a place is this near to the border of the lattice, in steps.
+    pub(crate) fn is_within_of_border(&self, offset: IVec2, steps: i32) -> bool {
+        let inner = self.half - steps;
+        offset.length_squared() > inner * inner
+    }
+
+    /// Offset of the place nearest to a point; `None` off the lattice.
+    pub(crate) fn nearest(&self, point_m: DVec2) -> Option<IVec2> {
+        let offset = self.world_index(point_m) - self.centre;
+        self.holds(offset).then_some(offset)
+    }
+
+    /// Position of a place in the world, seen from above.
+    pub(crate) fn position_m(&self, offset: IVec2) -> DVec2 {
+        (self.centre + offset).as_dvec2() * self.step_m
+    }
+
+    /// A point in steps from the centre.
+    pub(crate) fn steps_from_centre(&self, point_m: DVec2) -> DVec2 {
+        point_m / self.step_m - self.centre.as_dvec2()
+    }
+
+    /// Index of the place nearest to a point on the whole world's lattice.
+    pub(crate) fn world_index(&self, point_m: DVec2) -> IVec2 {
+        let cells = point_m / self.step_m;
+        IVec2::new(floor(cells.x + 0.5), floor(cells.y + 0.5))
+    }
+}
+
+/// A cell and those beside it.
+pub(crate) fn around(cell: IVec2) -> impl Iterator<Item = IVec2> {
+    (-1..=1).flat_map(move |y| (-1..=1).map(move |x| cell + IVec2::new(x, y)))
+}
