@@ -7,6 +7,7 @@ import {
   download,
   drag,
   driveTo,
+  elsewhere,
   expect,
   fits,
   kept,
@@ -194,7 +195,7 @@ test('a link, the next visit and files keep them', async ({ mapless: page, brows
   expect(own?.objects).toHaveLength(2);
   expect(await kept(page)).toEqual(own);
   const link = await page.evaluate(() => window.mapless?.link());
-  const other = await (await browser.newContext(baseURL ? { baseURL } : {})).newPage();
+  const other = await elsewhere(browser, baseURL);
   await other.goto(link ?? '');
   await loaded(other);
   expect(await ownOf(other)).toEqual(own);

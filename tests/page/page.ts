@@ -1,7 +1,7 @@
 /** What the page's tests share: opening it, and what is under the 3D view's pixels. */
 
 import { readFileSync } from 'node:fs';
-import { test as base, expect, type Locator, type Page } from '@playwright/test';
+import { type Browser, test as base, expect, type Locator, type Page } from '@playwright/test';
 import type { MaplessApi, MaplessState } from '../../web/src/app/windowApi.ts';
 import type { Experiment } from '../../web/src/experiment/experiment.ts';
 
@@ -91,6 +91,20 @@ export async function driveTo(page: Asked, tick: number): Promise<void> {
   await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
   await until(page, (now) => now.tick >= tick || now.outcome !== 'running');
   await still(page);
+}
+
+/** Drives on to the end at the highest speed; how the run ended. */
+export async function runToEnd(page: Asked) {
+  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+  await page.evaluate(() => window.mapless?.play());
+  await until(page, (now) => now.outcome !== 'running');
+  const { outcome, tick, digest } = await state(page);
+  return { outcome, ticks: tick, digest };
+}
+
+/** A page of somebody else: with a memory of its own. */
+export async function elsewhere(browser: Browser, baseURL: string | undefined): Promise<Page> {
+  return (await browser.newContext(baseURL ? { baseURL } : {})).newPage();
 }
 
 /** A short course, at tick 0. */

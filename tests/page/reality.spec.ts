@@ -8,6 +8,7 @@ import { unzipSync } from 'fflate';
 import { driven } from './commandLine.ts';
 import {
   download,
+  elsewhere,
   expect,
   fits,
   kept,
@@ -16,6 +17,7 @@ import {
   openLab,
   ownOf,
   press,
+  runToEnd,
   shortCourse,
   state,
   still,
@@ -31,14 +33,6 @@ const card = (page: Page) =>
   page.locator('.parameter-group', { has: page.locator('> summary h3', { hasText: /^Reality$/ }) });
 const said = (page: Page) => card(page).locator('> summary .parameter-count');
 const believed = (page: Page) => page.locator('#view-key li', { hasText: 'believed' });
-
-async function runToEnd(page: Page) {
-  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
-  await page.evaluate(() => window.mapless?.play());
-  await until(page, (now) => now.outcome !== 'running');
-  const { outcome, tick, digest } = await state(page);
-  return { outcome, ticks: tick, digest };
-}
 
 test('with a mouse: presets, one effect by itself, back again, and undo', async ({ mapless: page }) => {
   const { scenario, seed } = await state(page);
@@ -191,7 +185,7 @@ test('a link, the next visit and files keep it, and the command line drives the 
   const own = await ownOf(page);
   expect(await kept(page)).toEqual(own);
   const link = await page.evaluate(() => window.mapless?.link());
-  const other = await (await browser.newContext(baseURL ? { baseURL } : {})).newPage();
+  const other = await elsewhere(browser, baseURL);
   await other.goto(link ?? '');
   await loaded(other);
   expect(await ownOf(other)).toEqual(own);

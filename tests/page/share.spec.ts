@@ -5,7 +5,7 @@ import { deflateRawSync } from 'node:zlib';
 import { type Page, test as plain } from '@playwright/test';
 import { unzipSync } from 'fflate';
 import { driven, said } from './commandLine.ts';
-import { expect, kept, loaded, state, test, until } from './page.ts';
+import { elsewhere, expect, kept, loaded, runToEnd, state, test, until } from './page.ts';
 
 /** A boulder and a rough patch ahead of the start of `ht`, another goal with a heading behind a waypoint, and another parameter. */
 async function shape(page: Page): Promise<void> {
@@ -22,14 +22,6 @@ async function shape(page: Page): Promise<void> {
     await mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } });
     await mapless?.restart();
   });
-}
-
-async function runToEnd(page: Page) {
-  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
-  await page.evaluate(() => window.mapless?.play());
-  await until(page, (now) => now.outcome !== 'running');
-  const { outcome, tick, digest } = await state(page);
-  return { outcome, ticks: tick, digest };
 }
 
 test('a link drives the same run in another profile, and so does the command line', async ({
@@ -52,7 +44,7 @@ test('a link drives the same run in another profile, and so does the command lin
   const { outcome, ticks, digest } = driven(join(folder, 'scenario.toml'));
   expect({ outcome, ticks, digest }).toEqual(run);
 
-  const other = await (await browser.newContext(baseURL ? { baseURL } : {})).newPage();
+  const other = await elsewhere(browser, baseURL);
   await other.goto(link);
   await loaded(other);
   expect(await runToEnd(other)).toEqual(run);

@@ -6,6 +6,7 @@ import {
   download,
   drag,
   driveTo,
+  elsewhere,
   expect,
   file,
   fits,
@@ -189,7 +190,7 @@ test('a copied link shows the same experiment on another phone', async ({ maples
   await press(button(page, 'Copy link'));
   await expect(page.locator('#share-state')).toHaveText('Copied.');
   const link = await page.evaluate(() => navigator.clipboard.readText());
-  const other = await (await browser.newContext(baseURL ? { baseURL } : {})).newPage();
+  const other = await elsewhere(browser, baseURL);
   await other.goto(link);
   await loaded(other);
   expect(await other.evaluate(() => innerWidth)).toBe(390);
