@@ -283,6 +283,7 @@ impl Planner {
             profile: &self.profile,
             segments: &self.segments,
             elapsed,
+            last_command: self.command,
             terrain: overrides.terrain,
         };
         match self.policy.get_mut().decide(&situation, &mut self.controller, &mut self.plan) {

@@ -118,6 +118,19 @@ fn a_planner_that_gave_up_goes_on_once_the_world_has_changed() {
 }
 
 #[test]
+fn an_optimised_drive_begins_anew_from_a_stop() {
+    let [.., mut planner] = every_policy();
+    let seen = scan(level);
+    for _ in 0..10 {
+        step(&mut planner, &seen, &START, AHEAD);
+    }
+    assert!(planner.last_step().command.linear_m_s > 0.5);
+    assert_eq!(step(&mut planner, &[], &START, AHEAD).command, Command::STOP);
+    let begun = step(&mut planner, &seen, &START, AHEAD).command;
+    assert!(begun.linear_m_s > 0.0 && begun.linear_m_s < 0.1, "{begun:?}");
+}
+
+#[test]
 fn a_goal_in_sight_is_driven_to_and_arrived_at() {
     for mut planner in every_policy() {
         let points = scan(level);

@@ -2,7 +2,8 @@
 //! and the cost-to-go at its end.
 //!
 //! A trajectory is a speed and two turn rates, one early and one at the end of the horizon, with a straight
-//! line through time between them. A deterministic pattern search finds the best.
+//! line through time between them. A deterministic pattern search finds the best. Beside it stands the one
+//! that follows the path of the cost-to-go from place to place.
 
 use core::f64::consts::TAU;
 
@@ -51,6 +52,13 @@ pub(crate) struct Limits {
 pub(crate) struct PlanPose {
     pub(crate) position_m: DVec2,
     pub(crate) yaw_rad: f64,
+}
+
+/// Where a trajectory begins, and the last command, from which it accelerates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start {
+    pub(crate) pose: PlanPose,
+    pub(crate) command: Command,
 }
 
 /// What a trajectory meets at a pose.
@@ -104,24 +112,23 @@ enum Law<'a> {
 pub(crate) struct TrajectoryOptimiser {
     limits: Limits,
     last: Plan,
-    command: Command,
 }
 
 impl TrajectoryOptimiser {
     pub(crate) fn new(limits: Limits) -> Self {
-        Self { limits, last: STAND, command: Command::STOP }
+        Self { limits, last: STAND }
     }
 
     pub(crate) fn reset(&mut self) {
         self.last = STAND;
-        self.command = Command::STOP;
     }
 
-    /// The command that begins the best trajectory; `None` if there is none but to stand.
+    /// The command that begins the best trajectory from a pose and the last command; `None` if there is none.
+    /// Writes the trajectory to `path`.
     pub(crate) fn drive(
         &mut self,
         course: &impl Course,
-        from: PlanPose,
+        from: Start,
         path: &mut Vec<PlanPose>,
     ) -> Option<Command> {
         let Limits { speed_m_s, reverse_m_s, turn_rate_rad_s, .. } = self.limits;
@@ -172,7 +179,6 @@ impl TrajectoryOptimiser {
             return None;
         }
         self.last = best.0;
-        self.command = command;
         Some(command)
     }
 
@@ -194,21 +200,21 @@ impl TrajectoryOptimiser {
     fn roll_out(
         &self,
         course: &impl Course,
-        from: PlanPose,
+        from: Start,
         law: Law<'_>,
         mut path: Option<&mut Vec<PlanPose>>,
     ) -> (f64, Command) {
         let limits = &self.limits;
-        let (mut speed, mut turn) = (self.command.linear_m_s, self.command.angular_rad_s);
-        let mut pose = from;
+        let Start { mut pose, command: last } = from;
+        let (mut speed, mut turn) = (last.linear_m_s, last.angular_rad_s);
         let mut cost = 0.0;
-        let mut first = self.command;
+        let mut first = last;
         let mut met = course.met(&pose).unwrap_or(Met { risk: 1.0, utilisation: 1.0 });
         let mut way = course.path().peekable();
         for step in 0..STEPS {
             let time_s = STEP_S * (step + 1) as f64;
             let (wanted_speed, wanted) = match law {
-                Law::Plan(plan) => (plan.speed_m_s, plan.turn_rate_rad_s(time_s, self.command.angular_rad_s)),
+                Law::Plan(plan) => (plan.speed_m_s, plan.turn_rate_rad_s(time_s, last.angular_rad_s)),
                 Law::Follow => {
                     while way.next_if(|(point_m, _)| point_m.distance(pose.position_m) < PASSED_M).is_some() {
                     }
@@ -273,7 +279,8 @@ mod tests {
         regulate_from: 0.3,
         least_share: 0.2,
     };
-    const FROM: PlanPose = PlanPose { position_m: DVec2::ZERO, yaw_rad: 0.0 };
+    const FROM: Start =
+        Start { pose: PlanPose { position_m: DVec2::ZERO, yaw_rad: 0.0 }, command: Command::STOP };
 
     /// Level ground with a target, and a half plane where the robot must not be.
     struct Level {
@@ -301,12 +308,12 @@ mod tests {
     /// Drives for some seconds; the poses and commands.
     fn drive(course: &Level, seconds: f64) -> Vec<(PlanPose, Command)> {
         let mut optimiser = TrajectoryOptimiser::new(LIMITS);
-        let (mut pose, mut path) = (FROM, Vec::new());
+        let (mut start, mut path) = (FROM, Vec::new());
         (0..(seconds / STEP_S) as usize)
             .map_while(|_| {
-                let command = optimiser.drive(course, pose, &mut path)?;
-                pose = path[0];
-                Some((pose, command))
+                let command = optimiser.drive(course, start, &mut path)?;
+                start = Start { pose: path[0], command };
+                Some((start.pose, command))
             })
             .collect()
     }

@@ -24,6 +24,8 @@ pub(crate) struct Situation<'a> {
     pub(crate) segments: &'a [Segment],
     /// Time since the last step.
     pub(crate) elapsed: Duration,
+    /// The command of the last step.
+    pub(crate) last_command: Command,
     /// Replaces the policy's own knowledge of the terrain.
     pub(crate) terrain: Option<TerrainOverride<'a>>,
 }

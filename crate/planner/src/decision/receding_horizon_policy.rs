@@ -15,7 +15,7 @@ use glam::{DVec2, IVec2};
 
 use crate::config::PlannerConfig;
 use crate::control::controller::Controller;
-use crate::control::trajectory_optimiser::{Course, Limits, Met, PlanPose, TrajectoryOptimiser};
+use crate::control::trajectory_optimiser::{Course, Limits, Met, PlanPose, Start, TrajectoryOptimiser};
 use crate::decision::observation::take_up;
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::subgoals::{Cost, Subgoal, bearing_rad};
@@ -232,7 +232,7 @@ impl SubgoalPolicy for RecedingHorizonPolicy {
     }
 
     fn decide(&mut self, situation: &Situation<'_>, _: &mut Controller, plan: &mut Plan) -> Motion {
-        let Situation { pose, goal_m, goal_tolerance_m, elapsed, terrain, .. } = *situation;
+        let Situation { pose, goal_m, goal_tolerance_m, elapsed, last_command, terrain, .. } = *situation;
         let here_m = pose.plan_m();
         self.attitude.be_at(pose, elapsed);
         let own = Plane {
@@ -264,7 +264,8 @@ impl SubgoalPolicy for RecedingHorizonPolicy {
             Some(told) => told,
             None => &self.window,
         };
-        let from = PlanPose { position_m: here_m, yaw_rad: pose.yaw_rad };
+        let here = PlanPose { position_m: here_m, yaw_rad: pose.yaw_rad };
+        let from = Start { pose: here, command: last_command };
         let unsafe_share = (self.map.risk_at(ground, here_m, pose.yaw_rad).unsafe_share + 0.02).max(0.5);
         let course = SeenCourse { map: &self.map, value: &self.value, ground, way: &self.way, unsafe_share };
         let Some(command) = self.optimiser.drive(&course, from, &mut self.trajectory) else {
