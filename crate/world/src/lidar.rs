@@ -231,8 +231,7 @@ impl Lidar {
         scan.ranges_m.reserve(beams);
         scan.points.reserve(beams);
         let scan_key = random::key(seed, tick);
-        let near = NearSolids::new(scene.solids, &fired_from(1.0), reach_m);
-        let mut in_plane = Vec::new();
+        let mut near = NearSolids::new(scene.solids, &fired_from(1.0), reach_m);
         for (column, &(sin_azimuth, cos_azimuth)) in self.azimuths.iter().enumerate() {
             if self.is_blocked(sin_azimuth, cos_azimuth) {
                 scan.ranges_m.resize((column + 1) * self.elevations.len(), f32::NAN);
@@ -240,10 +239,9 @@ impl Lidar {
             }
             let pose = fired_from((column + 1) as f64 / self.azimuths.len() as f64);
             let mut fan = Fan::new(scene.caster, &pose, sin_azimuth, cos_azimuth);
-            near.in_plane(&pose, &fan, &mut in_plane);
+            near.turn_to(&pose, &fan);
             for &(sin_elevation, cos_elevation) in &self.elevations {
-                let solid_m =
-                    NearSolids::cast(&in_plane, &pose, fan.direction(sin_elevation, cos_elevation), reach_m);
+                let solid_m = near.cast(&pose, &fan, sin_elevation, cos_elevation, reach_m);
                 let ground_m = fan.cast(sin_elevation, cos_elevation, solid_m.unwrap_or(reach_m));
                 let true_range_m = ground_m.or(solid_m);
                 let beam_key = random::key(scan_key, scan.ranges_m.len() as u64);

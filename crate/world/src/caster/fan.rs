@@ -53,6 +53,11 @@ impl<'a> Fan<'a> {
         self.up.cross(self.ahead)
     }
 
+    /// Unit vector up in the fan's plane.
+    pub(crate) fn up(&self) -> DVec3 {
+        self.up
+    }
+
     /// Unit vector of the beam at the elevation with this sine and cosine.
     pub(crate) fn direction(&self, sin_elevation: f64, cos_elevation: f64) -> DVec3 {
         self.ahead * cos_elevation + self.up * sin_elevation
