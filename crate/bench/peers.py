@@ -93,8 +93,41 @@ class Bound:
         }
 
 
+def cuboid(solid):
+    """Vertices and faces of a turned box."""
+    sin, cos = solid["sin_cos_yaw"]
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * solid["half_m"]
+    turned = np.stack([corners[:, 0] * cos - corners[:, 1] * sin, corners[:, 0] * sin + corners[:, 1] * cos, corners[:, 2]], 1)
+    faces = [[0, 1, 3], [0, 3, 2], [4, 7, 5], [4, 6, 7], [0, 5, 1], [0, 4, 5], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+    return turned, np.array(faces)
+
+
+def rings(profile, around):
+    """Vertices and faces about the z axis through a profile of (radius, z)."""
+    turns = np.arange(around) * (2 * np.pi / around)
+    vertices = np.concatenate([np.stack([r * np.cos(turns), r * np.sin(turns), np.full(around, z)], 1) for r, z in profile])
+    index = np.arange(len(profile) * around).reshape(len(profile), around)
+    below, above = index[:-1].ravel(), index[1:].ravel()
+    beside_below, beside_above = np.roll(index, -1, 1)[:-1].ravel(), np.roll(index, -1, 1)[1:].ravel()
+    faces = np.concatenate([np.stack([below, beside_below, beside_above], 1), np.stack([below, beside_above, above], 1)])
+    return vertices, faces
+
+
+def mesh_of(solid):
+    """Vertices in the world and faces of a solid; round ones are within a millimetre."""
+    if solid["shape"] == "cuboid":
+        vertices, faces = cuboid(solid)
+    elif solid["shape"] == "cylinder":
+        radius_m, half_m = solid["radius_m"], solid["half_height_m"]
+        vertices, faces = rings([(0, -half_m), (radius_m, -half_m), (radius_m, half_m), (0, half_m)], 64)
+    else:
+        polar = np.linspace(0, np.pi, 49)
+        vertices, faces = rings([(solid["radius_m"] * np.sin(a), -solid["radius_m"] * np.cos(a)) for a in polar], 96)
+    return vertices + solid["centre_m"], faces
+
+
 class Scanning:
-    """Embree's first hits on the field, each cell two triangles."""
+    """Embree's first hits on the field, each cell two triangles, and on what stands there."""
 
     def __init__(self, inputs, folder, name):
         samples, cell_m = inputs["samples"], inputs["cell_m"]
@@ -108,7 +141,13 @@ class Scanning:
         )
         faces = np.concatenate([np.stack([sw, se, nw], 1), np.stack([se, ne, nw], 1)]).astype(np.int32)
         self.scene = EmbreeScene()
-        self.mesh = TriangleMesh(self.scene, vertices, faces)
+        self.meshes = [TriangleMesh(self.scene, vertices, faces)]
+        solids = [mesh_of(solid) for solid in inputs["solids"].get(name, [])]
+        if solids:
+            firsts = np.cumsum([0] + [len(vertices) for vertices, _ in solids])
+            vertices = np.concatenate([vertices for vertices, _ in solids]).astype(np.float32)
+            faces = np.concatenate([faces + first for (_, faces), first in zip(solids, firsts)]).astype(np.int32)
+            self.meshes.append(TriangleMesh(self.scene, vertices, faces))
         self.directions = np.fromfile(folder / "directions.f32", "<f4").reshape(-1, 3)
         sensor = np.array([inputs["sensors_m"][name]], np.float32)
         self.origins = np.tile(sensor, (len(self.directions), 1))

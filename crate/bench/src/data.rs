@@ -8,7 +8,7 @@ use mapless::gp::hyperparameters::Hyperparameters;
 use mapless::skyline::beam_grid::BeamGrid;
 use mapless::skyline::columns::{COLUMNS, column_azimuth_rad, column_of};
 use mapless::skyline::occupancy::OccupancySurface;
-use mapless_world::{Caster, HeightField, SensorConfig, SensorPose, random};
+use mapless_world::{Caster, HeightField, Object, Objects, SensorConfig, SensorPose, random};
 
 use crate::BenchError;
 
@@ -50,6 +50,14 @@ pub(crate) fn beam(azimuth_rad: f64, elevation_rad: f64) -> DVec3 {
     let (sin_azimuth, cos_azimuth) = libm::sincos(azimuth_rad);
     let (sin, cos) = libm::sincos(elevation_rad);
     DVec3::new(cos * cos_azimuth, cos * sin_azimuth, sin)
+}
+
+/// Unit vectors of the beams of an upright sensor that faces east, in the order of a scan's ranges.
+pub(crate) fn directions(sensor: &SensorConfig) -> impl Iterator<Item = DVec3> {
+    (0..sensor.columns).flat_map(move |column| {
+        let azimuth = column as f64 * (TAU / sensor.columns as f64) - PI;
+        (0..sensor.rings).map(move |ring| beam(azimuth, sensor.ring_elevation_rad(ring)))
+    })
 }
 
 /// Slightly undulating level ground with a rise ahead: five whole rings within 7 m and 23 columns of the
@@ -136,6 +144,43 @@ pub(crate) fn rugged_field(samples: usize) -> Result<HeightField, BenchError> {
 /// Level ground of `samples` × `samples` heights.
 pub(crate) fn level_field(samples: usize) -> Result<HeightField, BenchError> {
     Ok(HeightField::new(samples, samples, CELL_M, vec![0.0; samples * samples])?)
+}
+
+/// Unit vector of an azimuth.
+fn from_angle(azimuth_rad: f64) -> DVec2 {
+    let (sin, cos) = libm::sincos(azimuth_rad);
+    DVec2::new(cos, sin)
+}
+
+/// Objects on the ground.
+const OBJECTS: u64 = 100;
+/// They stand so far from the sensor, metres: out of its own place, and where a robot meets them.
+const OBJECTS_FROM_M: [f64; 2] = [2.5, 30.0];
+
+/// A hundred posts, boxes, rocks, walls and gates about the sensor, in turn.
+pub(crate) fn objects(caster: &Caster) -> Objects {
+    let middle = sensor_pose(caster).position.truncate();
+    let object = |index: u64| {
+        let share = |purpose| random::uniform(random::key(index, purpose));
+        let [near, far] = OBJECTS_FROM_M.map(|from_m| from_m * from_m);
+        // As many on every square metre.
+        let away = from_angle(TAU * share(0));
+        let place = middle + away * (near + share(1) * (far - near)).sqrt();
+        let (at, yaw_rad, size) = (place.to_array(), TAU * share(2), 0.5 + share(3));
+        match index % 5 {
+            0 => Object::Post { at, radius_m: 0.2 * size, height_m: 2.0 * size, walk: None },
+            1 => {
+                Object::Box { at, size_m: [size, 0.7 * size, 0.6 * size], yaw_rad, raised_m: 0.0, walk: None }
+            }
+            2 => Object::Rock { at, radius_m: 0.4 * size, sunk_m: 0.1 * size },
+            3 => {
+                let to = (place + 3.0 * size * away.perp()).to_array();
+                Object::Wall { from: at, to, height_m: size, thickness_m: 0.2 }
+            }
+            _ => Object::Gate { at, yaw_rad, width_m: 1.2 * size, height_m: 1.2 * size },
+        }
+    };
+    Objects::new((0..OBJECTS).map(object).collect(), caster.field())
 }
 
 /// An upright sensor near the middle of the terrain, facing east.

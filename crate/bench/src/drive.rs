@@ -1,7 +1,7 @@
 //! The closed loop on the repository's scenarios.
 
 use mapless_tests::scenarios_text::{Bundled, SCENARIOS};
-use mapless_trials::{Outcome, Trial};
+use mapless_trials::{Outcome, RealityPreset, Trial};
 
 use crate::BenchError;
 use crate::work::{Values, Work};
@@ -16,8 +16,8 @@ fn scenario(name: &str) -> Result<&'static Bundled, BenchError> {
     found.ok_or_else(|| BenchError::Scenario(format!("{name:?}: expected one of terrains/scenarios")))
 }
 
-fn start(scenario: &Bundled) -> Result<Trial, BenchError> {
-    scenario.trial().map_err(BenchError::Scenario)
+fn start(scenario: &Bundled, reality: RealityPreset) -> Result<Trial, BenchError> {
+    scenario.trial_in(reality).map_err(BenchError::Scenario)
 }
 
 /// The planner's steps along the first seconds of drives over every terrain; the simulated world is not
@@ -32,7 +32,7 @@ pub(crate) struct Drive {
 
 impl Drive {
     pub(crate) fn new() -> Result<Self, BenchError> {
-        let starts = DRIVES.into_iter().map(|name| start(scenario(name)?));
+        let starts = DRIVES.into_iter().map(|name| start(scenario(name)?, RealityPreset::Ideal));
         let starts = starts.collect::<Result<Vec<_>, BenchError>>()?;
         Ok(Self { trials: starts.clone(), starts, ticks: 0, returns: 0, most_cells: 0 })
     }
@@ -76,19 +76,20 @@ impl Work for Drive {
 /// loading its terrain.
 pub(crate) struct WholeTrial {
     scenario: &'static Bundled,
+    reality: RealityPreset,
     trial: Trial,
 }
 
 impl WholeTrial {
-    pub(crate) fn new(name: &str) -> Result<Self, BenchError> {
+    pub(crate) fn new(name: &str, reality: RealityPreset) -> Result<Self, BenchError> {
         let scenario = scenario(name)?;
-        Ok(Self { scenario, trial: start(scenario)? })
+        Ok(Self { scenario, reality, trial: start(scenario, reality)? })
     }
 }
 
 impl Work for WholeTrial {
     fn prepare(&mut self) -> Result<(), BenchError> {
-        self.trial = start(self.scenario)?;
+        self.trial = start(self.scenario, self.reality)?;
         Ok(())
     }
 

@@ -5,12 +5,12 @@ use std::path::Path;
 
 use glam::DVec2;
 use mapless::gp::hyperparameters::Hyperparameters;
-use mapless_world::{Caster, SensorConfig};
+use mapless_world::{Caster, SensorConfig, Shape, Solid};
 
 use crate::BenchError;
 use crate::data::{
-    CELL_M, farthest_points, hyperparameters, level_field, level_scan, queries, regression, rugged_field,
-    sensor_pose,
+    CELL_M, directions, farthest_points, hyperparameters, level_field, level_scan, objects, queries,
+    regression, rugged_field, sensor_pose,
 };
 
 /// Numbers of inducing inputs that the peers use.
@@ -34,6 +34,32 @@ struct Inputs {
     max_range_m: f64,
     /// Position of the sensor on each field, by name of the benchmark.
     sensors_m: BTreeMap<String, [f64; 3]>,
+    /// What stands on each field.
+    solids: BTreeMap<String, Vec<PeerSolid>>,
+}
+
+/// A solid, with its centre in the world; metres and radians.
+#[derive(serde::Serialize)]
+#[serde(tag = "shape", rename_all = "snake_case")]
+enum PeerSolid {
+    Cuboid { centre_m: [f64; 3], half_m: [f64; 3], sin_cos_yaw: (f64, f64) },
+    Cylinder { centre_m: [f64; 3], radius_m: f64, half_height_m: f64 },
+    Ball { centre_m: [f64; 3], radius_m: f64 },
+}
+
+impl PeerSolid {
+    fn of(solid: &Solid) -> Self {
+        let centre_m = solid.centre_m.to_array();
+        match solid.shape {
+            Shape::Cuboid { half_m, sin_cos_yaw } => {
+                Self::Cuboid { centre_m, half_m: half_m.to_array(), sin_cos_yaw }
+            }
+            Shape::Cylinder { radius_m, half_height_m } => {
+                Self::Cylinder { centre_m, radius_m, half_height_m }
+            }
+            Shape::Ball { radius_m } => Self::Ball { centre_m, radius_m },
+        }
+    }
 }
 
 /// Writes `inputs.json`, and as little-endian single precision the directions of the beams, `directions.f32`,
@@ -46,13 +72,23 @@ pub fn write_inputs(folder: &Path) -> Result<(), BenchError> {
     let arrays = |points: &[DVec2]| points.iter().map(DVec2::to_array).collect::<Vec<_>>();
     let inducing = INDUCING.map(|count| (count, arrays(&farthest_points(&inputs, count))));
     let mut sensors_m = BTreeMap::new();
-    for (name, field) in [("scan-rugged", rugged_field(SAMPLES)?), ("scan-level", level_field(SAMPLES)?)] {
+    let mut solids = BTreeMap::new();
+    for (name, field) in [
+        ("scan-rugged", rugged_field(SAMPLES)?),
+        ("scan-level", level_field(SAMPLES)?),
+        ("scan-objects", rugged_field(SAMPLES)?),
+    ] {
         let name = format!("{name}-{SAMPLES}");
         write_f32(folder, &name, field.heights_m())?;
-        sensors_m.insert(name, sensor_pose(&Caster::new(field)).position.to_array());
+        let caster = Caster::new(field);
+        sensors_m.insert(name.clone(), sensor_pose(&caster).position.to_array());
+        if name.starts_with("scan-objects") {
+            solids.insert(name, objects(&caster).solids().iter().map(PeerSolid::of).collect());
+        }
     }
     let sensor = SensorConfig::default();
-    write_f32(folder, "directions", &directions(&sensor))?;
+    let beams: Vec<f32> = directions(&sensor).flat_map(|beam| beam.as_vec3().to_array()).collect();
+    write_f32(folder, "directions", &beams)?;
     let inputs = Inputs {
         hyperparameters: hyperparameters(),
         inputs: arrays(&inputs),
@@ -63,21 +99,10 @@ pub fn write_inputs(folder: &Path) -> Result<(), BenchError> {
         cell_m: CELL_M,
         max_range_m: sensor.max_range_m,
         sensors_m,
+        solids,
     };
     let text = serde_json::to_string(&inputs).unwrap_or_default();
     write(folder, "inputs.json", text.as_bytes())
-}
-
-/// Unit vectors of the beams of an upright sensor that faces east, in the order of a scan's ranges.
-fn directions(sensor: &SensorConfig) -> Vec<f32> {
-    let mut numbers = Vec::with_capacity(3 * sensor.rings * sensor.columns);
-    for column in 0..sensor.columns {
-        let azimuth = column as f64 * (std::f64::consts::TAU / sensor.columns as f64) - std::f64::consts::PI;
-        for ring in 0..sensor.rings {
-            numbers.extend(crate::data::beam(azimuth, sensor.ring_elevation_rad(ring)).as_vec3().to_array());
-        }
-    }
-    numbers
 }
 
 fn write_f32(folder: &Path, name: &str, numbers: &[f32]) -> Result<(), BenchError> {

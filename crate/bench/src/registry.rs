@@ -1,5 +1,7 @@
 //! The benchmarks by name.
 
+use mapless_trials::RealityPreset;
+
 use crate::BenchError;
 use crate::drive::{Drive, WholeTrial};
 use crate::gaussian::{Bound, Posterior};
@@ -21,10 +23,16 @@ pub(crate) fn make(name: &str) -> Result<Box<dyn Work>, BenchError> {
         ("drive", "") => Box::new(Drive::new()?),
         ("scan-rugged", samples) => Box::new(Scanning::rugged(number(samples)?)?),
         ("scan-level", samples) => Box::new(Scanning::level(number(samples)?)?),
+        ("scan-objects", samples) => Box::new(Scanning::rugged(number(samples)?)?.among_objects()),
+        ("scan-near", samples) => Box::new(Scanning::rugged(number(samples)?)?.as_far_as_needed()?),
+        ("scan-near-objects", samples) => {
+            Box::new(Scanning::rugged(number(samples)?)?.among_objects().as_far_as_needed()?)
+        }
         ("peak", "") => Box::new(Peak),
-        _ => match name.strip_prefix("trial-") {
-            Some(scenario) => Box::new(WholeTrial::new(scenario)?),
-            None => return Err(unknown()),
+        _ => match (name.strip_prefix("trial-"), name.strip_prefix("field-trial-")) {
+            (Some(scenario), _) => Box::new(WholeTrial::new(scenario, RealityPreset::Ideal)?),
+            (_, Some(scenario)) => Box::new(WholeTrial::new(scenario, RealityPreset::Field)?),
+            _ => return Err(unknown()),
         },
     })
 }

@@ -5,11 +5,28 @@ use core::time::Duration;
 use glam::{DVec2, DVec3, Vec3};
 use mapless::Pose;
 use mapless::{Goal, Planner, PlannerConfig, Status};
-use mapless_world::{Caster, HeightField, Lidar, Scan, SensorConfig, SensorPose};
+use mapless_world::{
+    Caster, HeightField, Lidar, Objects, Scan, Scene, SensorConfig, SensorPose, Shape, Solid,
+};
 
 use crate::BenchError;
-use crate::data::{full_scan, level_field, level_scan, rugged_field, sensor_pose};
+use crate::data::{directions, full_scan, level_field, level_scan, objects, rugged_field, sensor_pose};
 use crate::work::{Values, Work};
+
+/// What single precision and triangles in place of round shapes may change, metres.
+const PRECISION_M: f64 = 1e-3;
+
+/// A solid larger by `growth_m` on every side.
+fn grown(solid: &Solid, growth_m: f64) -> Solid {
+    let shape = match solid.shape {
+        Shape::Cuboid { half_m, sin_cos_yaw } => Shape::Cuboid { half_m: half_m + growth_m, sin_cos_yaw },
+        Shape::Cylinder { radius_m, half_height_m } => {
+            Shape::Cylinder { radius_m: radius_m + growth_m, half_height_m: half_height_m + growth_m }
+        }
+        Shape::Ball { radius_m } => Shape::Ball { radius_m: radius_m + growth_m },
+    };
+    Solid { shape, ..*solid }
+}
 
 /// The sensor without noise, with this many columns.
 fn exact_sensor(columns: usize) -> Result<Lidar, BenchError> {
@@ -19,8 +36,10 @@ fn exact_sensor(columns: usize) -> Result<Lidar, BenchError> {
 /// One revolution of 28 800 beams.
 pub(crate) struct Scanning {
     caster: Caster,
+    objects: Objects,
     sensor: Lidar,
     pose: SensorPose,
+    sight_m: f64,
     scan: Scan,
 }
 
@@ -28,7 +47,14 @@ impl Scanning {
     fn over(field: HeightField) -> Result<Self, BenchError> {
         let caster = Caster::new(field);
         let pose = sensor_pose(&caster);
-        Ok(Self { caster, pose, sensor: exact_sensor(1800)?, scan: Scan::default() })
+        Ok(Self {
+            caster,
+            objects: Objects::default(),
+            sensor: exact_sensor(1800)?,
+            pose,
+            sight_m: f64::INFINITY,
+            scan: Scan::default(),
+        })
     }
 
     /// On hills of `samples` × `samples` heights.
@@ -41,12 +67,32 @@ impl Scanning {
         Self::over(level_field(samples)?)
     }
 
-    /// The ranges as seen from `rise_m` higher.
-    fn ranges_m(&self, rise_m: f64) -> Vec<f64> {
+    /// With a hundred objects.
+    pub(crate) fn among_objects(mut self) -> Self {
+        self.objects = objects(&self.caster);
+        self
+    }
+
+    /// Only as far as the planner looks, as in a trial.
+    pub(crate) fn as_far_as_needed(mut self) -> Result<Self, BenchError> {
+        self.sight_m = Planner::new(PlannerConfig::default())?.sight_m();
+        Ok(self)
+    }
+
+    /// Ranges to the bare ground as seen from `rise_m` higher, or to the solids larger by `growth_m` on every
+    /// side, whichever is nearer.
+    fn ranges_m(&self, rise_m: f64, growth_m: f64) -> Vec<f64> {
         let pose = SensorPose { position: self.pose.position + DVec3::Z * rise_m, ..self.pose };
         let mut scan = Scan::default();
         self.sensor.scan(&self.caster, &pose, 0, 0, &mut scan);
-        scan.ranges_m.into_iter().map(f64::from).collect()
+        let solids: Vec<Solid> = self.objects.solids().iter().map(|solid| grown(solid, growth_m)).collect();
+        let config = self.sensor.config();
+        let directions = directions(config);
+        let nearer = |(ground_m, direction): (f32, DVec3)| {
+            let hit = |solid: &Solid| solid.cast(self.pose.position, direction, config.max_range_m);
+            solids.iter().filter_map(hit).fold(f64::from(ground_m), f64::min)
+        };
+        scan.ranges_m.into_iter().zip(directions).map(nearer).collect()
     }
 
     /// The largest height difference between a cell's bilinear patch and two triangles on the same corners: a
@@ -68,18 +114,20 @@ impl Scanning {
 
 impl Work for Scanning {
     fn run(&mut self) -> Result<(), BenchError> {
-        self.sensor.scan(&self.caster, &self.pose, 0, 0, &mut self.scan);
+        let scene = Scene { caster: &self.caster, solids: self.objects.solids() };
+        self.sensor.scan_within(self.sight_m, &scene, &self.pose, 0, 0, &mut self.scan);
         Ok(())
     }
 
     /// The ranges, and bounds on them for triangulated ground: the ranges from a sensor lower and higher by
-    /// the largest height difference, with a millimetre for single precision.
+    /// the largest height difference, with a millimetre for single precision; and to solids a millimetre
+    /// larger and smaller, for round ones made of triangles.
     fn values(&mut self) -> Values {
-        let slack_m = self.triangle_difference_m() + 1e-3;
+        let slack_m = self.triangle_difference_m() + PRECISION_M;
         Values::from([
-            ("range_m", self.ranges_m(0.0)),
-            ("nearest_m", self.ranges_m(-slack_m)),
-            ("farthest_m", self.ranges_m(slack_m)),
+            ("range_m", self.scan.ranges_m.iter().copied().map(f64::from).collect()),
+            ("nearest_m", self.ranges_m(-slack_m, PRECISION_M)),
+            ("farthest_m", self.ranges_m(slack_m, -PRECISION_M)),
         ])
     }
 }

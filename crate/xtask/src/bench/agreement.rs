@@ -6,7 +6,7 @@ use super::runner::{Side, Values};
 
 /// Largest difference of gpflow's results from ours, relative to the largest of them.
 const TOLERANCE: f64 = 1e-6;
-/// Largest difference of the median of Embree's ranges from ours, metres: the roughness of the hills, which
+/// Largest difference of the median of a peer's ranges from ours, metres: the roughness of the hills, which
 /// differs in every cell.
 const RANGE_TOLERANCE_M: f64 = 0.01;
 
@@ -32,7 +32,10 @@ pub(crate) fn check(work: &str, sides: &[Side], values: &[Values]) -> anyhow::Re
     let mut agreements = Vec::new();
     for (side, values) in sides.iter().zip(values).skip(1) {
         match side {
-            Side::Peer if work.starts_with("scan") => agreements.extend(ranges(work, native, values)?),
+            Side::Peer if work.starts_with("scan") => {
+                agreements.extend(ranges(work, "Embree", native, values)?);
+            }
+            Side::Jolt => agreements.extend(ranges(work, "Jolt", native, values)?),
             Side::Peer => {
                 let names: &[&str] = match work.split_once('-') {
                     Some(("bound", _)) => &["bound", "log_gradient", "inducing_gradient"],
@@ -75,7 +78,7 @@ fn relative(ours: &[Option<f64>], theirs: &[Option<f64>]) -> anyhow::Result<f64>
 
 /// Beams whose range on the triangles lies outside the allowed difference of the surfaces, and the median
 /// difference of ranges.
-fn ranges(work: &str, ours: &Values, theirs: &Values) -> anyhow::Result<[Agreement; 2]> {
+fn ranges(work: &str, peer: &str, ours: &Values, theirs: &Values) -> anyhow::Result<[Agreement; 2]> {
     let [range, nearest, farthest] = ["range_m", "nearest_m", "farthest_m"].map(|name| ours.get(name));
     let (range, nearest, farthest, theirs) = (range?, nearest?, farthest?, theirs.get("range_m")?);
     ensure!(range.len() == theirs.len(), "{} beams against {}", range.len(), theirs.len());
@@ -91,12 +94,12 @@ fn ranges(work: &str, ours: &Values, theirs: &Values) -> anyhow::Result<[Agreeme
     let median = differences.get(differences.len() / 2).context("no beam returns")?;
     Ok([
         Agreement {
-            what: format!("{work}: beams of {} outside the bounds, Embree", theirs.len()),
+            what: format!("{work}: beams of {} outside the bounds, {peer}", theirs.len()),
             difference: outside as f64,
             allowed: 0.0,
         },
         Agreement {
-            what: format!("{work}: median difference of ranges, m, Embree"),
+            what: format!("{work}: median difference of ranges, m, {peer}"),
             difference: *median,
             allowed: RANGE_TOLERANCE_M,
         },

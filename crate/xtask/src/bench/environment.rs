@@ -10,6 +10,7 @@ use crate::browser::Browser;
 use crate::{python, setup};
 
 const REQUIREMENTS: &str = "crate/bench/requirements.txt";
+const JOLT: [&str; 2] = ["crate/bench/jolt/package.json", "crate/bench/jolt/package-lock.json"];
 
 /// Paths of the programs.
 pub(crate) struct Environment {
@@ -35,8 +36,26 @@ pub(crate) fn set_up(sh: &Shell) -> anyhow::Result<Environment> {
     cmd!(sh, "{wasm_bindgen} --target web --out-dir {folder} {built}").run()?;
     // Node reads the module as an ES module only with this file.
     sh.write_file(folder.join("package.json"), "{\"type\": \"module\"}\n")?;
+    jolt(sh, &folder.join("jolt"))?;
     let native = target.join("release/mapless-bench").with_extension(std::env::consts::EXE_EXTENSION);
     Ok(Environment { folder, native, python, chrome: browser.chrome })
+}
+
+/// Installs the peer that is an npm package into a folder of its own, unless this very one is there.
+fn jolt(sh: &Shell, folder: &Path) -> anyhow::Result<()> {
+    sh.create_dir(folder)?;
+    let lock = sh.read_file(JOLT[1])?;
+    let installed = folder.join("node_modules/.installed-package-lock.json");
+    if sh.read_file(&installed).is_ok_and(|installed| installed == lock) {
+        return Ok(());
+    }
+    for file in JOLT {
+        sh.copy_file(file, folder)?;
+    }
+    let npm = setup::NPM;
+    cmd!(sh, "{npm} ci --no-audit --no-fund --prefix {folder}").run()?;
+    sh.write_file(&installed, lock)?;
+    Ok(())
 }
 
 /// Installs the peers into a Python environment of their own; returns its Python.
@@ -58,7 +77,7 @@ fn runs_tensorflow(version: (u32, u32)) -> bool {
 }
 
 impl Environment {
-    /// Starts the four programs; the native one writes the inputs for the peers before it answers.
+    /// Starts the five programs; the native one writes the inputs for the peers before it answers.
     pub(crate) fn start(&self, sh: &Shell) -> anyhow::Result<Vec<Runner>> {
         let root = sh.current_dir();
         let command = |program: &std::ffi::OsStr, script: Option<&str>| {
@@ -76,22 +95,27 @@ impl Environment {
         node.arg("node").arg(&self.folder);
         let mut chromium = command("node".as_ref(), Some("crate/bench/wasm.mjs"));
         chromium.arg(&self.chrome).arg(&self.folder);
+        let mut jolt = command("node".as_ref(), Some("crate/bench/jolt/peer.mjs"));
+        jolt.arg(&self.folder);
         Ok(vec![
             native,
             Runner::start(Side::Peer, python)?,
             Runner::start(Side::Node, node)?,
             Runner::start(Side::Chromium, chromium)?,
+            Runner::start(Side::Jolt, jolt)?,
         ])
     }
 
     /// The machine and the versions of the programs, one sentence.
-    pub(crate) fn machine(&self, sh: &Shell, peers: &mut Runner) -> anyhow::Result<String> {
+    pub(crate) fn machine(&self, sh: &Shell, runners: &mut [Runner]) -> anyhow::Result<String> {
         let chrome = &self.chrome;
         let rustc = cmd!(sh, "rustc --version").quiet().read()?;
         let node = cmd!(sh, "node --version").quiet().read()?;
         let chromium = cmd!(sh, "{chrome} --version").quiet().ignore_stderr().read()?;
-        let peers: Vec<String> =
-            peers.versions()?.into_iter().map(|(name, version)| format!("{name} {version}")).collect();
+        let mut peers = Vec::new();
+        for runner in runners.iter_mut().filter(|runner| matches!(runner.side, Side::Peer | Side::Jolt)) {
+            peers.extend(runner.versions()?.into_iter().map(|(name, version)| format!("{name} {version}")));
+        }
         let threads = std::thread::available_parallelism()?;
         let short = |printed: &str, words: usize| {
             printed.split_whitespace().take(words).collect::<Vec<_>>().join(" ")

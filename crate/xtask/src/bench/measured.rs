@@ -6,7 +6,7 @@ use anyhow::{Context as _, ensure};
 
 use super::agreement::Agreement;
 use super::memory::Memory;
-use super::runner::{Side, Values};
+use super::runner::{Runner, Side, Values};
 
 /// Everything in the report.
 #[derive(Default)]
@@ -22,11 +22,46 @@ pub(crate) struct Measured {
     pub(crate) memory: Memory,
 }
 
-/// A whole trial.
+/// A whole trial, in an ideal world and in that of the preset `field`.
 pub(crate) struct Trial {
     pub(crate) scenario: &'static str,
+    pub(crate) ideal: Drive,
+    pub(crate) field: Drive,
+}
+
+/// A trial's time.
+#[derive(Clone, Copy)]
+pub(crate) struct Drive {
     pub(crate) simulated_s: f64,
+    /// The least of all drives'.
     pub(crate) computed_s: f64,
+}
+
+/// Drives of each trial; they are asked for by turns.
+const DRIVES: usize = 2;
+
+impl Trial {
+    /// Drives it in both worlds, by turns.
+    pub(crate) fn measure(native: &mut Runner, scenario: &'static str) -> anyhow::Result<Self> {
+        let works = [format!("trial-{scenario}"), format!("field-trial-{scenario}")];
+        let mut drives = [Drive { simulated_s: 0.0, computed_s: f64::INFINITY }; 2];
+        for _ in 0..DRIVES {
+            for (work, drive) in works.iter().zip(&mut drives) {
+                let computed_s = native.times(work, 1)?.iter().sum::<f64>() * 1e-3;
+                drive.computed_s = drive.computed_s.min(computed_s);
+                drive.simulated_s = native.values(work)?.number("simulated_s")?;
+            }
+        }
+        let [ideal, field] = drives;
+        Ok(Self { scenario, ideal, field })
+    }
+}
+
+impl Drive {
+    /// How many times as fast as real time.
+    pub(crate) fn speed(self) -> f64 {
+        self.simulated_s / self.computed_s
+    }
 }
 
 /// A sample of times, milliseconds.

@@ -1,6 +1,7 @@
 //! mapless against its peers and against real time, written to `docs/BENCHMARKS.md`.
 //!
-//! Four programs hold the benchmarks ready: ours natively, in Node and in Chromium, and the peers' in Python.
+//! Five programs hold the benchmarks ready: ours natively, in Node and in Chromium, and the peers' in Python
+//! and in Node.
 //! They are asked in turn, a few repetitions at a time, so that other load on the machine affects all of
 //! them.
 
@@ -22,6 +23,7 @@ const FIGURE: &str = "docs/bench.svg";
 
 const OURS: &[Side] = &[Side::Native, Side::Node, Side::Chromium];
 const ALL: &[Side] = &[Side::Native, Side::Peer, Side::Node, Side::Chromium];
+const EVERYONE: &[Side] = &[Side::Native, Side::Peer, Side::Node, Side::Chromium, Side::Jolt];
 const NATIVE: &[Side] = &[Side::Native];
 
 /// The benchmarks, each with its repetitions in a round and its sides.
@@ -29,8 +31,12 @@ const WORKS: &[(&str, usize, &[Side])] = &[
     ("posterior-200", 2, ALL),
     ("posterior-400", 1, ALL),
     ("bound-200", 2, ALL),
-    ("scan-rugged-1000", 10, ALL),
-    ("scan-level-1000", 10, ALL),
+    ("scan-rugged-1000", 10, EVERYONE),
+    ("scan-objects-1000", 10, ALL),
+    ("scan-near-1000", 10, OURS),
+    ("scan-near-objects-1000", 10, OURS),
+    ("scan-level-1000", 10, EVERYONE),
+    ("calls", 10, &[Side::Jolt]),
     ("tick-level", 10, OURS),
     ("tick-full", 10, OURS),
     ("drive", 300, OURS),
@@ -86,7 +92,7 @@ const SCENARIOS: [&str; 10] =
 pub(crate) fn run(sh: &Shell, rounds: u32) -> anyhow::Result<()> {
     let environment = environment::set_up(sh)?;
     let mut runners = environment.start(sh)?;
-    let machine = environment.machine(sh, runner(&mut runners, Side::Peer)?)?;
+    let machine = environment.machine(sh, &mut runners)?;
     let mut measured = Measured { machine, rounds, ..Measured::default() };
 
     for &(work, _, sides) in WORKS.iter().filter(|(work, ..)| *work != "drive") {
@@ -118,10 +124,8 @@ pub(crate) fn run(sh: &Shell, rounds: u32) -> anyhow::Result<()> {
 
     let native = runner(&mut runners, Side::Native)?;
     for scenario in SCENARIOS {
-        let work = format!("trial-{scenario}");
-        let computed_s: f64 = native.times(&work, 1)?.iter().sum::<f64>() * 1e-3;
-        let trial = Trial { scenario, computed_s, simulated_s: native.values(&work)?.number("simulated_s")? };
-        println!("{scenario}: {:.1} s in {:.1} s", trial.simulated_s, trial.computed_s);
+        let trial = Trial::measure(native, scenario)?;
+        println!("{scenario}: {:.1} s in {:.1} s", trial.ideal.simulated_s, trial.ideal.computed_s);
         measured.trials.push(trial);
     }
     for runner in runners {

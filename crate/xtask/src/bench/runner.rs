@@ -17,6 +17,8 @@ pub(crate) enum Side {
     Node,
     /// mapless as wasm in Chromium.
     Chromium,
+    /// Jolt as wasm in Node.
+    Jolt,
 }
 
 /// The values of a benchmark, by name; `None` for a value that does not exist.
@@ -83,7 +85,7 @@ impl Runner {
         }
     }
 
-    /// The versions of the peers.
+    /// The versions of the peers on this side.
     pub(crate) fn versions(&mut self) -> anyhow::Result<BTreeMap<String, String>> {
         match self.ask("versions all")? {
             Answer::Versions(versions) => Ok(versions),
