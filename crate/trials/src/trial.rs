@@ -367,10 +367,10 @@ impl<N: Navigator> Trial<N> {
             let sample = Sample { roll_rad, pitch_rad, ..sample_of(&self.husky) };
             self.metrics.record(sample, dt_s);
             self.digest.add(&sample, self.husky.state().yaw_rad);
-            let state = self.husky.state();
-            self.contact = self.body.contact_with(solids, state).or_else(|| {
+            let state = self.body.on_wheels(self.husky.state(), &footing);
+            self.contact = self.body.contact_with(solids, &state).or_else(|| {
                 let touches = self.husky.motion().touches_ground;
-                touches.then(|| self.body.contact_with_ground(field, &footing, state)).flatten()
+                touches.then(|| self.body.contact_with_ground(field, &footing, &state)).flatten()
             });
             if let Some(contact) = self.contact {
                 return Ok(Some(contact.kind.into()));

@@ -115,6 +115,22 @@ impl Body {
         self
     }
 
+    /// The state of a robot whose wheels are not in the ground.
+    ///
+    /// [`attitude_on`](crate::attitude_on) lays a plane through the middle of four contacts. On warped ground two
+    /// of them are above it, and a robot without suspension rests on these: it is raised until none is above.
+    #[must_use]
+    pub fn on_wheels(&self, state: &RobotState, footing: &impl Ground) -> RobotState {
+        let (origin_m, rotation) = placed(state);
+        let raised_m = self.wheels.iter().filter_map(|wheel| {
+            let below_m = origin_m + rotation * wheel.centre_m.truncate().extend(0.0);
+            Some(footing.height_m(below_m.truncate())? - below_m.z)
+        });
+        let mut raised = *state;
+        raised.attitude.height_m += raised_m.fold(0.0, f64::max);
+        raised
+    }
+
     /// Whether a solid lies clear of the body of a robot in this state.
     #[must_use]
     pub fn is_clear_of(&self, state: &RobotState, solid: &Solid) -> bool {

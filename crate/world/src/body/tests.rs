@@ -27,9 +27,9 @@ fn drive(field: &HeightField, objects: Vec<Object>) -> Option<(Contact, f64)> {
     let command = DriveCommand { speed_m_s: 0.8, turn_rate_rad_s: 0.0 };
     for _ in 0..1250 {
         husky.step(command, 0.01, &footing).unwrap();
-        let state = husky.state();
-        let contact = body.contact_with(objects.solids(), state);
-        if let Some(contact) = contact.or_else(|| body.contact_with_ground(field, &footing, state)) {
+        let state = body.on_wheels(husky.state(), &footing);
+        let contact = body.contact_with(objects.solids(), &state);
+        if let Some(contact) = contact.or_else(|| body.contact_with_ground(field, &footing, &state)) {
             return Some((contact, husky.state().position.x));
         }
     }
@@ -128,4 +128,36 @@ fn slopes_within_the_tilt_limits_touch_nothing() {
         assert_eq!(drive(&profile(|x| x * slope), Vec::new()), None, "{slope}");
         assert_eq!(drive(&profile(|x| 20.0 - x * slope), Vec::new()), None, "{slope}");
     }
+}
+
+/// A robot at (5, 10), facing east, with blocks of this height under its front left and rear right wheels and
+/// one of that height between all four.
+fn on_two_blocks(under_wheels_m: f64, between_m: f64) -> Option<Contact> {
+    let config = RobotConfig::default();
+    let body = Body::new(&config, DVec3::new(0.0, 0.0, 0.8));
+    let place_m = DVec2::new(5.0, 10.0);
+    let wheel_m = DVec2::new(config.wheelbase_m, config.track_m) / 2.0;
+    let block_m = |place: DVec2| {
+        let is_on = |at: DVec2| (place - at).abs().max_element() < 0.1;
+        let under_wheel = is_on(place_m + wheel_m) || is_on(place_m - wheel_m);
+        if under_wheel { under_wheels_m } else { f64::from(u8::from(is_on(place_m))) * between_m }
+    };
+    let heights = (0..401 * 401)
+        .map(|i| (1.0 + block_m(DVec2::new(f64::from(i % 401), f64::from(i / 401)) * CELL_M)) as f32)
+        .collect();
+    let field = HeightField::new(401, 401, CELL_M, heights).unwrap();
+    let footing = Footing { field: &field, solids: &[] };
+    let husky = Robot::new(config, &footing, place_m, 0.0).unwrap();
+    body.contact_with_ground(&field, &footing, &body.on_wheels(husky.state(), &footing))
+}
+
+#[test]
+fn a_rigid_body_on_warped_ground_stands_on_its_highest_wheels() {
+    // On two blocks of 0.1 m at opposite corners the belly is 0.23 m up; a plane through the middle of the four
+    // contacts would have it at 0.18 m.
+    assert_eq!(on_two_blocks(0.1, 0.2), None);
+    let contact = on_two_blocks(0.1, 0.24).unwrap();
+    assert_eq!((contact.kind, contact.object), (ContactKind::HighCentred, None));
+    assert_eq!(on_two_blocks(0.0, 0.12), None);
+    assert!(on_two_blocks(0.0, 0.14).is_some());
 }

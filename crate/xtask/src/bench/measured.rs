@@ -33,26 +33,19 @@ pub(crate) struct Trial {
 #[derive(Clone, Copy)]
 pub(crate) struct Drive {
     pub(crate) simulated_s: f64,
-    /// The least of all drives'.
+    /// Processor time.
     pub(crate) computed_s: f64,
 }
 
-/// Drives of each trial; they are asked for by turns.
-const DRIVES: usize = 2;
-
 impl Trial {
-    /// Drives it in both worlds, by turns.
+    /// Drives it in both worlds.
     pub(crate) fn measure(native: &mut Runner, scenario: &'static str) -> anyhow::Result<Self> {
-        let works = [format!("trial-{scenario}"), format!("field-trial-{scenario}")];
-        let mut drives = [Drive { simulated_s: 0.0, computed_s: f64::INFINITY }; 2];
-        for _ in 0..DRIVES {
-            for (work, drive) in works.iter().zip(&mut drives) {
-                let computed_s = native.times(work, 1)?.iter().sum::<f64>() * 1e-3;
-                drive.computed_s = drive.computed_s.min(computed_s);
-                drive.simulated_s = native.values(work)?.number("simulated_s")?;
-            }
-        }
-        let [ideal, field] = drives;
+        let mut drive = |work: &str| -> anyhow::Result<Drive> {
+            let computed_s = native.processor_s(work)?;
+            Ok(Drive { computed_s, simulated_s: native.values(work)?.number("simulated_s")? })
+        };
+        let ideal = drive(&format!("trial-{scenario}"))?;
+        let field = drive(&format!("field-trial-{scenario}"))?;
         Ok(Self { scenario, ideal, field })
     }
 }

@@ -206,8 +206,8 @@ fn trials(text: &mut String, measured: &Measured) -> anyhow::Result<()> {
     write!(
         text,
         "\n## Whole trials\n\nScans, planner and motion with the preset `default`, natively on one thread, in an ideal world and in that of the reality \
-         preset `field`; twice each by turns, the faster one counts. At least {TIMES_REAL_TIME} times as fast as real time in both, and `field` may take \
-         {MOST_IN_FIELD} times as long.\n\n\
+         preset `field`, once each; processor time, the making of the ground included, in which other load on the machine counts little. At least {TIMES_REAL_TIME} times as fast as \
+         real time in both, and `field` may take {MOST_IN_FIELD} times as long.\n\n\
          | scenario | simulated, s | computed, s | times real time | `field`: simulated, s | computed, s | times real time | `field` / ideal | |\n\
          |---|---:|---:|---:|---:|---:|---:|---:|---|\n"
     )?;

@@ -43,6 +43,17 @@ pub(crate) struct Runner {
     answers: BufReader<ChildStdout>,
 }
 
+/// Linux counts processor time in hundredths of a second.
+const TICKS_PER_S: f64 = 100.0;
+
+/// Processor time in the text of `/proc/PID/stat`, in ticks: user and system, the 14th and 15th field. The
+/// second is a name in parentheses, in which there may be spaces.
+fn processor_ticks(stat: &str) -> Option<u64> {
+    let (_, after) = stat.rsplit_once(") ")?;
+    let mut fields = after.split(' ').skip(11);
+    Some(fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?)
+}
+
 impl Values {
     /// The numbers called `name`.
     pub(crate) fn get(&self, name: &str) -> anyhow::Result<&[Option<f64>]> {
@@ -75,6 +86,19 @@ impl Runner {
             Answer::Ms(times) if times.len() == repetitions => Ok(times),
             other => bail!("{:?} answered {other:?} to {work} {repetitions}", self.side),
         }
+    }
+
+    /// Seconds of processor time of one run, as far as Linux reports it: other load on the machine does not
+    /// count. Elsewhere seconds on the clock.
+    pub(crate) fn processor_s(&mut self, work: &str) -> anyhow::Result<f64> {
+        let ticks = |child: &Child| {
+            let stat = std::fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
+            processor_ticks(&stat)
+        };
+        let before = ticks(&self.child);
+        let clock_s = self.times(work, 1)?.iter().sum::<f64>() * 1e-3;
+        let spent = ticks(&self.child).zip(before).map(|(after, before)| after - before);
+        Ok(spent.map_or(clock_s, |ticks| ticks as f64 / TICKS_PER_S))
     }
 
     /// The values of the last run of the benchmark.
@@ -119,6 +143,13 @@ impl Runner {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn processor_time_is_read() {
+        let stat = "42 (a (name) b) S 1 42 42 0 -1 4194304 300 0 0 0 123 45 0 0 20 0 1 0 99 1 2\n";
+        assert_eq!(processor_ticks(stat), Some(168));
+        assert_eq!(processor_ticks("42 (a) S 1"), None);
+    }
 
     #[test]
     fn answers_are_read() {
