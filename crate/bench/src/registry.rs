@@ -24,9 +24,9 @@ pub(crate) fn make(name: &str) -> Result<Box<dyn Work>, BenchError> {
         ("scan-rugged", samples) => Box::new(Scanning::rugged(number(samples)?)?),
         ("scan-level", samples) => Box::new(Scanning::level(number(samples)?)?),
         ("scan-objects", samples) => Box::new(Scanning::rugged(number(samples)?)?.among_objects()),
-        ("scan-near", samples) => Box::new(Scanning::rugged(number(samples)?)?.as_far_as_needed()?),
+        ("scan-near", samples) => Box::new(Scanning::rugged(number(samples)?)?.within_sight()?),
         ("scan-near-objects", samples) => {
-            Box::new(Scanning::rugged(number(samples)?)?.among_objects().as_far_as_needed()?)
+            Box::new(Scanning::rugged(number(samples)?)?.among_objects().within_sight()?)
         }
         ("peak", "") => Box::new(Peak),
         _ => match (name.strip_prefix("trial-"), name.strip_prefix("field-trial-")) {

@@ -74,7 +74,7 @@ impl Scanning {
     }
 
     /// Only as far as the planner looks, as in a trial.
-    pub(crate) fn as_far_as_needed(mut self) -> Result<Self, BenchError> {
+    pub(crate) fn within_sight(mut self) -> Result<Self, BenchError> {
         self.sight_m = Planner::new(PlannerConfig::default())?.sight_m();
         Ok(self)
     }

@@ -117,8 +117,9 @@ impl Body {
 
     /// The state of a robot whose wheels are not in the ground.
     ///
-    /// [`attitude_on`](crate::attitude_on) lays a plane through the middle of four contacts. On warped ground two
-    /// of them are above it, and a robot without suspension rests on these: it is raised until none is above.
+    /// [`attitude_on`](crate::attitude_on) lays a plane through the middle of four contacts. On warped ground
+    /// two of them are above it, and a robot without suspension rests on these: it is raised until none is
+    /// above.
     #[must_use]
     pub fn on_wheels(&self, state: &RobotState, footing: &impl Ground) -> RobotState {
         let (origin_m, rotation) = placed(state);

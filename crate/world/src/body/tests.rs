@@ -153,8 +153,8 @@ fn on_two_blocks(under_wheels_m: f64, between_m: f64) -> Option<Contact> {
 
 #[test]
 fn a_rigid_body_on_warped_ground_stands_on_its_highest_wheels() {
-    // On two blocks of 0.1 m at opposite corners the belly is 0.23 m up; a plane through the middle of the four
-    // contacts would have it at 0.18 m.
+    // On two blocks of 0.1 m at opposite corners the belly is 0.23 m up; a plane through the middle of the
+    // four contacts would have it at 0.18 m.
     assert_eq!(on_two_blocks(0.1, 0.2), None);
     let contact = on_two_blocks(0.1, 0.24).unwrap();
     assert_eq!((contact.kind, contact.object), (ContactKind::HighCentred, None));
