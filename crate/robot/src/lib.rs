@@ -1,0 +1,9 @@
+//! What stands between a robot's messages and the planner.
+//!
+//! - [`supervisor`]: decides tick by tick whether the robot may move, limits every command and stops with a
+//!   named reason.
+//!
+//! The crate does no input or output, reads no clock and starts no thread: messages and times are arguments.
+//! It builds natively and for wasm32-unknown-unknown.
+
+pub mod supervisor;
