@@ -5,9 +5,9 @@ use super::states::Event;
 /// What is wrong with an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Defect {
-    /// Nothing came, or only messages that were old when they came.
+    /// Nothing comes, or only what was old when it came.
     Stale,
-    /// Messages come, but stamp or content stands still.
+    /// The same message comes again and again, or the same content while the robot moves.
     Frozen,
     /// Messages come that cannot be used.
     Malformed,

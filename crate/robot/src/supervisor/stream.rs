@@ -14,8 +14,9 @@ pub(crate) struct Stream {
     limit_s: f64,
     frozen_s: f64,
     future_s: f64,
-    /// The last good message.
+    /// The last good message, and the stamp of the last that could be read.
     last: Option<Message>,
+    seen_ns: Option<i64>,
     /// When it came, or what was taken for it.
     fresh: Option<Duration>,
     /// When the content last changed, or could not tell.
@@ -37,6 +38,7 @@ impl Stream {
             frozen_s,
             future_s,
             last: None,
+            seen_ns: None,
             fresh: None,
             changed,
             is_frozen: false,
@@ -74,21 +76,20 @@ impl Stream {
         if !message.is_well_formed {
             return Err(Defect::Malformed);
         }
+        if self.seen_ns.replace(message.stamp_ns) == Some(message.stamp_ns) {
+            return Err(Defect::Frozen);
+        }
         let ahead_ns = message.stamp_ns.saturating_sub(message.clock_ns);
-        let is_new = self.last.is_none_or(|last| message.stamp_ns != last.stamp_ns);
-        if self.last.is_none() || settles && is_new {
+        let Some(last) = self.last.filter(|_| !settles) else {
             self.ahead_ns = ahead_ns;
             return Ok(());
-        }
+        };
         let jump_ns = ahead_ns.saturating_sub(self.ahead_ns);
         let jump_s = jump_ns as f64 * 1e-9;
         if jump_s > self.future_s {
             return Err(Defect::Future);
         }
-        if self.last.is_some_and(|last| message.stamp_ns <= last.stamp_ns) {
-            return Err(Defect::Frozen);
-        }
-        if -jump_s > self.limit_s {
+        if message.stamp_ns < last.stamp_ns || -jump_s > self.limit_s {
             return Err(Defect::Stale);
         }
         self.ahead_ns = self.ahead_ns.saturating_add(jump_ns / CLOCK_SHARE);
@@ -103,9 +104,9 @@ impl Stream {
         self.is_frozen.then_some(Defect::Frozen)
     }
 
-    /// Forgets when messages came: time went back.
+    /// Forgets when the last good message came: time went back. The same message again is still none.
     pub(crate) fn forget(&mut self) {
-        (self.last, self.fresh, self.is_frozen, self.defect) = (None, None, false, Defect::Stale);
+        (self.fresh, self.defect) = (None, Defect::Stale);
     }
 }
 
