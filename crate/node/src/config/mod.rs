@@ -7,10 +7,13 @@ mod yaml;
 #[cfg(test)]
 mod tests;
 
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 
+use mapless::glam::{DQuat, EulerRot};
 use mapless::{PlannerConfig, RobotModel, SensorModel};
 use mapless_parameters::{ConfigError, choices, parameters};
+use mapless_robot::estimator::EstimatorConfig;
 use mapless_robot::supervisor::SupervisorConfig;
 use ros2_client::NodeName;
 use serde::Deserialize;
@@ -60,15 +63,62 @@ choices! {
 }
 
 parameters! {
-    /// Where frames lie on the robot.
+    /// How the IMU is mounted: its axes turned from those of the robot by yaw, then pitch, then roll, as
+    /// ROS counts them (REP 103: pitch nose-down positive).
     #[derive(Copy)]
-    pub struct Mount {
-        /// Height of the odometry's child frame above the ground that the wheels stand on.
-        base_height_m: f64 = 0.165, unit "m", range [0.0, 1.0], check Within(-1.0, 3.0);
-        /// How far that frame lies forward of the point midway between the wheels.
-        base_forward_m: f64 = 0.0, unit "m", range [-1.0, 1.0], check Within(-3.0, 3.0);
-        /// Whether frames are asked of tf and compared with this file. Without, the file alone is believed.
-        check_tf: bool = true;
+    pub struct ImuMount {
+        /// Roll.
+        roll_rad: f64 = 0.0, unit "rad", range [-PI, PI], check Within(-PI, PI);
+        /// Pitch, nose-down positive.
+        pitch_rad: f64 = 0.0, unit "rad", range [-FRAC_PI_2, FRAC_PI_2], check Within(-FRAC_PI_2, FRAC_PI_2);
+        /// Yaw.
+        yaw_rad: f64 = 0.0, unit "rad", range [-PI, PI], check Within(-PI, PI);
+    }
+}
+
+impl ImuMount {
+    /// Takes vectors of the IMU's frame to the robot's.
+    #[must_use]
+    pub fn base_from_imu(&self) -> DQuat {
+        DQuat::from_euler(EulerRot::ZYX, self.yaw_rad, self.pitch_rad, self.roll_rad)
+    }
+}
+
+parameters! {
+    /// What becomes of goals.
+    #[derive(Copy)]
+    pub struct NavigationConfig {
+        /// A goal that takes longer is aborted.
+        timeout_s: f64 = 600.0, unit "s", range [10.0, 3600.0], check Within(1.0, 86400.0);
+        /// Whether the robot turns to the goal's heading in the end; otherwise any heading will do.
+        final_heading: bool = false;
+        /// Feedback of the action, per second.
+        feedback_hz: f64 = 5.0, unit "1/s", range [1.0, 20.0], check Within(0.1, 50.0);
+    }
+}
+
+/// Names of frames. A message in another frame is malformed.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Frames {
+    /// The frame of the odometry's pose, and of goals.
+    pub odom: String,
+    /// The odometry's child frame.
+    pub base: String,
+    /// The frame of the scans.
+    pub scan: String,
+    /// The frame of the IMU.
+    pub imu: String,
+}
+
+impl Default for Frames {
+    fn default() -> Self {
+        Self {
+            odom: "odom".to_owned(),
+            base: "base_link".to_owned(),
+            scan: "lidar3d_0_laser".to_owned(),
+            imu: "imu_0_link".to_owned(),
+        }
     }
 }
 
@@ -91,8 +141,14 @@ pub struct NodeConfig {
     pub sensor_reliability: Reliability,
     /// The type of the command.
     pub command_type: CommandType,
-    /// Places of frames.
-    pub mount: Mount,
+    /// Names of frames.
+    pub frames: Frames,
+    /// The mount of the IMU.
+    pub imu: ImuMount,
+    /// How odometry and IMU become a pose.
+    pub estimator: EstimatorConfig,
+    /// What becomes of goals.
+    pub navigation: NavigationConfig,
     /// The planner with its sensor and robot.
     pub planner: PlannerConfig,
     /// Limits of the supervisor.
@@ -110,7 +166,8 @@ struct File {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Section {
-    ros__parameters: Parameters,
+    #[serde(rename = "ros__parameters")]
+    parameters: Parameters,
 }
 
 /// The keys of a file. Sections that start from a preset are read again with it.
@@ -135,7 +192,13 @@ struct Parameters {
     #[serde(default = "default_planner")]
     planner_preset: PlannerPreset,
     #[serde(default)]
-    mount: Mount,
+    frames: Frames,
+    #[serde(default)]
+    imu: ImuMount,
+    #[serde(default)]
+    estimator: EstimatorConfig,
+    #[serde(default)]
+    navigation: NavigationConfig,
     #[serde(default)]
     supervisor: SupervisorConfig,
     #[serde(default, rename = "robot")]
@@ -184,7 +247,7 @@ impl NodeConfig {
     /// As [`Self::open`].
     pub fn parse(file: &Path, text: &str) -> Result<Self, ConfigFileError> {
         let yaml = YamlFile::parse(file, text)?;
-        let given = yaml.read::<File>()?.every_node.ros__parameters;
+        let given = yaml.read::<File>()?.every_node.parameters;
         let fail = |keys: &[&str], message: String| Err(yaml.error(&inside(keys), message));
 
         if given.distro != Distro::BUILT {
@@ -211,8 +274,11 @@ impl NodeConfig {
                 return fail(&["topics", key], format!("topics.{key}: {message}"));
             }
         }
-        checked(&yaml, given.mount.validate("mount"))?;
+        checked(&yaml, given.imu.validate("imu"))?;
+        checked(&yaml, given.estimator.validate("estimator"))?;
+        checked(&yaml, given.navigation.validate("navigation"))?;
         let planner = planner_config(&yaml, &given)?;
+        let supervisor = supervisor_config(&yaml, &given, &planner.robot)?;
         let by_distro = match given.distro {
             Distro::Humble => CommandType::Twist,
             Distro::Jazzy => CommandType::TwistStamped,
@@ -226,9 +292,12 @@ impl NodeConfig {
             topics: given.topics,
             sensor_reliability: given.sensor_reliability,
             command_type: given.command_type.unwrap_or(by_distro),
-            mount: given.mount,
-            supervisor: supervisor_config(&yaml, &given, &planner.robot)?,
+            frames: given.frames,
+            imu: given.imu,
+            estimator: given.estimator,
+            navigation: given.navigation,
             planner,
+            supervisor,
         })
     }
 }

@@ -62,7 +62,7 @@ fn every_fault_is_told_with_its_line() {
             "robot.yaml:6: planner.sensor: expected as a section",
         ),
         ("    distro: jazzy\n", "robot.yaml:5: duplicate mapping key: distro"),
-        ("    mount: {base_height_m: 9}\n", "robot.yaml:5: mount.base_height_m = 9: expected a number from"),
+        ("    estimator: {base_height_m: -1}\n", "robot.yaml:5: estimator.base_height_m = -1: expected zero"),
         ("    supervisor:\n      scan_s: 0\n", "robot.yaml:6: supervisor.scan_s = 0: expected a number from"),
         (
             "    supervisor:\n      max_roll_rad: 0.6\n",

@@ -55,6 +55,10 @@ pub struct Topics {
     pub goal_pose: String,
     /// The command, written.
     pub cmd_vel: String,
+    /// `geometry_msgs/TwistStamped`, written: the planner's answer to each scan, with its stamp.
+    pub decision: String,
+    /// `std_msgs/Bool`, read: true resets a latched stop.
+    pub reset: String,
     /// `diagnostic_msgs/DiagnosticArray`, written.
     pub diagnostics: String,
     /// `nav2_msgs/NavigateToPose`, served.
@@ -72,6 +76,8 @@ impl Default for Topics {
             emergency_stop: "platform/emergency_stop".to_owned(),
             goal_pose: "goal_pose".to_owned(),
             cmd_vel: "cmd_vel".to_owned(),
+            decision: "mapless/decision".to_owned(),
+            reset: "mapless/reset".to_owned(),
             diagnostics: "diagnostics".to_owned(),
             navigate_to_pose: "navigate_to_pose".to_owned(),
             clock: "/clock".to_owned(),
@@ -81,7 +87,7 @@ impl Default for Topics {
 
 impl Topics {
     /// Every name with its key.
-    pub(super) fn entries(&self) -> [(&'static str, &str); 9] {
+    pub(super) fn entries(&self) -> [(&'static str, &str); 11] {
         [
             ("scan", &self.scan),
             ("odometry", &self.odometry),
@@ -89,6 +95,8 @@ impl Topics {
             ("emergency_stop", &self.emergency_stop),
             ("goal_pose", &self.goal_pose),
             ("cmd_vel", &self.cmd_vel),
+            ("decision", &self.decision),
+            ("reset", &self.reset),
             ("diagnostics", &self.diagnostics),
             ("navigate_to_pose", &self.navigate_to_pose),
             ("clock", &self.clock),

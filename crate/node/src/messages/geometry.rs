@@ -47,7 +47,7 @@ impl Quaternion {
     /// The turn by `yaw_rad` about z.
     #[must_use]
     pub fn from_yaw(yaw_rad: f64) -> Self {
-        let (sin, cos) = (0.5 * yaw_rad).sin_cos();
+        let (sin, cos) = libm::sincos(0.5 * yaw_rad);
         Self { x: 0.0, y: 0.0, z: sin, w: cos }
     }
 }
