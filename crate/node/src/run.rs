@@ -73,7 +73,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             published_qos(),
         )?,
         presence: Presence::on(&config.topics.cmd_vel, &name, commands.gid())?,
-        senses: Senses::new(estimator, config.frames.clone()),
+        senses: Senses::new(estimator, config.frames.clone(), config.planner.sensor),
         navigation: Navigation::new(Duration::from_secs_f64(config.navigation.timeout_s)),
         diagnosed: Duration::ZERO,
         fed_back: Duration::ZERO,

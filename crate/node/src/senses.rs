@@ -3,7 +3,9 @@
 use std::hash::{DefaultHasher, Hasher};
 use std::time::Duration;
 
-use mapless::glam::{DVec3, Vec3};
+use mapless::SensorModel;
+use mapless::glam::DVec3;
+use mapless_robot::cloud::{self, CloudError, Field, PointCloud, Returns, ViewError, check_view};
 use mapless_robot::estimator::{self, Estimator, ReadingError};
 use mapless_robot::supervisor::Message;
 
@@ -18,14 +20,17 @@ pub(crate) enum Unusable {
     Frame { found: String, expected: String },
     #[error(transparent)]
     Reading(#[from] ReadingError),
-    #[error("cloud: {0}")]
-    Cloud(String),
+    #[error(transparent)]
+    Cloud(#[from] CloudError),
+    #[error(transparent)]
+    View(#[from] ViewError),
 }
 
 /// Follows the robot's pose, and tells supervisor and planner of every message.
 pub(crate) struct Senses {
     estimator: Estimator,
     frames: Frames,
+    sensor: SensorModel,
 }
 
 fn vector(vector: Vector3) -> DVec3 {
@@ -33,20 +38,21 @@ fn vector(vector: Vector3) -> DVec3 {
 }
 
 impl Senses {
-    pub(crate) fn new(estimator: Estimator, frames: Frames) -> Self {
-        Self { estimator, frames }
+    pub(crate) fn new(estimator: Estimator, frames: Frames, sensor: SensorModel) -> Self {
+        Self { estimator, frames, sensor }
     }
 
     /// Takes a scan: to the planner, if it can be used and the pose is known.
     pub(crate) fn take_scan(&mut self, hub: &Hub, cloud: &PointCloud2) {
         let arrived = hub.now();
-        let points = in_frame(&cloud.header.frame_id, &self.frames.scan).and_then(|()| points_m(cloud));
+        let returns =
+            in_frame(&cloud.header.frame_id, &self.frames.scan).and_then(|()| returns(cloud, &self.sensor));
         let mut content = DefaultHasher::new();
         content.write(&cloud.data);
-        let message = message(hub, arrived, &cloud.header, content, &points, "scan");
+        let message = message(hub, arrived, &cloud.header, content, &returns, "scan");
         hub.tell(|inputs| inputs.scan = Some(message));
-        if let (Ok(points_m), Some(pose)) = (points, self.estimator.pose()) {
-            hub.scan.put(Scan { arrived, stamp: cloud.header.stamp, points_m, pose });
+        if let (Ok(returns), Some(pose)) = (returns, self.estimator.pose()) {
+            hub.scan.put(Scan { arrived, stamp: cloud.header.stamp, points_m: returns.points_m, pose });
         }
     }
 
@@ -140,53 +146,28 @@ fn message<T>(
     }
 }
 
-/// The points of a cloud in the sensor frame, metres.
-fn points_m(cloud: &PointCloud2) -> Result<Vec<Vec3>, Unusable> {
-    let coordinate = |name: &str| {
-        let field = cloud.fields.iter().find(|field| field.name == name);
-        let field = field.ok_or_else(|| Unusable::Cloud(format!("no field {name}: expected x, y and z")))?;
-        let size = match field.datatype {
-            FLOAT32 => 4,
-            FLOAT64 => 8,
-            other => {
-                return Err(Unusable::Cloud(format!("field {name} has datatype {other}: expected 7 or 8")));
-            }
-        };
-        let begin = field.offset as usize;
-        if begin + size > cloud.point_step as usize {
-            let step = cloud.point_step;
-            return Err(Unusable::Cloud(format!("field {name} ends beyond the point's {step} bytes")));
-        }
-        Ok((begin, size))
-    };
-    let places = [coordinate("x")?, coordinate("y")?, coordinate("z")?];
-    let (width, height) = (cloud.width as usize, cloud.height as usize);
-    let (step, row) = (cloud.point_step as usize, cloud.row_step as usize);
-    let needed = height.checked_sub(1).map_or(0, |rows| rows * row + width * step);
-    if width * step > row || needed > cloud.data.len() {
-        let length = cloud.data.len();
-        return Err(Unusable::Cloud(format!(
-            "{height} rows of {width} points of {step} bytes, a row each {row} bytes, in {length} bytes"
-        )));
-    }
-    let number = |point: &[u8], (begin, size): (usize, usize)| -> f32 {
-        let mut bytes = [0; 8];
-        bytes[..size].copy_from_slice(&point[begin..begin + size]);
-        if cloud.is_bigendian {
-            bytes[..size].reverse();
-        }
-        match size {
-            4 => f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
-            _ => f64::from_le_bytes(bytes) as f32,
-        }
-    };
-    let points = (0..height).flat_map(|line| {
-        let begin = line * row;
-        cloud.data[begin..begin + width * step].chunks_exact(step)
-    });
-    Ok(points.map(|point| Vec3::from_array(places.map(|place| number(point, place)))).collect())
+/// The returns of a cloud, if it looks like one of the sensor.
+fn returns(cloud: &PointCloud2, sensor: &SensorModel) -> Result<Returns, Unusable> {
+    let fields: Vec<Field> = cloud
+        .fields
+        .iter()
+        .map(|field| Field {
+            name: field.name.clone(),
+            offset: field.offset,
+            datatype: field.datatype,
+            count: field.count,
+        })
+        .collect();
+    let returns = cloud::read(&PointCloud {
+        height: cloud.height,
+        width: cloud.width,
+        fields: &fields,
+        is_big_endian: cloud.is_bigendian,
+        point_step: cloud.point_step,
+        row_step: cloud.row_step,
+        data: &cloud.data,
+        stamp_ns: cloud.header.stamp.nanoseconds(),
+    })?;
+    check_view(&returns.points_m, sensor)?;
+    Ok(returns)
 }
-
-/// Datatypes of `sensor_msgs/PointField`.
-const FLOAT32: u8 = 7;
-const FLOAT64: u8 = 8;

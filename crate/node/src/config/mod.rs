@@ -13,6 +13,7 @@ use std::path::Path;
 use mapless::glam::{DQuat, EulerRot};
 use mapless::{PlannerConfig, RobotModel, SensorModel};
 use mapless_parameters::{ConfigError, choices, parameters};
+use mapless_robot::cloud::check_sensor;
 use mapless_robot::estimator::EstimatorConfig;
 use mapless_robot::supervisor::SupervisorConfig;
 use ros2_client::NodeName;
@@ -318,6 +319,7 @@ fn planner_config(yaml: &YamlFile<'_>, given: &Parameters) -> Result<PlannerConf
         merged(&given.robot_preset.model(), section("robot")).map_err(|error| fail("robot", error))?;
     checked(yaml, sensor.validate("sensor"))?;
     checked(yaml, robot.validate("robot"))?;
+    check_sensor(&sensor, &robot).map_err(|error| yaml.error(&inside(&["sensor"]), error))?;
     let preset = match given.planner_preset {
         PlannerPreset::Default => PlannerConfig::default(),
         PlannerPreset::Paper => PlannerConfig::paper(),

@@ -113,12 +113,7 @@ impl Entities {
         self.node.create_publisher(&told, Some(qos)).map_err(making(format!("publishing on {topic}")))
     }
 
-    fn topic(
-        &self,
-        topic: &str,
-        message: &str,
-        qos: &QosProfile,
-    ) -> Result<rustdds::Topic, RosError> {
+    fn topic(&self, topic: &str, message: &str, qos: &QosProfile) -> Result<rustdds::Topic, RosError> {
         let what = || format!("topic {topic}");
         let name = Name::parse(topic).map_err(making(what()))?;
         let (package, kind) = message.split_once('/').unwrap_or(("", message));
