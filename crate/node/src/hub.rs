@@ -67,7 +67,8 @@ pub(crate) struct Hub {
     decision: Mutex<Option<Decision>>,
     planned: Mutex<Option<Planned>>,
     task: Mutex<Option<Task>>,
-    pose: Mutex<Option<Pose>>,
+    /// The pose that the estimator believes, and that of the last odometry.
+    poses: Mutex<Option<[Pose; 2]>>,
     complaints: Mutex<BTreeMap<&'static str, Complaint>>,
 }
 
@@ -85,7 +86,7 @@ impl Hub {
             decision: Mutex::default(),
             planned: Mutex::default(),
             task: Mutex::default(),
-            pose: Mutex::default(),
+            poses: Mutex::default(),
             complaints: Mutex::default(),
         }
     }
@@ -168,14 +169,14 @@ impl Hub {
         *lock(&self.planned) = Some(planned);
     }
 
-    /// Where the robot is, in the odometry's frame; `None` until odometry and IMU came.
-    pub(crate) fn pose(&self) -> Option<Pose> {
-        *lock(&self.pose)
+    /// Where the robot is, in the estimator's frame and in the odometry's; `None` until odometry and IMU came.
+    pub(crate) fn poses(&self) -> Option<[Pose; 2]> {
+        *lock(&self.poses)
     }
 
-    /// Publishes the pose to the other threads.
-    pub(crate) fn set_pose(&self, pose: Pose) {
-        *lock(&self.pose) = Some(pose);
+    /// Publishes the poses to the other threads: the estimator's, and the odometry's.
+    pub(crate) fn set_poses(&self, believed: Pose, told: Pose) {
+        *lock(&self.poses) = Some([believed, told]);
     }
 
     /// Something is wrong with a message about `what`. It is logged now and then, and told in diagnostics.

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use mapless::glam::DVec2;
+use mapless::glam::{DVec2, DVec3};
 use mapless::{Goal, Pose};
 use ros2_client::{Publisher, Subscription};
 use serde::de::DeserializeOwned;
@@ -10,8 +10,7 @@ use serde::de::DeserializeOwned;
 use crate::config::NodeConfig;
 use crate::diagnostics::diagnose;
 use crate::hub::Hub;
-use crate::messages::Outcome;
-use crate::messages::{DiagnosticArray, Feedback, Header, PoseStamped, Quaternion};
+use crate::messages::{DiagnosticArray, Feedback, Header, Outcome, Point, PoseStamped, Quaternion};
 use crate::navigation::{End, Ended, Navigation, code};
 use crate::ros::{ActionServer, Entities, Incoming, Presence};
 use crate::senses::Senses;
@@ -138,10 +137,13 @@ impl Receiving<'_> {
             return Err(reason.map_or_else(|| "the robot is stopped".to_owned(), |reason| reason.to_string()));
         }
         let place = pose.pose.position;
-        let goal = Goal::at(DVec2::new(place.x, place.y));
-        let turned = Pose::from_quaternion(mapless::glam::DVec3::ZERO, pose.pose.orientation.to_glam());
-        let goal = if self.config.navigation.final_heading { goal.facing(turned.yaw_rad) } else { goal };
-        if goal.is_valid() && turned.is_finite() {
+        let position_m = DVec3::new(place.x, place.y, place.z);
+        let asked = Pose::from_quaternion(position_m, pose.pose.orientation.to_glam());
+        let [believed, told] = self.hub.poses().ok_or("the robot's pose is not known yet")?;
+        let (position_m, heading_rad) = believed_place(&asked, &believed, &told);
+        let goal = Goal::at(position_m);
+        let goal = if self.config.navigation.final_heading { goal.facing(heading_rad) } else { goal };
+        if goal.is_valid() && asked.is_finite() {
             Ok(goal)
         } else {
             Err("a goal with a pose that is not finite".to_owned())
@@ -164,18 +166,18 @@ impl Receiving<'_> {
     }
 
     fn feed_back(&self, now: Duration) {
-        let (Some((task, id)), Some(pose)) = (self.navigation.action(), self.hub.pose()) else { return };
-        let position_m = pose.plan_m();
-        let distance_m = (task.goal.position_m - position_m).length();
+        let (Some((task, id)), Some([believed, told])) = (self.navigation.action(), self.hub.poses()) else {
+            return;
+        };
+        let distance_m = (task.goal.position_m - believed.plan_m()).length();
         let speed_m_s = self.config.supervisor.max_speed_m_s;
         let mut current_pose = PoseStamped {
             header: Header { stamp: self.hub.stamp(), frame_id: self.config.frames.odom.clone() },
             ..PoseStamped::default()
         };
-        current_pose.pose.position.x = position_m.x;
-        current_pose.pose.position.y = position_m.y;
-        current_pose.pose.position.z = pose.position_m.z;
-        current_pose.pose.orientation = Quaternion::from_yaw(pose.yaw_rad);
+        let DVec3 { x, y, z } = told.position_m;
+        current_pose.pose.position = Point { x, y, z };
+        current_pose.pose.orientation = Quaternion::from_yaw(told.yaw_rad);
         self.actions.publish_feedback(
             id,
             Feedback {
@@ -187,6 +189,15 @@ impl Receiving<'_> {
             },
         );
     }
+}
+
+/// A pose of the odometry's frame in the estimator's: place and heading, as they lie to the robot now. The two
+/// frames part as odometry drifts or jumps.
+fn believed_place(asked: &Pose, believed: &Pose, told: &Pose) -> (DVec2, f64) {
+    let turn_rad = believed.yaw_rad - told.yaw_rad;
+    let (sin, cos) = libm::sincos(turn_rad);
+    let aside_m = DVec2::new(cos, sin).rotate(asked.plan_m() - told.plan_m());
+    (believed.plan_m() + aside_m, asked.yaw_rad + turn_rad)
 }
 
 /// Takes every message that waits.
@@ -202,5 +213,21 @@ fn each<M: DeserializeOwned + 'static>(
             Ok(None) => return,
             Err(error) => hub.complain(what, &error),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn a_goal_lies_to_the_robot_as_it_does_in_the_odometry() {
+        let pose = |x, y, yaw_rad| Pose::from_roll_pitch_yaw(DVec3::new(x, y, 0.0), 0.0, 0.0, yaw_rad);
+        // Two metres ahead of the robot and one to its left, facing as it does.
+        let (told, asked) = (pose(5.0, 1.0, 0.0), pose(7.0, 2.0, 0.0));
+        let (position_m, heading_rad) = believed_place(&asked, &pose(0.0, 0.0, FRAC_PI_2), &told);
+        assert!((position_m - DVec2::new(-1.0, 2.0)).length() < 1e-12);
+        assert!((heading_rad - FRAC_PI_2).abs() < 1e-12);
     }
 }

@@ -14,13 +14,13 @@ use crate::hub::Hub;
 use crate::navigation::Navigation;
 use crate::planning::Planning;
 use crate::receiving::Receiving;
-use crate::ros::{ActionServer, Entities, Presence, RosError, Spin, making, published_qos};
+use crate::ros::{ActionServer, Alive, Entities, Presence, RosError, Spin, making, published_qos};
 use crate::senses::Senses;
 use crate::service::Service;
 use crate::supervising::{CommandPublisher, supervise};
 
 /// How often it is looked whether the node is to end.
-const LOOK_EVERY: Duration = Duration::from_millis(10);
+const LOOK_EVERY: Duration = Duration::from_millis(20);
 /// The last commands need this long to leave.
 const LINGER: Duration = Duration::from_millis(100);
 
@@ -36,6 +36,9 @@ pub enum RunError {
     /// Signals cannot be heard.
     #[error("signals: {0}")]
     Signals(#[from] std::io::Error),
+    /// The middleware ended by itself: the node must be started anew.
+    #[error("a thread of the middleware ended, as when the process was suspended: start the node anew")]
+    MiddlewareEnded,
     /// A thread ended in a panic.
     #[error("the thread {0} panicked")]
     Panicked(&'static str),
@@ -44,7 +47,7 @@ pub enum RunError {
 /// Runs the node until SIGTERM or SIGINT. Its last commands are zero.
 ///
 /// # Errors
-/// [`RunError`] if it cannot begin, or if one of its threads panicked.
+/// [`RunError`] if it cannot begin, if one of its threads panicked, or if the middleware ended.
 pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     let signal = Arc::new(AtomicUsize::new(0));
     for number in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
@@ -79,6 +82,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
         fed_back: Duration::ZERO,
         entities: &mut entities,
     };
+    let alive = Alive::watch();
     log::info!("{}/{} has begun in domain {}", config.namespace, config.node_name, config.domain_id);
 
     let ended = std::thread::scope(|scope| {
@@ -87,12 +91,18 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             ("planner", scope.spawn(|| planning.run(&hub))),
             ("middleware", scope.spawn(|| receiving.run())),
         ];
-        while signal.load(Ordering::Relaxed) == 0 && !threads.iter().any(|(_, thread)| thread.is_finished()) {
+        let mut is_whole = true;
+        while signal.load(Ordering::Relaxed) == 0
+            && is_whole
+            && !threads.iter().any(|(_, thread)| thread.is_finished())
+        {
             std::thread::sleep(LOOK_EVERY);
+            is_whole = alive.is_whole();
         }
         hub.end();
         let joined = threads.map(|(name, thread)| thread.join().map_err(|_| RunError::Panicked(name)));
-        joined.into_iter().collect::<Result<(), RunError>>()
+        joined.into_iter().collect::<Result<(), RunError>>()?;
+        if is_whole { Ok(()) } else { Err(RunError::MiddlewareEnded) }
     });
     std::thread::sleep(LINGER);
     drop(commands);

@@ -3,8 +3,8 @@
 use std::hash::{DefaultHasher, Hasher};
 use std::time::Duration;
 
-use mapless::SensorModel;
 use mapless::glam::DVec3;
+use mapless::{Pose, SensorModel};
 use mapless_robot::cloud::{self, CloudError, Field, PointCloud, Returns, ViewError, check_view};
 use mapless_robot::estimator::{self, Estimator, ReadingError};
 use mapless_robot::supervisor::Message;
@@ -85,8 +85,9 @@ impl Senses {
             inputs.odometry = Some(message);
             inputs.wheels_disagree = wheels_disagree;
         });
-        if let Some(pose) = self.estimator.pose() {
-            hub.set_pose(pose);
+        if let (true, Some(believed)) = (message.is_well_formed, self.estimator.pose()) {
+            let told = Pose::from_quaternion(reading.position_m, reading.orientation);
+            hub.set_poses(believed, told);
         }
     }
 

@@ -1,11 +1,13 @@
 //! Topics, services and names on the DDS network.
 
 mod action;
+mod alive;
 mod entities;
 mod presence;
 mod spin;
 
 pub(crate) use action::ActionServer;
+pub(crate) use alive::Alive;
 pub(crate) use entities::{Entities, Incoming, published_qos};
 pub(crate) use presence::Presence;
 pub(crate) use spin::Spin;
