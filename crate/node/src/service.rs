@@ -2,8 +2,6 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use sd_notify::NotifyState;
-
 /// The service that this process is, if systemd runs it.
 #[derive(Debug, Default)]
 pub(crate) struct Service {
@@ -15,20 +13,35 @@ impl Service {
     /// is ready.
     pub(crate) fn fed(&self) {
         if !self.is_ready.swap(true, Ordering::Relaxed) {
-            tell(&[NotifyState::Ready]);
+            tell(Told::Ready);
         }
-        tell(&[NotifyState::Watchdog]);
+        tell(Told::Watchdog);
     }
 
     /// The service is ending.
     pub(crate) fn stopping(&self) {
-        tell(&[NotifyState::Stopping]);
+        tell(Told::Stopping);
     }
 }
 
-fn tell(states: &[NotifyState<'_>]) {
+enum Told {
+    Ready,
+    Watchdog,
+    Stopping,
+}
+
+#[cfg(unix)]
+fn tell(what: Told) {
+    let state = match what {
+        Told::Ready => sd_notify::NotifyState::Ready,
+        Told::Watchdog => sd_notify::NotifyState::Watchdog,
+        Told::Stopping => sd_notify::NotifyState::Stopping,
+    };
     // Without systemd there is nobody to tell, and that is no error.
-    if let Err(error) = sd_notify::notify(false, states) {
+    if let Err(error) = sd_notify::notify(false, &[state]) {
         log::warn!("systemd could not be told: {error}");
     }
 }
+
+#[cfg(not(unix))]
+fn tell(_: Told) {}
