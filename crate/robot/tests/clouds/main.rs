@@ -1,0 +1,6 @@
+//! Clouds of many layouts and sensors.
+
+mod layouts;
+mod malformed;
+mod profiles;
+mod sensors;
