@@ -28,9 +28,9 @@ pub struct BeamGrid {
     rings: usize,
     lowest_elevation_rad: f64,
     ring_step_rad: f64,
-    /// How far the middle of the elevations that belong to a row lies above the row's own. The skyline is half
-    /// a spacing of rings above the highest beam that meets ground, and half a row above the middle of the
-    /// highest occupied row: with this, both are the same place where rings share rows.
+    /// How far the middle of the elevations that belong to a row lies above the row's own. The skyline is
+    /// half a spacing of rings above the highest beam that meets ground, and half a row above the highest
+    /// occupied row: with this, both are the same place where rings share rows.
     row_shift_rad: f64,
     /// Nearer than this nothing is measured.
     pub(crate) min_range_m: f64,
