@@ -1,5 +1,7 @@
 //! The estimator on drives over hills whose true poses are known.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
 use core::f64::consts::TAU;
 use core::time::Duration;
 

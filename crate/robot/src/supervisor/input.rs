@@ -14,7 +14,8 @@ pub struct Message {
     pub arrived: Duration,
     /// What the robot's clock (in ROS: the node's, simulated or not) said then, nanoseconds.
     pub clock_ns: i64,
-    /// Its stamp, nanoseconds. Sensors' clocks lie, so it only orders messages and tells changes of their delay.
+    /// Its stamp, nanoseconds. Sensors' clocks lie, so it only orders messages and tells changes of their
+    /// delay.
     pub stamp_ns: i64,
     /// A digest of its content without stamp and counters: equal for equal content.
     pub fingerprint: u64,
