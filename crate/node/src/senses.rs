@@ -6,12 +6,16 @@ use std::time::Duration;
 use mapless::glam::DVec3;
 use mapless::{Pose, SensorModel};
 use mapless_robot::cloud::{self, CloudError, Field, PointCloud, Returns, ViewError, check_view};
+use mapless_robot::deskew::deskew;
 use mapless_robot::estimator::{self, Estimator, ReadingError};
 use mapless_robot::supervisor::Message;
 
 use crate::config::Frames;
 use crate::hub::{Hub, Scan};
 use crate::messages::{Header, Imu, Odometry, PointCloud2, Vector3};
+
+/// Half a turn of a sensor that turns at 10 Hz.
+const HALF_SWEEP: Duration = Duration::from_millis(50);
 
 /// Why a message was not used.
 #[derive(Debug, thiserror::Error)]
@@ -51,9 +55,26 @@ impl Senses {
         content.write(&cloud.data);
         let message = message(hub, arrived, &cloud.header, content, &returns, "scan");
         hub.tell(|inputs| inputs.scan = Some(message));
-        if let (Ok(returns), Some(pose)) = (returns, self.estimator.pose()) {
+        if let Ok(mut returns) = returns
+            && let Some(pose) = self.placed(hub, &mut returns, arrived)
+        {
             hub.scan.put(Scan { arrived, stamp: cloud.header.stamp, points_m: returns.points_m, pose });
         }
+    }
+
+    /// The pose for a scan that arrived now: of the end of the sweep, once its points are corrected for motion
+    /// since; of its middle, if they have no times. Sensors' clocks lie, so a sweep ends when it arrives.
+    fn placed(&self, hub: &Hub, returns: &mut Returns, arrived: Duration) -> Option<Pose> {
+        let trajectory = self.estimator.trajectory();
+        if let Some(times_s) = &returns.since_stamp_s {
+            let end_s = times_s.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let until_end_s: Vec<f64> = times_s.iter().map(|time_s| time_s - end_s).collect();
+            match deskew(&mut returns.points_m, &until_end_s, arrived, trajectory, &self.sensor) {
+                Ok(pose) => return Some(pose),
+                Err(error) => hub.complain("motion compensation", &error),
+            }
+        }
+        arrived.checked_sub(HALF_SWEEP).and_then(|at| trajectory.pose_at(at)).or(self.estimator.pose())
     }
 
     /// Takes odometry.

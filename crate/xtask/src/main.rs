@@ -14,6 +14,7 @@ mod physics;
 mod profile;
 mod python;
 mod results;
+mod robot;
 mod setup;
 mod test;
 mod work;
