@@ -15,6 +15,7 @@ os.environ["ROS_DOMAIN_ID"] = str(DOMAIN)
 os.environ["FASTDDS_BUILTIN_TRANSPORTS"] = "UDPv4"
 
 import rclpy  # noqa: E402
+from rclpy.qos import ReliabilityPolicy  # noqa: E402
 
 from robot import Robot, spinning, until  # noqa: E402
 
@@ -103,6 +104,16 @@ def no_cloud_is_lost(robot, _node):
         f"{once} of {len(sent)} clouds of 633 600 bytes were answered by one decision, "
         f"{median:.0f} ms after they were sent in the median; {rate:.0f} commands a second"
     )
+
+
+def no_cloud_of_a_reliable_publisher_is_lost(robot, node):
+    robot.is_scanning = False
+    time.sleep(0.3)
+    robot.destroy_publisher(robot.scan)
+    robot.scan = robot.scan_publisher(ReliabilityPolicy.RELIABLE)
+    robot.is_scanning = True
+    time.sleep(1.0)
+    return no_cloud_is_lost(robot, node)
 
 
 def limits_hold(robot, _node):
@@ -226,6 +237,7 @@ def in_order(robot):
 
 CHECKS = (
     no_cloud_is_lost,
+    no_cloud_of_a_reliable_publisher_is_lost,
     limits_hold,
     scans_cease,
     odometry_ceases,

@@ -45,7 +45,7 @@ def level_ground():
 class Robot(Node):
     """The robot. Faults are switched on by its attributes."""
 
-    def __init__(self, scan_reliability=ReliabilityPolicy.BEST_EFFORT):
+    def __init__(self):
         super().__init__("robot", namespace=NAMESPACE)
         self.x = self.y = self.yaw = 0.0
         self.speed = self.turn_rate = 0.0
@@ -58,8 +58,7 @@ class Robot(Node):
         self.decisions = []  # arrival, stamp
         self.scans = []  # when sent, stamp
         self.diagnosis = None
-        scan_qos = QoSProfile(depth=5, reliability=scan_reliability)
-        self.scan = self.create_publisher(PointCloud2, "sensors/lidar3d_0/points", scan_qos)
+        self.scan = self.scan_publisher(ReliabilityPolicy.BEST_EFFORT)
         self.odometry = self.create_publisher(Odometry, "platform/odom/filtered", 10)
         self.imu = self.create_publisher(Imu, "sensors/imu_0/data", qos_profile_sensor_data)
         self.stop = self.create_publisher(Bool, "platform/emergency_stop", qos_profile_sensor_data)
@@ -75,6 +74,10 @@ class Robot(Node):
         self.points["time"] = np.repeat(np.linspace(-0.1, 0.0, COLUMNS), RINGS)
         self.is_ending = False
         self.thread = threading.Thread(target=self.publish_all, daemon=True)
+
+    def scan_publisher(self, reliability):
+        qos = QoSProfile(depth=5, reliability=reliability)
+        return self.create_publisher(PointCloud2, "sensors/lidar3d_0/points", qos)
 
     def obey(self, message):
         twist = message.twist

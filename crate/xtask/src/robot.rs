@@ -29,7 +29,8 @@ pub(crate) fn python(sh: &Shell) -> anyhow::Result<PathBuf> {
 /// Runs the node beside a robot of rclpy.
 pub(crate) fn test(sh: &Shell) -> anyhow::Result<Count> {
     let python = python(sh)?;
-    cmd!(sh, "cargo build --release --package mapless-node").run()?;
-    let program = setup::target_dir(sh).join("release/mapless-node");
+    // As the tests build it: without a second build of all it depends on.
+    cmd!(sh, "cargo build --package mapless-node").run()?;
+    let program = setup::target_dir(sh).join("debug/mapless-node");
     count(cmd!(sh, "{python} {CHECKS} {program} {CONFIG}"), Runner::Playwright)
 }
