@@ -3,6 +3,7 @@
     check.py PROGRAM CONFIG
 """
 
+import math
 import os
 import signal
 import subprocess
@@ -121,6 +122,18 @@ def limits_hold(robot, _node):
     return max(speeds) <= 0.5 + 1e-9 and max(speeds) > 0.4, f"the fastest command is {max(speeds):.3f} of 0.5 m/s"
 
 
+def the_picture_lies_where_the_robot_is(robot, _node):
+    if not drive(robot):
+        return False, f"it does not drive: {state(robot)}"
+    time.sleep(0.5)
+    marker = robot.subgoals.markers[0]
+    greens = [p for p, c in zip(marker.points, marker.colors) if c.g > 0.7]
+    begins = robot.path.poses[0].pose.position
+    off_m = math.hypot(begins.x - robot.x - robot.shift, begins.y - robot.y)
+    ok = off_m < 1.0 and len(greens) == 1 and greens[0].x > robot.x and robot.path.header.frame_id == "odom"
+    return ok, f"the path begins {off_m:.2f} m from the robot; {len(marker.points)} subgoals, {len(greens)} chosen"
+
+
 def scans_cease(robot, _node):
     return stops(robot, lambda: setattr(robot, "is_scanning", False), 0.35, "scan: Stale")
 
@@ -219,6 +232,18 @@ def killed_it_stands_until_a_goal(robot, node):
     return back and not moved, f"{len(robot.commands) - count} commands later, {len(moved)} moved the robot"
 
 
+def a_simulated_clock_that_stands_stops_it(robot, node):
+    """After all others: the node is begun anew with `use_sim_time`."""
+    text = open(node.config, encoding="utf-8").read()
+    with open(node.config, "w", encoding="utf-8") as file:
+        file.write(text.replace("node_name: mapless", "node_name: mapless\n    use_sim_time: true"))
+    robot.is_simulated, robot.diagnosis = True, None
+    node.start()
+    checked = stops(robot, lambda: setattr(robot, "is_simulated", False), 0.5, "clock stands still")
+    node.end()
+    return checked
+
+
 def in_order(robot):
     """Takes every fault back, and resets."""
     robot.is_scanning = robot.is_turning_wheels = robot.is_feeling = robot.is_cloud_whole = True
@@ -239,6 +264,7 @@ CHECKS = (
     no_cloud_is_lost,
     no_cloud_of_a_reliable_publisher_is_lost,
     limits_hold,
+    the_picture_lies_where_the_robot_is,
     scans_cease,
     odometry_ceases,
     imu_ceases,
@@ -252,6 +278,7 @@ CHECKS = (
     another_publisher_is_noticed,
     killed_it_stands_until_a_goal,
     it_ends_with_zero,
+    a_simulated_clock_that_stands_stops_it,
 )
 
 

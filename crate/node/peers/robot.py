@@ -8,12 +8,14 @@ import numpy as np
 import rclpy
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from diagnostic_msgs.msg import DiagnosticArray
-from nav_msgs.msg import Odometry
+from nav_msgs.msg import Odometry, Path
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu, PointCloud2, PointField
 from std_msgs.msg import Bool
+from visualization_msgs.msg import MarkerArray
 
 NAMESPACE = "/a200_0000"
 SENSOR_HEIGHT_M = 0.8
@@ -50,22 +52,27 @@ class Robot(Node):
         self.x = self.y = self.yaw = 0.0
         self.speed = self.turn_rate = 0.0
         self.is_scanning = self.is_turning_wheels = self.is_feeling = True
-        self.is_pressed = False
+        self.is_pressed = self.is_simulated = False
         self.roll = 0.0
         self.shift = 0.0
         self.is_cloud_whole = True
         self.commands = []  # arrival, speed, turn rate
         self.decisions = []  # arrival, stamp
         self.scans = []  # when sent, stamp
-        self.diagnosis = None
+        self.diagnosis = self.path = self.subgoals = None
         self.scan = self.scan_publisher(ReliabilityPolicy.BEST_EFFORT)
         self.odometry = self.create_publisher(Odometry, "platform/odom/filtered", 10)
         self.imu = self.create_publisher(Imu, "sensors/imu_0/data", qos_profile_sensor_data)
         self.stop = self.create_publisher(Bool, "platform/emergency_stop", qos_profile_sensor_data)
         self.reset = self.create_publisher(Bool, "mapless/reset", 10)
         self.goal = self.create_publisher(PoseStamped, "goal_pose", 10)
+        self.clock = self.create_publisher(Clock, "/clock", 10)
         self.create_subscription(TwistStamped, "cmd_vel", self.obey, 10)
         self.create_subscription(TwistStamped, "mapless/decision", self.note, 10)
+        self.create_subscription(Path, "mapless/path", lambda path: setattr(self, "path", path), 10)
+        self.create_subscription(
+            MarkerArray, "mapless/subgoals", lambda markers: setattr(self, "subgoals", markers), 10
+        )
         self.create_subscription(DiagnosticArray, "diagnostics", self.diagnose, 10)
         self.range_m, self.directions = level_ground()
         self.random = np.random.default_rng(1)
@@ -95,6 +102,8 @@ class Robot(Node):
         tick, due = 0, time.monotonic()
         while not self.is_ending:
             self.move(0.01)
+            if self.is_simulated:
+                self.clock.publish(Clock(clock=self.get_clock().now().to_msg()))
             if self.is_feeling:
                 self.publish_imu()
             if tick % 2 == 0 and self.is_turning_wheels:

@@ -12,9 +12,11 @@
 
 pub mod config;
 mod diagnostics;
+mod frames;
 mod hub;
 pub mod messages;
 pub mod navigation;
+mod picture;
 mod planning;
 mod receiving;
 mod ros;

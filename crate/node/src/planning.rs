@@ -10,6 +10,7 @@ use ros2_client::Publisher;
 use crate::hub::{Hub, Planned, Scan};
 use crate::messages::{Header, TwistStamped, Vector3};
 use crate::navigation::Task;
+use crate::picture::Picture;
 
 /// How long a wait for a scan may be, so that the end of the node is noticed.
 const WAIT: Duration = Duration::from_millis(100);
@@ -23,6 +24,7 @@ pub(crate) struct Planning {
     status: Option<Status>,
     recoveries: i16,
     decisions: Publisher<TwistStamped>,
+    picture: Picture,
 }
 
 impl Planning {
@@ -30,9 +32,19 @@ impl Planning {
     pub(crate) fn new(
         config: PlannerConfig,
         decisions: Publisher<TwistStamped>,
+        picture: Picture,
     ) -> Result<Self, ConfigError> {
         let planner = Planner::new(config.clone())?;
-        Ok(Self { config, planner, task: None, stepped: None, status: None, recoveries: 0, decisions })
+        Ok(Self {
+            config,
+            planner,
+            task: None,
+            stepped: None,
+            status: None,
+            recoveries: 0,
+            decisions,
+            picture,
+        })
     }
 
     /// Answers scans until the node ends.
@@ -83,6 +95,9 @@ impl Planning {
             recoveries: self.recoveries,
             took: began.elapsed(),
         });
+        if let Some(poses) = hub.poses() {
+            self.picture.publish(&step, poses, scan.stamp);
+        }
         Outcome::from(&step)
     }
 

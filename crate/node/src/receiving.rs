@@ -2,13 +2,14 @@
 
 use std::time::Duration;
 
-use mapless::glam::{DVec2, DVec3};
+use mapless::glam::DVec3;
 use mapless::{Goal, Pose};
 use ros2_client::{Publisher, Subscription};
 use serde::de::DeserializeOwned;
 
 use crate::config::NodeConfig;
 use crate::diagnostics::diagnose;
+use crate::frames::FrameChange;
 use crate::hub::Hub;
 use crate::messages::{DiagnosticArray, Feedback, Header, Outcome, Point, PoseStamped, Quaternion};
 use crate::navigation::{End, Ended, Navigation, code};
@@ -140,9 +141,12 @@ impl Receiving<'_> {
         let position_m = DVec3::new(place.x, place.y, place.z);
         let asked = Pose::from_quaternion(position_m, pose.pose.orientation.to_glam());
         let [believed, told] = self.hub.poses().ok_or("the robot's pose is not known yet")?;
-        let (position_m, heading_rad) = believed_place(&asked, &believed, &told);
-        let goal = Goal::at(position_m);
-        let goal = if self.config.navigation.final_heading { goal.facing(heading_rad) } else { goal };
+        let change = FrameChange::new(told, believed);
+        let goal = Goal::at(change.place_m(asked.plan_m()));
+        let goal = match self.config.navigation.final_heading {
+            true => goal.facing(change.heading_rad(asked.yaw_rad)),
+            false => goal,
+        };
         if goal.is_valid() && asked.is_finite() {
             Ok(goal)
         } else {
@@ -191,15 +195,6 @@ impl Receiving<'_> {
     }
 }
 
-/// A pose of the odometry's frame in the estimator's: place and heading, as they lie to the robot now. The two
-/// frames part as odometry drifts or jumps.
-fn believed_place(asked: &Pose, believed: &Pose, told: &Pose) -> (DVec2, f64) {
-    let turn_rad = believed.yaw_rad - told.yaw_rad;
-    let (sin, cos) = libm::sincos(turn_rad);
-    let aside_m = DVec2::new(cos, sin).rotate(asked.plan_m() - told.plan_m());
-    (believed.plan_m() + aside_m, asked.yaw_rad + turn_rad)
-}
-
 /// Takes every message that waits.
 fn each<M: DeserializeOwned + 'static>(
     hub: &Hub,
@@ -213,21 +208,5 @@ fn each<M: DeserializeOwned + 'static>(
             Ok(None) => return,
             Err(error) => hub.complain(what, &error),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use core::f64::consts::FRAC_PI_2;
-
-    #[test]
-    fn a_goal_lies_to_the_robot_as_it_does_in_the_odometry() {
-        let pose = |x, y, yaw_rad| Pose::from_roll_pitch_yaw(DVec3::new(x, y, 0.0), 0.0, 0.0, yaw_rad);
-        // Two metres ahead of the robot and one to its left, facing as it does.
-        let (told, asked) = (pose(5.0, 1.0, 0.0), pose(7.0, 2.0, 0.0));
-        let (position_m, heading_rad) = believed_place(&asked, &pose(0.0, 0.0, FRAC_PI_2), &told);
-        assert!((position_m - DVec2::new(-1.0, 2.0)).length() < 1e-12);
-        assert!((heading_rad - FRAC_PI_2).abs() < 1e-12);
     }
 }

@@ -12,6 +12,7 @@ use ros2_client::NodeName;
 use crate::config::NodeConfig;
 use crate::hub::Hub;
 use crate::navigation::Navigation;
+use crate::picture::Picture;
 use crate::planning::Planning;
 use crate::receiving::Receiving;
 use crate::ros::{ActionServer, Alive, Entities, Presence, RosError, Spin, making, published_qos};
@@ -63,7 +64,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     let commands = CommandPublisher::new(config, &mut entities)?;
     let decisions =
         entities.publisher(&config.topics.decision, "geometry_msgs/TwistStamped", published_qos())?;
-    let planning = Planning::new(config.planner.clone(), decisions)?;
+    let planning = Planning::new(config.planner.clone(), decisions, Picture::new(config, &mut entities)?)?;
     let name = NodeName::new(&config.namespace, &config.node_name).map_err(making("naming the node"))?;
     let receiving = Receiving {
         hub: &hub,

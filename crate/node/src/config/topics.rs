@@ -57,6 +57,10 @@ pub struct Topics {
     pub cmd_vel: String,
     /// `geometry_msgs/TwistStamped`, written: the planner's answer to each scan, with its stamp.
     pub decision: String,
+    /// `nav_msgs/Path`, written: the way that the planner means to go.
+    pub path: String,
+    /// `visualization_msgs/MarkerArray`, written: the subgoals; the chosen one green, refused ones red.
+    pub subgoals: String,
     /// `std_msgs/Bool`, read: true resets a latched stop.
     pub reset: String,
     /// `diagnostic_msgs/DiagnosticArray`, written.
@@ -77,6 +81,8 @@ impl Default for Topics {
             goal_pose: "goal_pose".to_owned(),
             cmd_vel: "cmd_vel".to_owned(),
             decision: "mapless/decision".to_owned(),
+            path: "mapless/path".to_owned(),
+            subgoals: "mapless/subgoals".to_owned(),
             reset: "mapless/reset".to_owned(),
             diagnostics: "diagnostics".to_owned(),
             navigate_to_pose: "navigate_to_pose".to_owned(),
@@ -87,7 +93,7 @@ impl Default for Topics {
 
 impl Topics {
     /// Every name with its key.
-    pub(super) fn entries(&self) -> [(&'static str, &str); 11] {
+    pub(super) fn entries(&self) -> [(&'static str, &str); 13] {
         [
             ("scan", &self.scan),
             ("odometry", &self.odometry),
@@ -96,6 +102,8 @@ impl Topics {
             ("goal_pose", &self.goal_pose),
             ("cmd_vel", &self.cmd_vel),
             ("decision", &self.decision),
+            ("path", &self.path),
+            ("subgoals", &self.subgoals),
             ("reset", &self.reset),
             ("diagnostics", &self.diagnostics),
             ("navigate_to_pose", &self.navigate_to_pose),

@@ -1,4 +1,4 @@
-//! `geometry_msgs`, `nav_msgs` and `tf2_msgs`.
+//! `geometry_msgs` and `nav_msgs`.
 
 use serde::{Deserialize, Serialize};
 
@@ -126,31 +126,4 @@ pub struct Path {
     pub header: Header,
     /// The poses, from the robot on.
     pub poses: Vec<PoseStamped>,
-}
-
-/// `geometry_msgs/Transform`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Transform {
-    /// Metres.
-    pub translation: Vector3,
-    /// Of the child frame in the parent frame.
-    pub rotation: Quaternion,
-}
-
-/// `geometry_msgs/TransformStamped`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TransformStamped {
-    /// Stamp and parent frame.
-    pub header: Header,
-    /// The child frame.
-    pub child_frame_id: String,
-    /// The pose of the child frame in the parent frame.
-    pub transform: Transform,
-}
-
-/// `tf2_msgs/TFMessage`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TfMessage {
-    /// Any number of transforms.
-    pub transforms: Vec<TransformStamped>,
 }

@@ -1,7 +1,7 @@
 //! The ROS 2 messages that the node reads and writes, as CDR lays them out: fields in the order of the
 //! message definitions, under their names.
 //!
-//! Source: the `.msg` files of `common_interfaces`, `geometry2` and `navigation2`.
+//! Source: the `.msg` files of `common_interfaces` and `navigation2`.
 
 mod diagnostic;
 mod geometry;
@@ -14,8 +14,8 @@ mod visual;
 
 pub use diagnostic::{DiagnosticArray, DiagnosticStatus, KeyValue, Level};
 pub use geometry::{
-    Odometry, Path, Point, Pose, PoseStamped, PoseWithCovariance, Quaternion, TfMessage, Transform,
-    TransformStamped, Twist, TwistStamped, TwistWithCovariance, Vector3,
+    Odometry, Path, Point, Pose, PoseStamped, PoseWithCovariance, Quaternion, Twist, TwistStamped,
+    TwistWithCovariance, Vector3,
 };
 pub use navigate::{Feedback, HumbleResult, JazzyResult, NavigateGoal, NavigateResult, Outcome};
 pub use sensor::{Imu, PointCloud2, PointField};

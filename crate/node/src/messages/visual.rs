@@ -26,13 +26,13 @@ pub struct Marker {
     pub ns: String,
     /// With `ns`, the marker's name.
     pub id: i32,
-    /// Its shape: [`Self::LINE_STRIP`] or [`Self::SPHERE_LIST`].
+    /// Its shape, such as [`Self::SPHERE_LIST`].
     pub r#type: i32,
     /// 0 to add or change it.
     pub action: i32,
     /// Of its points in the frame.
     pub pose: Pose,
-    /// Metres: of a sphere its diameters, of a line its width in x.
+    /// Of a sphere its diameters, metres.
     pub scale: Vector3,
     /// Colour of points that have none.
     pub color: ColorRgba,
@@ -61,8 +61,6 @@ pub struct Marker {
 }
 
 impl Marker {
-    /// A line through the points.
-    pub const LINE_STRIP: i32 = 4;
     /// A sphere at each point.
     pub const SPHERE_LIST: i32 = 7;
 }
