@@ -79,7 +79,6 @@ class Robot(Node):
         self.points = np.zeros(RINGS * COLUMNS, dtype=POINT)
         self.points["ring"] = np.tile(np.arange(RINGS), COLUMNS)
         self.points["time"] = np.repeat(np.linspace(-0.1, 0.0, COLUMNS), RINGS)
-        self.is_ending = False
         self.thread = threading.Thread(target=self.publish_all, daemon=True)
 
     def scan_publisher(self, reliability):
@@ -100,7 +99,7 @@ class Robot(Node):
     def publish_all(self):
         """Every 10 ms: the IMU; every second time odometry; every tenth a scan and the emergency stop."""
         tick, due = 0, time.monotonic()
-        while not self.is_ending:
+        while True:
             self.move(0.01)
             if self.is_simulated:
                 self.clock.publish(Clock(clock=self.get_clock().now().to_msg()))
@@ -181,7 +180,6 @@ def spinning(robot):
     thread = threading.Thread(target=executor.spin, daemon=True)
     thread.start()
     robot.thread.start()
-    return executor
 
 
 def until(holds, seconds):
