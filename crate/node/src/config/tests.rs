@@ -1,9 +1,9 @@
 use super::*;
 
-const LEAST: &str = "/**:\n  ros__parameters:\n    distro: jazzy\n    robot_preset: husky\n";
-
 fn parse(more: &str) -> Result<NodeConfig, ConfigFileError> {
-    NodeConfig::parse(Path::new("robot.yaml"), &format!("{LEAST}{more}"))
+    let distro = Distro::BUILT.word();
+    let least = format!("/**:\n  ros__parameters:\n    distro: {distro}\n    robot_preset: husky\n");
+    NodeConfig::parse(Path::new("robot.yaml"), &format!("{least}{more}"))
 }
 
 fn refusal(more: &str) -> String {
@@ -11,17 +11,16 @@ fn refusal(more: &str) -> String {
 }
 
 #[test]
-#[cfg(not(feature = "humble"))]
 fn the_shortest_file_is_a_husky_with_clearpath_s_names() {
     let config = parse("").unwrap();
     assert_eq!(config.planner, PlannerConfig::default());
-    assert_eq!(config.command_type, CommandType::TwistStamped);
+    let stamped = Distro::BUILT == Distro::Jazzy;
+    assert_eq!(config.command_type == CommandType::TwistStamped, stamped);
     assert_eq!(config.topics.scan, "sensors/lidar3d_0/points");
     assert_eq!(config.namespace, "/");
 }
 
 #[test]
-#[cfg(not(feature = "humble"))]
 fn sections_start_from_their_presets() {
     let config =
         parse("    sensor:\n      rings: 32\n      height_m: 1.7\n    planner:\n      goal_tolerance_m: 2\n");
@@ -38,7 +37,6 @@ fn sections_start_from_their_presets() {
 }
 
 #[test]
-#[cfg(not(feature = "humble"))]
 fn every_fault_is_told_with_its_line() {
     for (more, expected) in [
         ("    speed: 3\n", "robot.yaml:5: unknown field `speed`"),
@@ -74,6 +72,13 @@ fn every_fault_is_told_with_its_line() {
         let refusal = refusal(more);
         assert!(refusal.starts_with(expected), "{refusal}\nexpected: {expected}");
     }
+}
+
+#[test]
+fn the_sample_file_of_the_distribution_is_in_order() {
+    let name = format!("{}/config/husky-{}.yaml", env!("CARGO_MANIFEST_DIR"), Distro::BUILT.word());
+    let config = NodeConfig::open(Path::new(&name)).unwrap();
+    assert_eq!(config.namespace, "/a200_0000");
 }
 
 #[test]

@@ -32,7 +32,7 @@ pub struct Feedback {
 impl Message for Feedback {}
 
 /// The result in Humble: `std_msgs/Empty`, which CDR gives one byte.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HumbleResult {
     structure_needs_at_least_one_member: u8,
 }
