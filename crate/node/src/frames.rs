@@ -1,5 +1,5 @@
-//! Between the odometry's frame and the estimator's. The two part as odometry drifts or jumps; what lies to the
-//! robot in one lies so in the other.
+//! Between the odometry's frame and the estimator's. The two part as odometry drifts or jumps; what lies to
+//! the robot in one lies so in the other.
 
 use mapless::Pose;
 use mapless::glam::{DVec2, DVec3};

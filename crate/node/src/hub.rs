@@ -169,7 +169,8 @@ impl Hub {
         *lock(&self.planned) = Some(planned);
     }
 
-    /// Where the robot is, in the estimator's frame and in the odometry's; `None` until odometry and IMU came.
+    /// Where the robot is, in the estimator's frame and in the odometry's; `None` until odometry and IMU
+    /// came.
     pub(crate) fn poses(&self) -> Option<[Pose; 2]> {
         *lock(&self.poses)
     }

@@ -34,8 +34,8 @@ impl Picture {
         })
     }
 
-    /// Publishes what a step decided, in the odometry's frame: `poses` are the robot's in the estimator's frame
-    /// and in the odometry's.
+    /// Publishes what a step decided, in the odometry's frame: `poses` are the robot's in the estimator's
+    /// frame and in the odometry's.
     pub(crate) fn publish(&self, step: &Step<'_>, [believed, told]: [Pose; 2], stamp: Time) {
         let change = FrameChange::new(believed, told);
         let header = Header { stamp, frame_id: self.frame_id.clone() };

@@ -62,8 +62,9 @@ impl Senses {
         }
     }
 
-    /// The pose for a scan that arrived now: of the end of the sweep, once its points are corrected for motion
-    /// since; of its middle, if they have no times. Sensors' clocks lie, so a sweep ends when it arrives.
+    /// The pose for a scan that arrived now: of the end of the sweep, once its points are corrected for
+    /// motion since; of its middle, if they have no times. Sensors' clocks lie, so a sweep ends when it
+    /// arrives.
     fn placed(&self, hub: &Hub, returns: &mut Returns, arrived: Duration) -> Option<Pose> {
         let trajectory = self.estimator.trajectory();
         if let Some(times_s) = &returns.since_stamp_s {
