@@ -80,7 +80,8 @@ fn points_and_times_are_those_of_another_decoder() {
     }
 }
 
-/// `packets_reference.py FOLDER` writes what the other decoder makes of captures; `MAPLESS_DECODED` is FOLDER.
+/// `packets_reference.py FOLDER FILE.pcap ...` writes what the other decoder makes of captures, and
+/// `MAPLESS_DECODED` is FOLDER.
 #[test]
 #[ignore = "reads the data that MAPLESS_DATA and MAPLESS_DECODED name"]
 fn captures_have_the_points_and_times_of_another_decoder() {
