@@ -63,7 +63,7 @@ impl Stream {
         }
         if self.last.is_none_or(|last| last.fingerprint != message.fingerprint) {
             (self.changed, self.is_frozen) = (arrived, false);
-        } else if is_moving || self.is_frozen {
+        } else if is_moving {
             self.is_frozen |= arrived.saturating_sub(self.changed).as_secs_f64() > self.frozen_s;
         } else {
             self.changed = arrived;

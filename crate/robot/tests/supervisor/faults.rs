@@ -171,6 +171,33 @@ fn a_frozen_scan_that_goes_on_does_not_let_the_robot_creep() {
 }
 
 #[test]
+fn messages_that_stay_late_keep_the_robot_standing() {
+    for fault in
+        [Fault::Late(Sensor::Scan, 0.6), Fault::Late(Sensor::Odometry, 0.4), Fault::Late(Sensor::Imu, 0.3)]
+    {
+        let mut rig = driving(11);
+        rig.fault = Some(fault);
+        run(&mut rig, 0.6, |_, _| {});
+        assert!(!moves_within(&mut rig, 20.0), "{fault:?}");
+    }
+}
+
+#[test]
+fn a_clock_that_was_set_stops_the_robot_until_it_has_no_goal() {
+    for step_s in [30.0, -30.0] {
+        let mut rig = driving(13);
+        rig.fault = Some(Fault::ClockStep(step_s));
+        assert!(stands(&run(&mut rig, 0.6, |_, _| {})));
+        // The clock stays as it was set. Set ahead, the goal is void; set back, it waits.
+        assert!(!moves_within(&mut rig, 5.0), "{step_s}");
+        rig.goal = None;
+        assert_eq!(run(&mut rig, 2.0, |_, _| {}).state, State::Standby, "{step_s}");
+        rig.goal = Some(2);
+        assert!(moves_within(&mut rig, 1.0), "{step_s}");
+    }
+}
+
+#[test]
 fn a_simulated_hour_without_faults_shows_no_stop() {
     let mut rig = driving(1);
     run(&mut rig, 3600.0, |passed_s, decision| {
