@@ -1,18 +1,17 @@
 //! The node's configuration: one file in the form of ROS 2's parameter files.
 
 mod merge;
+mod sections;
 mod topics;
 mod yaml;
 
 #[cfg(test)]
 mod tests;
 
-use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 
-use mapless::glam::{DQuat, EulerRot};
 use mapless::{PlannerConfig, RobotModel, SensorModel};
-use mapless_parameters::{ConfigError, choices, parameters};
+use mapless_parameters::ConfigError;
 use mapless_robot::cloud::check_sensor;
 use mapless_robot::estimator::EstimatorConfig;
 use mapless_robot::supervisor::SupervisorConfig;
@@ -21,6 +20,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use merge::merged;
+pub use sections::{Frames, ImuMount, NavigationConfig, PlannerPreset, RobotPreset};
 pub use topics::{CommandType, Distro, Reliability, Topics};
 pub use yaml::ConfigFileError;
 use yaml::YamlFile;
@@ -30,98 +30,6 @@ const EVERY_NODE: &str = "/**";
 const PARAMETERS: &str = "ros__parameters";
 /// ROS 2 has this many domains on Linux.
 const LAST_DOMAIN: u16 = 232;
-
-choices! {
-    /// A robot whose dimensions are known.
-    pub enum RobotPreset {
-        /// Clearpath Husky A200.
-        Husky = "husky",
-        /// Clearpath Jackal J100.
-        Jackal = "jackal",
-        /// Clearpath Warthog.
-        Warthog = "warthog",
-    }
-}
-
-impl RobotPreset {
-    fn model(self) -> RobotModel {
-        match self {
-            Self::Husky => RobotModel::husky(),
-            Self::Jackal => RobotModel::jackal(),
-            Self::Warthog => RobotModel::warthog(),
-        }
-    }
-}
-
-choices! {
-    /// A preset of the planner.
-    pub enum PlannerPreset {
-        /// The default one.
-        Default = "default",
-        /// The paper's.
-        Paper = "paper",
-    }
-}
-
-parameters! {
-    /// How the IMU is mounted: its axes turned from those of the robot by yaw, then pitch, then roll, as
-    /// ROS counts them (REP 103: pitch nose-down positive).
-    #[derive(Copy)]
-    pub struct ImuMount {
-        /// Roll.
-        roll_rad: f64 = 0.0, unit "rad", range [-PI, PI], check Within(-PI, PI);
-        /// Pitch, nose-down positive.
-        pitch_rad: f64 = 0.0, unit "rad", range [-FRAC_PI_2, FRAC_PI_2], check Within(-FRAC_PI_2, FRAC_PI_2);
-        /// Yaw.
-        yaw_rad: f64 = 0.0, unit "rad", range [-PI, PI], check Within(-PI, PI);
-    }
-}
-
-impl ImuMount {
-    /// Takes vectors of the IMU's frame to the robot's.
-    #[must_use]
-    pub fn base_from_imu(&self) -> DQuat {
-        DQuat::from_euler(EulerRot::ZYX, self.yaw_rad, self.pitch_rad, self.roll_rad)
-    }
-}
-
-parameters! {
-    /// What becomes of goals.
-    #[derive(Copy)]
-    pub struct NavigationConfig {
-        /// A goal that takes longer is aborted.
-        timeout_s: f64 = 600.0, unit "s", range [10.0, 3600.0], check Within(1.0, 86400.0);
-        /// Whether the robot turns to the goal's heading in the end; otherwise any heading will do.
-        final_heading: bool = false;
-        /// Feedback of the action, per second.
-        feedback_hz: f64 = 5.0, unit "1/s", range [1.0, 20.0], check Within(0.1, 50.0);
-    }
-}
-
-/// Names of frames. A message in another frame is malformed.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Frames {
-    /// The frame of the odometry's pose, and of goals.
-    pub odom: String,
-    /// The odometry's child frame.
-    pub base: String,
-    /// The frame of the scans.
-    pub scan: String,
-    /// The frame of the IMU.
-    pub imu: String,
-}
-
-impl Default for Frames {
-    fn default() -> Self {
-        Self {
-            odom: "odom".to_owned(),
-            base: "base_link".to_owned(),
-            scan: "lidar3d_0_laser".to_owned(),
-            imu: "imu_0_link".to_owned(),
-        }
-    }
-}
 
 /// Everything that the node is told.
 #[derive(Clone, Debug, PartialEq)]
