@@ -8,6 +8,7 @@ mod datagrams;
 mod link;
 mod model;
 mod packet;
+pub(crate) mod receiver;
 mod revolutions;
 mod sensors;
 

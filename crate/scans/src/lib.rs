@@ -14,6 +14,8 @@
 //!   forward: forward is Velodyne's y and left its -x. A revolution goes from behind the sensor round to
 //!   behind it again, so that what lies ahead is seen in one sweep. What stands before the first whole
 //!   revolution and after the last one is left out, and so is a revolution of which a packet was lost.
+//!
+//! [`PacketReceiver`] does the same with packets of such a sensor as they arrive.
 
 mod capture;
 mod cloud_warning;
@@ -33,6 +35,7 @@ use std::io::Read as _;
 use std::mem;
 use std::path::Path;
 
+pub use capture::receiver::{PacketReceiver, Revolution};
 pub use cloud_warning::CloudWarning;
 pub use error::{ScanError, ScanFault};
 pub use scan::{Scan, ScanChoice, ScanWarning};

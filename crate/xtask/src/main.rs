@@ -9,11 +9,13 @@ mod bench;
 mod browser;
 mod count;
 mod fuzz;
+mod package;
 mod page;
 mod physics;
 mod profile;
 mod python;
 mod results;
+mod robot;
 mod setup;
 mod test;
 mod work;
@@ -76,6 +78,15 @@ enum Command {
         #[arg(long)]
         short: bool,
     },
+    /// Build a Debian package of mapless-node, with a static program, into target/package.
+    Package {
+        /// The ROS 2 distribution that the robot runs.
+        #[arg(long)]
+        distro: package::Distro,
+        /// The robot's processor.
+        #[arg(long)]
+        arch: package::Arch,
+    },
     /// Run every fuzz target for a while, and write docs/FUZZ.md.
     Fuzz {
         /// Time for each target.
@@ -107,6 +118,7 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Results { campaigns, .. } => results::run(&sh, &campaigns),
         Command::Bench { rounds } => bench::run(&sh, rounds),
         Command::Physics { short } => physics::run(&sh, short),
+        Command::Package { distro, arch } => package::run(&sh, distro, arch),
         Command::Fuzz { seconds } => fuzz::run(&sh, seconds),
     }
 }

@@ -20,14 +20,21 @@ pub(crate) fn target_dir(sh: &Shell) -> PathBuf {
 
 /// Adds the standard library for wasm to the toolchain.
 pub(crate) fn wasm_target(sh: &Shell) -> anyhow::Result<()> {
-    let libraries = cmd!(sh, "rustc --print target-libdir --target wasm32-unknown-unknown").quiet().read()?;
+    target(sh, "wasm32-unknown-unknown")
+}
+
+/// Adds the standard library for a target to the toolchain.
+pub(crate) fn target(sh: &Shell, name: &str) -> anyhow::Result<()> {
+    let libraries = cmd!(sh, "rustc --print target-libdir --target {name}").quiet().read()?;
     if Path::new(&libraries).is_dir() {
         return Ok(());
     }
-    cmd!(sh, "rustup target add wasm32-unknown-unknown").run().context(
-        "The wasm target is missing and rustup, which would add it, failed. Without rustup, install the standard \
-         library for wasm32-unknown-unknown from where Rust came from.",
-    )
+    cmd!(sh, "rustup target add {name}").run().with_context(|| {
+        format!(
+            "The target {name} is missing and rustup, which would add it, failed. Without rustup, install the \
+             standard library for {name} from where Rust came from."
+        )
+    })
 }
 
 /// Adds rustfmt and clippy to a minimal toolchain.

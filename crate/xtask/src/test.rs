@@ -13,7 +13,7 @@ use xshell::{Cmd, Shell, cmd};
 use crate::browser::Browser;
 use crate::count::{Count, Runner, count};
 use crate::python::Environment;
-use crate::{page, physics, setup};
+use crate::{page, physics, robot, setup};
 
 /// A part of the tests that can run alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -35,6 +35,9 @@ pub(crate) enum Part {
     /// The physics engine on ground whose answers are known, and two routes in it and in our own world; only
     /// on request, as it needs Python 3.11 or newer and installs MuJoCo under target/.
     Physics,
+    /// The node for robots with a robot of rclpy; only on request, as it needs Python 3.11 and installs rclpy
+    /// under target/. The native tests have it over DDS without ROS.
+    Robot,
 }
 
 impl Part {
@@ -54,7 +57,7 @@ struct Stage {
 impl Stage {
     /// Whether it belongs to a part, or to all of them: those that need no more than Rust and Node.
     fn belongs_to(&self, part: Option<Part>) -> bool {
-        let on_request = [Part::Ray, Part::Reports, Part::Physics];
+        let on_request = [Part::Ray, Part::Reports, Part::Physics, Part::Robot];
         part.map_or(!self.parts.iter().all(|part| on_request.contains(part)), |part| {
             self.parts.contains(&part)
         })
@@ -78,6 +81,7 @@ const STAGES: &[Stage] = &[
     Stage { title: "build of the command line", parts: &[Part::Page, Part::Ray], run: build_command_line },
     Stage { title: "campaigns on Ray", parts: &[Part::Ray], run: test_ray },
     Stage { title: "physics engine", parts: &[Part::Physics], run: physics::test },
+    Stage { title: "node with rclpy", parts: &[Part::Robot], run: robot::test },
     Stage { title: "browser tests of the page", parts: &[Part::Page], run: test_page },
 ];
 
@@ -137,6 +141,9 @@ fn set_up(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     }
     if part == Some(Part::Physics) {
         physics::python(sh)?;
+    }
+    if part == Some(Part::Robot) {
+        robot::python(sh)?;
     }
     if wants(&[Part::Lint, Part::Page]) {
         setup::npm_packages(sh)?;
@@ -317,6 +324,8 @@ mod tests {
         assert!(!titles(None).contains(&"campaigns on Ray") && !titles(None).contains(&"reports"));
         assert!(!titles(None).contains(&"physics engine"));
         assert_eq!(titles(Some(Part::Physics)), ["physics engine"]);
+        assert!(!titles(None).contains(&"node with rclpy"));
+        assert_eq!(titles(Some(Part::Robot)), ["node with rclpy"]);
         assert_eq!(titles(Some(Part::Reports)), ["reports"]);
         assert!(titles(Some(Part::Ray)).contains(&"campaigns on Ray"));
     }

@@ -28,6 +28,10 @@ pub struct BeamGrid {
     rings: usize,
     lowest_elevation_rad: f64,
     ring_step_rad: f64,
+    /// How far the middle of the elevations that belong to a row lies above the row's own. The skyline is
+    /// half a spacing of rings above the highest beam that meets ground, and half a row above the highest
+    /// occupied row: with this, both are the same place where rings share rows.
+    row_shift_rad: f64,
     /// Nearer than this nothing is measured.
     pub(crate) min_range_m: f64,
     /// `None` if the sensor's axes are the robot's.
@@ -49,7 +53,9 @@ impl BeamGrid {
         let finest = if spacing <= RING_STEP_RAD * (1.0 + TOLERANCE) { RING_STEP_RAD } else { spacing };
         let ring_step_rad = finest.max((highest - lowest) / (MOST_RINGS - 1) as f64);
         let rings = floor((highest - lowest) / ring_step_rad + 0.5) as usize + 1;
+        let is_shared = spacing < ring_step_rad * (1.0 - TOLERANCE);
         let mut grid = Self {
+            row_shift_rad: if is_shared { 0.5 * (ring_step_rad - spacing) } else { 0.0 },
             rings: rings.min(MOST_RINGS),
             lowest_elevation_rad: lowest,
             ring_step_rad,
@@ -94,15 +100,20 @@ impl BeamGrid {
 
     /// The highest row whose beams are all below an elevation; `None` if there is none.
     pub(crate) fn ring_below(&self, elevation_rad: f64) -> Option<usize> {
-        let ring = floor((elevation_rad - self.lowest_elevation_rad) / self.ring_step_rad - 0.5);
+        let ring = floor((elevation_rad - self.lowest_beam_rad()) / self.ring_step_rad - 0.5);
         (ring >= 0).then(|| (ring as usize).min(self.rings - 1))
     }
 
-    /// The row nearest to an elevation, and whether it is within the sensor's view.
+    /// The row that an elevation belongs to or is nearest to, and whether it is within the sensor's view.
     pub(crate) fn nearest_ring(&self, elevation_rad: f64) -> (usize, bool) {
-        let ring = floor((elevation_rad - self.lowest_elevation_rad) / self.ring_step_rad + 0.5);
+        let ring = floor((elevation_rad - self.lowest_beam_rad()) / self.ring_step_rad + 0.5);
         let nearest = ring.clamp(0, self.rings as i32 - 1);
         (nearest as usize, nearest == ring)
+    }
+
+    /// The middle of the elevations that belong to the lowest row.
+    fn lowest_beam_rad(&self) -> f64 {
+        self.lowest_elevation_rad + self.row_shift_rad
     }
 
     /// A point of a scan, with the robot's axes.
@@ -195,6 +206,24 @@ mod tests {
             }
             assert_eq!(grid.ring_of((lowest - step_deg).to_radians()), None);
             assert_eq!(grid.ring_of((highest + 1.51 * step_deg).to_radians()), None);
+        }
+    }
+
+    #[test]
+    fn the_skyline_over_fine_rings_is_as_far_above_their_row_as_over_coarse_ones() {
+        // The skyline is anywhere between the highest ring that meets ground and the next; half a row above
+        // the occupied row must be its mean.
+        for (rings, half_view_deg) in [(16, 15.0), (32, 15.5), (64, 22.5), (128, 45.0)] {
+            let grid = BeamGrid::new(&sensor(rings, -half_view_deg, half_view_deg));
+            let spacing = (2.0 * half_view_deg / (rings - 1) as f64).to_radians();
+            let lowest = (-half_view_deg).to_radians();
+            let missed = |ring: usize| {
+                let elevation = lowest + spacing * ring as f64;
+                let row = grid.row_elevation_rad(ROWS_PER_RING * grid.ring_of(elevation + 1e-9).unwrap());
+                elevation + 0.5 * spacing - (row + 0.5 * grid.ring_step_rad)
+            };
+            let mean_deg = ((0..rings).map(missed).sum::<f64>() / rings as f64).to_degrees();
+            assert!(mean_deg.abs() < 0.15, "{rings} rings: {mean_deg}°");
         }
     }
 

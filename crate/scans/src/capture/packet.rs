@@ -2,7 +2,7 @@
 //!
 //! A packet has twelve blocks of 32 returns: two firing sequences of sixteen lasers or one of 32. Then come
 //! the time stamp, the return mode and the product. A block has the azimuth of its first firing alone; the
-//! others are interpolated.
+//! others follow from how far the packet turns.
 
 use glam::Vec3;
 
@@ -51,6 +51,7 @@ pub(crate) fn stamp_us(packet: &Packet) -> u32 {
 }
 
 /// What a packet holds.
+#[derive(Debug)]
 pub(crate) struct Sweep {
     /// In the order of time.
     pub(crate) firings: Vec<Firing>,
@@ -65,9 +66,12 @@ pub(crate) struct Sweep {
 }
 
 /// One firing sequence: each laser once.
+#[derive(Debug)]
 pub(crate) struct Firing {
     /// Azimuth as the first laser fires, clockwise from forward, hundredths of a degree, below [`TURN`].
     pub(crate) azimuth: f64,
+    /// When the first laser fires, microseconds after the packet's stamp.
+    pub(crate) begins_us: f64,
     model: &'static Model,
     /// How far the head turns in a microsecond, hundredths of a degree.
     turn_per_us: f64,
@@ -76,9 +80,9 @@ pub(crate) struct Firing {
 }
 
 impl Firing {
-    /// The returns in the project's sensor frame, metres: Velodyne's azimuth turns clockwise, ours
-    /// anticlockwise.
-    pub(crate) fn points_m(&self) -> impl Iterator<Item = Vec3> {
+    /// The returns: in the project's sensor frame, metres, and how long after the first laser each was fired,
+    /// microseconds. Velodyne's azimuth turns clockwise, ours anticlockwise.
+    pub(crate) fn returns(&self) -> impl Iterator<Item = (Vec3, f64)> {
         let lasers = self.model.lasers.iter().zip(self.distances).enumerate();
         lasers.filter(|(_, (_, distance))| *distance > 0).map(|(index, (laser, distance))| {
             let fired_us = FIRING_US * (index / self.model.lasers_at_once) as f64;
@@ -86,12 +90,18 @@ impl Firing {
             let (sin_a, cos_a) = libm::sincos((azimuth * 0.01 + laser.azimuth_deg).to_radians());
             let (sin_e, cos_e) = libm::sincos(laser.elevation_deg.to_radians());
             let range_m = f64::from(distance) * self.model.distance_unit_m;
-            Vec3::new(
+            let point_m = Vec3::new(
                 (range_m * cos_e * cos_a) as f32,
                 (-range_m * cos_e * sin_a) as f32,
                 (range_m * sin_e + 1e-3 * laser.above_mm) as f32,
-            )
+            );
+            (point_m, fired_us)
         })
+    }
+
+    /// The places of the returns.
+    pub(crate) fn points_m(&self) -> impl Iterator<Item = Vec3> {
+        self.returns().map(|(point_m, _)| point_m)
     }
 }
 
@@ -123,22 +133,17 @@ pub(crate) fn sweep(packet: &Packet, model: &'static Model, number: usize) -> Re
         .enumerate()
         .filter_map(|(index, pair)| Some((index, pair.iter().flatten().next().copied()?)))
         .collect();
-    let turn_per_block = |&(index, azimuth): &(usize, f64), &(later, next): &(usize, f64)| {
-        turn_between(azimuth, next) / (later - index) as f64
-    };
-    // The last block of the packet turns as far as the one before it.
-    let [.., before, last] = good.as_slice() else {
+    let ([first, .., last], Some(turn)) = (good.as_slice(), turn_per_block(&good)) else {
         let expected = "at least two with flag and azimuth";
         return Err(ScanFault::value(format!("packet {number}, good blocks"), good.len(), expected));
     };
-    let last_turn = turn_per_block(before, last);
     let mut firings = Vec::with_capacity(RETURNS * BLOCKS / model.lasers.len());
-    for (place, &(index, begin)) in good.iter().enumerate() {
-        let turn = good.get(place + 1).map_or(last_turn, |next| turn_per_block(&(index, begin), next));
+    for &(index, begin) in &good {
         for sequence in 0..sequences {
             let azimuth = begin + turn * sequence as f64 / sequences as f64;
             let firing = |distances: [u16; MOST_LASERS]| Firing {
                 azimuth: azimuth.rem_euclid(TURN),
+                begins_us: block_us * index as f64 + SEQUENCE_US * sequence as f64,
                 model,
                 turn_per_us: turn / block_us,
                 distances,
@@ -159,8 +164,8 @@ pub(crate) fn sweep(packet: &Packet, model: &'static Model, number: usize) -> Re
         }
     }
     let groups = BLOCKS / returns;
-    let begin = good[0].1 - turn_per_block(&good[0], &good[1]) * good[0].0 as f64;
-    let end = last.1 + last_turn * (groups - last.0) as f64;
+    let begin = first.1 - turn * first.0 as f64;
+    let end = last.1 + turn * (groups - last.0) as f64;
     Ok(Sweep {
         firings,
         duration_us: block_us * groups as f64,
@@ -168,6 +173,17 @@ pub(crate) fn sweep(packet: &Packet, model: &'static Model, number: usize) -> Re
         turned: turn_between(begin, end),
         bad_blocks,
     })
+}
+
+/// How far the head turns from one group of blocks to the next, hundredths of a degree: the mean over the
+/// packet, because the encoder's azimuths jitter, but for the least turn and the most, because the azimuth
+/// of a sensor with a limited view jumps.
+fn turn_per_block(good: &[(usize, f64)]) -> Option<f64> {
+    let turn = |pair: &[(usize, f64)]| turn_between(pair[0].1, pair[1].1) / (pair[1].0 - pair[0].0) as f64;
+    let mut turns: Vec<f64> = good.windows(2).map(turn).collect();
+    turns.sort_by(f64::total_cmp);
+    let kept = if turns.len() > 3 { &turns[1..turns.len() - 1] } else { &turns };
+    (!kept.is_empty()).then(|| kept.iter().sum::<f64>() / kept.len() as f64)
 }
 
 /// The azimuth of a block, hundredths of a degree.

@@ -27,7 +27,8 @@ pub(crate) fn revolutions(
     wanted: usize,
     warnings: &mut Vec<ScanWarning>,
 ) -> Revolutions {
-    let mut turns = Turns { wanted, ..Turns::default() };
+    let mut turns = Turns::default();
+    let mut found = Revolutions { wanted: None, whole: 0 };
     let mut losses = Losses::default();
     let mut before: Option<(&Timed<'_>, Sweep)> = None;
     for timed in &sensor.packets {
@@ -46,12 +47,17 @@ pub(crate) fn revolutions(
             turns.interrupt();
         }
         for firing in std::mem::take(&mut sweep.firings) {
-            turns.take(firing);
+            if let Some(firings) = turns.take(firing) {
+                if found.whole == wanted {
+                    found.wanted = Some(firings.iter().flat_map(Firing::points_m).collect());
+                }
+                found.whole += 1;
+            }
         }
         before = Some((timed, sweep));
     }
     losses.tell(warnings);
-    Revolutions { wanted: turns.found, whole: turns.whole }
+    found
 }
 
 /// What is missing between two packets, if anything is.
@@ -59,12 +65,15 @@ fn gap((before, turned): (&Timed<'_>, &Sweep), (timed, sweep): (&Timed<'_>, &Swe
     if before.era != timed.era {
         return Some("the sensor's clock was set".to_owned());
     }
-    if let (Some(from_us), Some(to_us)) = (before.time_us, timed.time_us) {
-        let passed_us = (to_us - from_us) as f64;
-        if passed_us > GAP_PACKETS * turned.duration_us {
-            let lost_ms = 1e-3 * (passed_us - turned.duration_us);
-            return Some(format!("{lost_ms:.1} ms are missing by the sensor's time stamps"));
-        }
+    let passed_us = before.time_us.zip(timed.time_us).map(|(from_us, to_us)| (to_us - from_us) as f64);
+    lost_between(turned, sweep, passed_us)
+}
+
+/// What is missing between two packets, with the time from stamp to stamp if the sensor's clock runs.
+pub(crate) fn lost_between(turned: &Sweep, sweep: &Sweep, passed_us: Option<f64>) -> Option<String> {
+    if let Some(passed_us) = passed_us.filter(|passed_us| *passed_us > GAP_PACKETS * turned.duration_us) {
+        let lost_ms = 1e-3 * (passed_us - turned.duration_us);
+        return Some(format!("{lost_ms:.1} ms are missing by the sensor's time stamps"));
     }
     let jump = turn_between(turned.begin + turned.turned, sweep.begin);
     let is_jump = jump.abs() > (JUMP_SHARE * turned.turned.abs()).max(LEAST_JUMP);
@@ -95,11 +104,8 @@ impl Losses {
 }
 
 /// Follows the azimuth past the point behind the sensor.
-#[derive(Default)]
-struct Turns {
-    wanted: usize,
-    whole: usize,
-    found: Option<Vec<Vec3>>,
+#[derive(Debug, Default)]
+pub(crate) struct Turns {
     /// Firings since the last passing; `None` before the first one, and after a gap.
     current: Option<Vec<Firing>>,
     /// How far the last firing was past straight behind, hundredths of a degree.
@@ -111,11 +117,17 @@ struct Turns {
 
 impl Turns {
     /// The next firing belongs to another turn: what came before is not whole.
-    fn interrupt(&mut self) {
-        *self = Self { wanted: self.wanted, whole: self.whole, found: self.found.take(), ..Self::default() };
+    pub(crate) fn interrupt(&mut self) {
+        *self = Self::default();
     }
 
-    fn take(&mut self, firing: Firing) {
+    /// Firings of the turn under way.
+    pub(crate) fn firings(&self) -> usize {
+        self.current.as_ref().map_or(0, Vec::len)
+    }
+
+    /// Takes the next firing; the firings of the whole turn that it ends.
+    pub(crate) fn take(&mut self, firing: Firing) -> Option<Vec<Firing>> {
         let past = (firing.azimuth + 0.5 * TURN).rem_euclid(TURN);
         // The azimuth jitters, and may pass back and forth; the first passing of a turn counts.
         match self.past.map(|before| past - before) {
@@ -124,17 +136,14 @@ impl Turns {
             _ => {}
         }
         self.past = Some(past);
+        let mut whole = None;
         if self.turn > self.furthest {
             self.furthest = self.turn;
-            if let Some(firings) = self.current.replace(Vec::new()) {
-                if self.whole == self.wanted {
-                    self.found = Some(firings.iter().flat_map(Firing::points_m).collect());
-                }
-                self.whole += 1;
-            }
+            whole = self.current.replace(Vec::new());
         }
         if let Some(current) = &mut self.current {
             current.push(firing);
         }
+        whole
     }
 }

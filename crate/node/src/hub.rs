@@ -1,0 +1,233 @@
+//! What the threads share: single-slot mailboxes, and a few values that are locked for moments.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use mapless::glam::Vec3;
+use mapless::{Pose, Status};
+use mapless_robot::supervisor::{Decision, Inputs, Proposal};
+
+use crate::messages::Time;
+use crate::navigation::Task;
+use crate::slot::{Slot, lock};
+
+/// A scan for the planner.
+#[derive(Debug)]
+pub(crate) struct Scan {
+    /// When it arrived, on the clock of [`Hub::now`].
+    pub(crate) arrived: Duration,
+    /// Its stamp.
+    pub(crate) stamp: Time,
+    /// Its returns in the sensor frame, metres.
+    pub(crate) points_m: Vec<Vec3>,
+    /// The robot's pose for it.
+    pub(crate) pose: Pose,
+}
+
+/// What the planner last made of a scan.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Planned {
+    /// The goal that it was for.
+    pub(crate) goal: u64,
+    /// What came out.
+    pub(crate) status: Status,
+    /// Times it began to backtrack or to search since the goal was given.
+    pub(crate) recoveries: i16,
+    /// Time that the step took.
+    pub(crate) took: Duration,
+}
+
+/// What was last wrong with a kind of message.
+#[derive(Debug)]
+struct Complaint {
+    text: String,
+    at: Duration,
+    logged: Duration,
+}
+
+/// A complaint is logged once in this time, and forgotten after it.
+const COMPLAIN_EVERY: Duration = Duration::from_secs(5);
+
+/// What the threads share.
+#[derive(Debug)]
+pub(crate) struct Hub {
+    began: Instant,
+    is_ending: AtomicBool,
+    has_torn: AtomicBool,
+    /// The simulation's clock, if time is simulated.
+    clock: Option<Mutex<Time>>,
+    /// From the middleware to the planner.
+    pub(crate) scan: Slot<Scan>,
+    /// From the planner to the supervisor.
+    pub(crate) proposal: Slot<Proposal>,
+    inputs: Mutex<Inputs>,
+    decision: Mutex<Option<Decision>>,
+    planned: Mutex<Option<Planned>>,
+    task: Mutex<Option<Task>>,
+    /// The pose that the estimator believes, and that of the last odometry.
+    poses: Mutex<Option<[Pose; 2]>>,
+    complaints: Mutex<BTreeMap<&'static str, Complaint>>,
+}
+
+impl Hub {
+    /// Without any message; with `use_sim_time`, stamps are those of the simulation's clock.
+    pub(crate) fn new(use_sim_time: bool) -> Self {
+        Self {
+            began: Instant::now(),
+            is_ending: AtomicBool::new(false),
+            has_torn: AtomicBool::new(false),
+            clock: use_sim_time.then(Mutex::default),
+            scan: Slot::default(),
+            proposal: Slot::default(),
+            inputs: Mutex::default(),
+            decision: Mutex::default(),
+            planned: Mutex::default(),
+            task: Mutex::default(),
+            poses: Mutex::default(),
+            complaints: Mutex::default(),
+        }
+    }
+
+    /// Monotonic time since the node began; nothing else measures ages.
+    pub(crate) fn now(&self) -> Duration {
+        self.began.elapsed()
+    }
+
+    /// The stamp of what is sent now.
+    pub(crate) fn stamp(&self) -> Time {
+        self.clock.as_ref().map_or_else(Time::now, |clock| *lock(clock))
+    }
+
+    /// The simulation's clock says this.
+    pub(crate) fn set_clock(&self, time: Time) {
+        if let Some(clock) = &self.clock {
+            *lock(clock) = time;
+        }
+        self.tell(|inputs| inputs.clock = u64::try_from(time.nanoseconds()).ok().map(Duration::from_nanos));
+    }
+
+    /// The localisation jumped: what the planner remembers of the ground lies elsewhere now.
+    pub(crate) fn jump(&self) {
+        self.has_torn.store(true, Ordering::Relaxed);
+        self.tell(|inputs| inputs.has_jumped = true);
+    }
+
+    /// Whether the localisation jumped since this was last asked.
+    pub(crate) fn take_forget(&self) -> bool {
+        self.has_torn.swap(false, Ordering::Relaxed)
+    }
+
+    /// Asks every thread to end.
+    pub(crate) fn end(&self) {
+        self.is_ending.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the threads are to end.
+    pub(crate) fn is_ending(&self) -> bool {
+        self.is_ending.load(Ordering::Relaxed)
+    }
+
+    /// Tells the supervisor something.
+    pub(crate) fn tell(&self, change: impl FnOnce(&mut Inputs)) {
+        change(&mut lock(&self.inputs));
+    }
+
+    /// What the supervisor was told since it last asked. Messages and events are told once; what is so stays.
+    pub(crate) fn take_inputs(&self) -> Inputs {
+        let mut inputs = lock(&self.inputs);
+        let taken = *inputs;
+        *inputs = Inputs {
+            attitude_rad: taken.attitude_rad,
+            has_peer: taken.has_peer,
+            other_publishers: taken.other_publishers,
+            goal: taken.goal,
+            ..Inputs::default()
+        };
+        taken
+    }
+
+    /// The supervisor's last decision; `None` before the first.
+    pub(crate) fn decision(&self) -> Option<Decision> {
+        *lock(&self.decision)
+    }
+
+    /// Publishes a decision to the other threads.
+    pub(crate) fn decide(&self, decision: Decision) {
+        *lock(&self.decision) = Some(decision);
+    }
+
+    /// The planner's last answer.
+    pub(crate) fn planned(&self) -> Option<Planned> {
+        *lock(&self.planned)
+    }
+
+    /// Publishes an answer of the planner to the other threads.
+    pub(crate) fn plan(&self, planned: Planned) {
+        *lock(&self.planned) = Some(planned);
+    }
+
+    /// Where the robot is, in the estimator's frame and in the odometry's; `None` until odometry and IMU
+    /// came.
+    pub(crate) fn poses(&self) -> Option<[Pose; 2]> {
+        *lock(&self.poses)
+    }
+
+    /// Publishes the poses to the other threads: the estimator's, and the odometry's.
+    pub(crate) fn set_poses(&self, believed: Pose, told: Pose) {
+        *lock(&self.poses) = Some([believed, told]);
+    }
+
+    /// Something is wrong with a message about `what`. It is logged now and then, and told in diagnostics.
+    pub(crate) fn complain(&self, what: &'static str, error: &impl Display) {
+        let (text, at) = (error.to_string(), self.now());
+        let mut complaints = lock(&self.complaints);
+        let last = complaints.get(what).map(|complaint| complaint.logged);
+        let logged = last.filter(|last| at.saturating_sub(*last) < COMPLAIN_EVERY).unwrap_or(at);
+        if logged == at {
+            log::warn!("{what}: {text}");
+        }
+        complaints.insert(what, Complaint { text, at, logged });
+    }
+
+    /// What was complained of lately.
+    pub(crate) fn complaints(&self) -> Vec<(&'static str, String)> {
+        let now = self.now();
+        let mut complaints = lock(&self.complaints);
+        complaints.retain(|_, complaint| now.saturating_sub(complaint.at) < COMPLAIN_EVERY);
+        complaints.iter().map(|(what, complaint)| (*what, complaint.text.clone())).collect()
+    }
+
+    /// The goal in service.
+    pub(crate) fn task(&self) -> Option<Task> {
+        *lock(&self.task)
+    }
+
+    /// Sets or ends the goal in service, for planner and supervisor alike.
+    pub(crate) fn set_task(&self, task: Option<Task>) {
+        *lock(&self.task) = task;
+        self.tell(|inputs| inputs.goal = task.map(|task| task.number));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn events_are_told_once_and_what_is_so_stays() {
+        let hub = Hub::new(false);
+        hub.tell(|inputs| {
+            (inputs.has_jumped, inputs.reset, inputs.publish_failed) = (true, true, true);
+            (inputs.has_peer, inputs.other_publishers, inputs.attitude_rad) = (true, 2, Some([0.1, 0.2]));
+            inputs.emergency_stop = Some(true);
+        });
+        let told = hub.take_inputs();
+        assert!(told.has_jumped && told.reset && told.publish_failed && told.emergency_stop == Some(true));
+        let later = hub.take_inputs();
+        assert!(!later.has_jumped && !later.reset && !later.publish_failed && later.emergency_stop.is_none());
+        assert!(later.has_peer && later.other_publishers == 2 && later.attitude_rad == Some([0.1, 0.2]));
+    }
+}

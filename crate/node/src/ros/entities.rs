@@ -1,0 +1,136 @@
+//! What the node reads and writes.
+
+use ros2_client::qos::{Durability, History, Reliability as RosReliability, WhenFull};
+use ros2_client::{Context, ContextOptions, MessageTypeName, Name, Node, NodeName, NodeOptions, QosProfile};
+use ros2_client::{Publisher, Subscription};
+use rustdds::DomainParticipant;
+use rustdds::mio1::{Interest, Poll, Token};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::{RosError, making};
+use crate::config::{NodeConfig, Reliability};
+use crate::messages::{Bool, Clock, Imu, Odometry, PointCloud2, PoseStamped};
+
+/// Messages of odometry and IMU that may wait to be read; of scans one does, as only the newest matters.
+const WAITING: usize = 16;
+
+/// A node with its names.
+pub(crate) struct Entities {
+    pub(crate) node: Node,
+    /// What knows the other peers.
+    pub(crate) participant: DomainParticipant,
+    poll: Poll,
+    registered: usize,
+}
+
+/// What is read from other nodes.
+pub(crate) struct Incoming {
+    pub(crate) scan: Subscription<PointCloud2>,
+    pub(crate) odometry: Subscription<Odometry>,
+    pub(crate) imu: Subscription<Imu>,
+    pub(crate) emergency_stop: Subscription<Bool>,
+    pub(crate) reset: Subscription<Bool>,
+    pub(crate) goal_pose: Subscription<PoseStamped>,
+    pub(crate) clock: Option<Subscription<Clock>>,
+}
+
+/// What a subscriber of sensors asks for.
+fn sensor_qos(reliability: Reliability, depth: usize) -> QosProfile {
+    let qos = QosProfile::subscription_default().history(History::KeepLast { depth });
+    match reliability {
+        Reliability::BestEffort => qos,
+        Reliability::Reliable => qos.reliability_reliable(WhenFull::DEFAULT),
+    }
+}
+
+/// What is published: reliable, so that any subscriber takes it, and never waiting for a slow one.
+pub(crate) fn published_qos() -> QosProfile {
+    QosProfile::publisher_default()
+        .reliability(RosReliability::Reliable { when_full: WhenFull::Fail })
+        .history(History::KeepLast { depth: 1 })
+        .durability(Durability::Volatile)
+}
+
+impl Entities {
+    /// Joins the domain as the node that the configuration names.
+    pub(crate) fn join(config: &NodeConfig) -> Result<Self, RosError> {
+        let options = ContextOptions::new().domain_id(config.domain_id);
+        let context = Context::with_options(options).map_err(making("joining the DDS domain"))?;
+        let name = NodeName::new(&config.namespace, &config.node_name).map_err(making("naming the node"))?;
+        let node = context
+            .new_node(name, NodeOptions::new().enable_rosout(false).start_parameter_services(false))
+            .map_err(making("making the node"))?;
+        let participant = context.domain_participant();
+        let poll = Poll::new().map_err(making("making a poll"))?;
+        Ok(Self { node, participant, poll, registered: 0 })
+    }
+
+    /// Subscribes to what the node reads.
+    pub(crate) fn subscribe(&mut self, config: &NodeConfig) -> Result<Incoming, RosError> {
+        let topics = &config.topics;
+        let sensor = |depth| sensor_qos(config.sensor_reliability, depth);
+        // A best-effort subscriber hears every publisher; goals must not get lost.
+        let switch = sensor_qos(Reliability::BestEffort, 1);
+        let goal = sensor_qos(Reliability::Reliable, 1);
+        Ok(Incoming {
+            scan: self.subscription(&topics.scan, "sensor_msgs/PointCloud2", sensor(1))?,
+            odometry: self.subscription(&topics.odometry, "nav_msgs/Odometry", sensor(WAITING))?,
+            imu: self.subscription(&topics.imu, "sensor_msgs/Imu", sensor(WAITING))?,
+            emergency_stop: self.subscription(&topics.emergency_stop, "std_msgs/Bool", switch.clone())?,
+            reset: self.subscription(&topics.reset, "std_msgs/Bool", switch.clone())?,
+            goal_pose: self.subscription(&topics.goal_pose, "geometry_msgs/PoseStamped", goal)?,
+            clock: match config.use_sim_time {
+                true => Some(self.subscription(&topics.clock, "rosgraph_msgs/Clock", switch)?),
+                false => None,
+            },
+        })
+    }
+
+    fn subscription<M: DeserializeOwned + 'static>(
+        &mut self,
+        topic: &str,
+        message: &str,
+        qos: QosProfile,
+    ) -> Result<Subscription<M>, RosError> {
+        let told = self.topic(topic, message, &qos)?;
+        let mut subscription = self
+            .node
+            .create_subscription(&told, Some(qos))
+            .map_err(making(format!("subscribing to {topic}")))?;
+        self.wake_by(&mut subscription)?;
+        Ok(subscription)
+    }
+
+    /// A publisher of messages of the type `message`, as `package/Type`.
+    pub(crate) fn publisher<M: Serialize>(
+        &mut self,
+        topic: &str,
+        message: &str,
+        qos: QosProfile,
+    ) -> Result<Publisher<M>, RosError> {
+        let told = self.topic(topic, message, &qos)?;
+        self.node.create_publisher(&told, Some(qos)).map_err(making(format!("publishing on {topic}")))
+    }
+
+    fn topic(&self, topic: &str, message: &str, qos: &QosProfile) -> Result<rustdds::Topic, RosError> {
+        let what = || format!("topic {topic}");
+        let name = Name::parse(topic).map_err(making(what()))?;
+        let (package, kind) = message.split_once('/').unwrap_or(("", message));
+        self.node.create_topic(&name, MessageTypeName::new(package, kind), qos).map_err(making(what()))
+    }
+
+    /// Has [`Self::wait`] return when `source` has something.
+    pub(crate) fn wake_by(&mut self, source: &mut impl rustdds::mio1::event::Source) -> Result<(), RosError> {
+        let token = Token(self.registered);
+        self.registered += 1;
+        self.poll.registry().register(source, token, Interest::READABLE).map_err(making("polling"))
+    }
+
+    /// Waits until something came, or for `most`.
+    pub(crate) fn wait(&mut self, most: std::time::Duration) {
+        let mut events = rustdds::mio1::Events::with_capacity(64);
+        // A signal may interrupt it: then there is nothing to read.
+        let _ = self.poll.poll(&mut events, Some(most));
+    }
+}

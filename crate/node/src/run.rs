@@ -1,0 +1,112 @@
+//! The node as a whole: its threads, from their start to their end.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use mapless_parameters::ConfigError;
+use mapless_robot::estimator::Estimator;
+use mapless_robot::supervisor::Supervisor;
+use ros2_client::NodeName;
+
+use crate::config::NodeConfig;
+use crate::hub::Hub;
+use crate::navigation::Navigation;
+use crate::picture::Picture;
+use crate::planning::Planning;
+use crate::receiving::Receiving;
+use crate::ros::{ActionServer, Alive, Entities, Presence, RosError, Spin, making, published_qos};
+use crate::senses::Senses;
+use crate::service::Service;
+use crate::supervising::{CommandPublisher, supervise};
+
+/// How often it is looked whether the node is to end.
+const LOOK_EVERY: Duration = Duration::from_millis(20);
+/// The last commands need this long to leave.
+const LINGER: Duration = Duration::from_millis(100);
+
+/// Why the node could not begin or go on.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The middleware.
+    #[error(transparent)]
+    Ros(#[from] RosError),
+    /// A value of the configuration.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// Signals cannot be heard.
+    #[error("signals: {0}")]
+    Signals(#[from] std::io::Error),
+    /// The middleware ended by itself: the node must be started anew.
+    #[error("a thread of the middleware ended, as when the process was suspended: start the node anew")]
+    MiddlewareEnded,
+    /// A thread ended in a panic.
+    #[error("the thread {0} panicked")]
+    Panicked(&'static str),
+}
+
+/// Runs the node until SIGTERM or SIGINT. Its last commands are zero.
+///
+/// # Errors
+/// [`RunError`] if it cannot begin, if one of its threads panicked, or if the middleware ended.
+pub fn run(config: &NodeConfig) -> Result<(), RunError> {
+    let signal = Arc::new(AtomicUsize::new(0));
+    for number in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
+        signal_hook::flag::register_usize(number, Arc::clone(&signal), 1)?;
+    }
+    let hub = Hub::new(config.use_sim_time);
+    let service = Service::default();
+    let supervisor = Supervisor::new(config.supervisor)?;
+    let estimator = Estimator::new(config.estimator, config.imu.base_from_imu())?;
+
+    let mut entities = Entities::join(config)?;
+    let spin = Spin::start(&mut entities.node)?;
+    let commands = CommandPublisher::new(config, &mut entities)?;
+    let decisions =
+        entities.publisher(&config.topics.decision, "geometry_msgs/TwistStamped", published_qos())?;
+    let planning = Planning::new(config.planner.clone(), decisions, Picture::new(config, &mut entities)?)?;
+    let name = NodeName::new(&config.namespace, &config.node_name).map_err(making("naming the node"))?;
+    let receiving = Receiving {
+        hub: &hub,
+        config,
+        incoming: entities.subscribe(config)?,
+        actions: ActionServer::new(&config.topics.navigate_to_pose, &mut entities)?,
+        diagnostics: entities.publisher(
+            &config.topics.diagnostics,
+            "diagnostic_msgs/DiagnosticArray",
+            published_qos(),
+        )?,
+        presence: Presence::on(&config.topics.cmd_vel, &name, commands.gid())?,
+        senses: Senses::new(estimator, config.frames.clone(), config.planner.sensor),
+        navigation: Navigation::new(Duration::from_secs_f64(config.navigation.timeout_s)),
+        diagnosed: Duration::ZERO,
+        fed_back: Duration::ZERO,
+        entities: &mut entities,
+    };
+    let alive = Alive::watch();
+    log::info!("{}/{} has begun in domain {}", config.namespace, config.node_name, config.domain_id);
+
+    let ended = std::thread::scope(|scope| {
+        let threads = [
+            ("supervisor", scope.spawn(|| supervise(&hub, supervisor, &commands, &service))),
+            ("planner", scope.spawn(|| planning.run(&hub))),
+            ("middleware", scope.spawn(|| receiving.run())),
+        ];
+        let mut is_whole = true;
+        while signal.load(Ordering::Relaxed) == 0
+            && is_whole
+            && !threads.iter().any(|(_, thread)| thread.is_finished())
+        {
+            std::thread::sleep(LOOK_EVERY);
+            is_whole = alive.is_whole();
+        }
+        hub.end();
+        let joined = threads.map(|(name, thread)| thread.join().map_err(|_| RunError::Panicked(name)));
+        joined.into_iter().collect::<Result<(), RunError>>()?;
+        if is_whole { Ok(()) } else { Err(RunError::MiddlewareEnded) }
+    });
+    std::thread::sleep(LINGER);
+    drop(commands);
+    spin.end(entities.node);
+    ended
+}

@@ -1,0 +1,175 @@
+//! The node as a process, and a robot and a client of `NavigateToPose` that speak DDS with it.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![cfg(all(unix, not(feature = "humble")))]
+
+mod robot;
+
+use std::process::{Child, Command};
+use std::time::{Duration, Instant};
+
+use mapless_node::config::NodeConfig;
+use mapless_node::messages::{Feedback, Header, NavigateGoal, NavigateResult, Point, Pose, PoseStamped};
+use mapless_node::navigation::code;
+use robot::Robot;
+use ros2_client::action::{ActionClient, ActionClientQosPolicies, GoalId, GoalStatusEnum};
+use ros2_client::dds::ServiceMapping;
+use ros2_client::qos::{Durability, History};
+use ros2_client::{ActionTypeName, Context, ContextOptions, Name, Node, NodeName, NodeOptions, QosProfile};
+
+/// Peers find each other within this, even on a loaded machine.
+const DISCOVERY: Duration = Duration::from_secs(60);
+/// A command every 20 ms, on a loaded machine.
+const SLACK: Duration = Duration::from_millis(300);
+const FAR_M: f64 = 200.0;
+
+type Client = ActionClient<NavigateGoal, NavigateResult, Feedback>;
+
+/// The process under test; it is killed when a test fails.
+struct Process(Child);
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A node of the test, with its spin task.
+fn peer(domain_id: u16, name: &str) -> Node {
+    let context = Context::with_options(ContextOptions::new().domain_id(domain_id)).unwrap();
+    let name = NodeName::new("/a200_0000", name).unwrap();
+    let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
+    let mut node = context.new_node(name, options).unwrap();
+    let spinner = node.spinner().unwrap();
+    std::thread::spawn(move || futures::executor::block_on(spinner.spin()));
+    node
+}
+
+fn client(node: &mut Node) -> Client {
+    let service = QosProfile::publisher_default().history(History::KeepLast { depth: 10 });
+    let qos = ActionClientQosPolicies {
+        goal_service: service.clone(),
+        result_service: service.clone(),
+        cancel_service: service.clone(),
+        feedback_subscription: service.clone(),
+        status_subscription: service.durability(Durability::TransientLocal),
+    };
+    let kind = ActionTypeName::new("nav2_msgs", "NavigateToPose");
+    let name = Name::new("", "navigate_to_pose").unwrap();
+    node.create_action_client(ServiceMapping::Enhanced, &name, &kind, qos).unwrap()
+}
+
+/// Asks again and again; the answer, if it comes in time.
+fn until<T>(most: Duration, mut ask: impl FnMut() -> Option<T>) -> Option<T> {
+    let end = Instant::now() + most;
+    loop {
+        match ask() {
+            Some(answer) => return Some(answer),
+            None if Instant::now() > end => return None,
+            None => std::thread::sleep(Duration::from_millis(2)),
+        }
+    }
+}
+
+fn goal(frame_id: &str, x: f64, y: f64) -> NavigateGoal {
+    let pose = Pose { position: Point { x, y, z: 0.0 }, ..Pose::default() };
+    let header = Header { frame_id: frame_id.to_owned(), ..Header::default() };
+    NavigateGoal { pose: PoseStamped { header, pose }, behavior_tree: String::new() }
+}
+
+/// Sends a goal; its id, and whether it was accepted.
+fn send(client: &Client, goal: NavigateGoal) -> Option<(GoalId, bool)> {
+    let (request, id) = client.send_goal(goal).unwrap();
+    let response = until(Duration::from_secs(2), || client.receive_goal_response(request).unwrap());
+    response.map(|response| (id, response.accepted))
+}
+
+/// Sends a far goal until the robot drives to it.
+fn drive(client: &Client, robot: &Robot) -> GoalId {
+    let accepted = until(DISCOVERY, || {
+        let [x, y] = robot.position_m();
+        send(client, goal("odom", x + FAR_M, y)).filter(|(_, accepted)| *accepted)
+    });
+    let (id, _) = accepted.expect("no goal was accepted");
+    until(Duration::from_secs(10), || robot.is_driven().then_some(())).expect("it does not drive");
+    id
+}
+
+fn result(client: &Client, id: GoalId) -> (GoalStatusEnum, NavigateResult) {
+    let request = client.request_result(id).unwrap();
+    until(Duration::from_secs(5), || client.receive_result(request).unwrap()).expect("no result came")
+}
+
+/// One test, as its parts share a process and its discovery.
+#[test]
+fn a_robot_is_driven_by_the_action_and_stopped() {
+    let domain_id = 1 + (std::process::id() % 50) as u16;
+    let sample = concat!(env!("CARGO_MANIFEST_DIR"), "/config/husky-jazzy.yaml");
+    let text = std::fs::read_to_string(sample).unwrap();
+    let text = text.replace("domain_id: 0", &format!("domain_id: {domain_id}"));
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("robot.yaml");
+    std::fs::write(&file, text).unwrap();
+    NodeConfig::open(&file).unwrap();
+    let mut process = Process(Command::new(env!("CARGO_BIN_EXE_mapless-node")).arg(&file).spawn().unwrap());
+    let robot = Robot::start(peer(domain_id, "robot"));
+    let mut node = peer(domain_id, "client");
+    let client = client(&mut node);
+
+    // Feedback, then a cancel: zero at once.
+    let id = drive(&client, &robot);
+    let feedback = until(Duration::from_secs(5), || client.receive_feedback(id).unwrap());
+    let feedback = feedback.expect("no feedback came");
+    assert!(feedback.distance_remaining > 100.0 && feedback.current_pose.header.frame_id == "odom");
+    let begun = Instant::now();
+    let request = client.cancel_goal(id).unwrap();
+    let response = until(Duration::from_secs(2), || client.receive_cancel_response(request).unwrap());
+    assert_eq!(response.expect("no answer to the cancel").goals_canceling.len(), 1);
+    let stopped = until(Duration::from_secs(2), || (!robot.is_driven()).then(|| begun.elapsed())).unwrap();
+    assert!(stopped < Duration::from_millis(100) + SLACK, "stopped {stopped:?} after the cancel");
+    assert_eq!(result(&client, id).0, GoalStatusEnum::Canceled);
+
+    // Another frame is refused, and what was not accepted has no result.
+    let (refused, accepted) = send(&client, goal("map", 1.0, 0.0)).unwrap();
+    assert!(!accepted && !robot.is_driven());
+    assert_eq!(result(&client, refused).0, GoalStatusEnum::Unknown);
+
+    // A near goal pre-empts a far one, and is reached.
+    let far = drive(&client, &robot);
+    let [x, y] = robot.position_m();
+    let (near, accepted) = send(&client, goal("odom", x + 1.5, y)).unwrap();
+    assert!(accepted);
+    let (status, outcome) = result(&client, far);
+    assert_eq!((status, outcome.error_code), (GoalStatusEnum::Aborted, code::PREEMPTED));
+    let request = client.request_result(near).unwrap();
+    let reached = until(Duration::from_secs(30), || client.receive_result(request).unwrap());
+    assert_eq!(reached.expect("the goal was not reached").0, GoalStatusEnum::Succeeded);
+    let [at_x, at_y] = robot.position_m();
+    let missed_m = libm::hypot(at_x - x - 1.5, at_y - y);
+    assert!(missed_m < 0.8, "{missed_m} m from the goal");
+
+    // A tilt latches; the goal is aborted with its reason, and none is taken until a reset.
+    let id = drive(&client, &robot);
+    robot.tilt(0.7);
+    let (status, outcome) = result(&client, id);
+    assert_eq!((status, outcome.error_code), (GoalStatusEnum::Aborted, code::STOPPED));
+    assert!(outcome.error_msg.contains("tilted"), "{}", outcome.error_msg);
+    robot.tilt(0.0);
+    std::thread::sleep(Duration::from_secs(2));
+    assert!(!send(&client, goal("odom", x, y)).unwrap().1 && !robot.is_driven());
+    robot.reset();
+    drive(&client, &robot);
+
+    // Scans cease: zero within the limit.
+    let begun = Instant::now();
+    robot.blind();
+    let stopped = until(Duration::from_secs(3), || (!robot.is_driven()).then(|| begun.elapsed())).unwrap();
+    assert!(stopped < Duration::from_millis(350) + SLACK, "stopped {stopped:?} after the last scan");
+
+    // It ends by itself when asked to.
+    let id = process.0.id().to_string();
+    assert!(Command::new("kill").arg(&id).status().unwrap().success());
+    let status = until(Duration::from_secs(10), || process.0.try_wait().unwrap()).expect("it does not end");
+    assert!(status.success() && !robot.is_driven());
+}

@@ -1,0 +1,133 @@
+//! Debian packages of `mapless-node`: static programs, built without a C toolchain.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, ensure};
+use clap::ValueEnum;
+use xshell::{Shell, cmd};
+
+use crate::setup;
+
+const SOURCES: &str = "crate/node";
+/// What dpkg runs.
+const SCRIPTS: [&str; 3] = ["postinst", "prerm", "postrm"];
+
+/// A ROS 2 distribution that the node is built for.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Distro {
+    /// Humble Hawksbill.
+    Humble,
+    /// Jazzy Jalisco.
+    Jazzy,
+}
+
+/// A processor, by Debian's name.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Arch {
+    /// x86-64.
+    Amd64,
+    /// AArch64.
+    Arm64,
+}
+
+impl Distro {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Humble => "humble",
+            Self::Jazzy => "jazzy",
+        }
+    }
+}
+
+impl Arch {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Amd64 => "amd64",
+            Self::Arm64 => "arm64",
+        }
+    }
+
+    const fn target(self) -> &'static str {
+        match self {
+            Self::Amd64 => "x86_64-unknown-linux-musl",
+            Self::Arm64 => "aarch64-unknown-linux-musl",
+        }
+    }
+}
+
+/// Builds the package and says where it is.
+pub(crate) fn run(sh: &Shell, distro: Distro, arch: Arch) -> anyhow::Result<()> {
+    ensure!(
+        cmd!(sh, "dpkg-deb --version").quiet().ignore_stdout().ignore_stderr().run().is_ok(),
+        "dpkg-deb, which makes Debian packages, is not on PATH: install dpkg"
+    );
+    let package = build(sh, distro, arch)?;
+    println!("{}", package.display());
+    Ok(())
+}
+
+fn build(sh: &Shell, distro: Distro, arch: Arch) -> anyhow::Result<PathBuf> {
+    let (distro, target) = (distro.name(), arch.target());
+    setup::target(sh, target)?;
+    // rust-lld comes with Rust, and so does what a static program needs of musl.
+    let linker = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"));
+    cmd!(sh, "cargo build --release --package mapless-node --no-default-features")
+        .args(["--features", distro, "--target", target])
+        .env(linker, "rust-lld")
+        .run()?;
+    let program = setup::target_dir(sh).join(target).join("release/mapless-node");
+
+    let version = env!("CARGO_PKG_VERSION");
+    let name = format!("mapless-node-{distro}_{version}_{}", arch.name());
+    let folder = setup::target_dir(sh).join("package");
+    let root = folder.join(&name);
+    sh.remove_path(&root)?;
+    let put = |from: &Path, to: &str| -> anyhow::Result<()> {
+        let to = root.join(to);
+        sh.create_dir(to.parent().context("a file in the package's root")?)?;
+        Ok(sh.copy_file(from, to)?)
+    };
+    let source = |path: &str| Path::new(SOURCES).join(path);
+    put(&program, "usr/bin/mapless-node")?;
+    put(&source(&format!("config/husky-{distro}.yaml")), "etc/mapless/robot.yaml")?;
+    put(&source("package/mapless-node.service"), "usr/lib/systemd/system/mapless-node.service")?;
+    put(Path::new("docs/ROBOT.md"), "usr/share/doc/mapless-node/ROBOT.md")?;
+    put(Path::new("LICENSE-MIT"), "usr/share/doc/mapless-node/copyright")?;
+    sh.write_file(root.join("DEBIAN/control"), control(distro, version, arch))?;
+    sh.write_file(root.join("DEBIAN/conffiles"), "/etc/mapless/robot.yaml\n")?;
+    for script in SCRIPTS {
+        put(&source(&format!("package/{script}")), &format!("DEBIAN/{script}"))?;
+        let script = root.join("DEBIAN").join(script);
+        cmd!(sh, "chmod 755 {script}").quiet().run()?;
+    }
+    let package = folder.join(format!("{name}.deb"));
+    cmd!(sh, "dpkg-deb --root-owner-group --build {root} {package}").ignore_stdout().run()?;
+    Ok(package)
+}
+
+fn control(distro: &str, version: &str, arch: Arch) -> String {
+    let other = if distro == "humble" { "jazzy" } else { "humble" };
+    let arch = arch.name();
+    format!(
+        "Package: mapless-node-{distro}\nVersion: {version}\nArchitecture: {arch}\nSection: misc\nPriority: optional\n\
+         Maintainer: mapless maintainers <maintainers@mapless.invalid>\nConflicts: mapless-node-{other}\n\
+         Description: mapless navigation on uneven terrain as a ROS 2 node\n \
+         Takes a LiDAR, odometry and an IMU and drives a robot to goals, without a map and without a ROS\n \
+         installation. Built for the messages of ROS 2 {distro}.\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_packages_of_the_distributions_exclude_each_other() {
+        let control = control("jazzy", "1.2.3", Arch::Arm64);
+        assert!(control.starts_with("Package: mapless-node-jazzy\nVersion: 1.2.3\nArchitecture: arm64\n"));
+        assert!(control.contains("\nConflicts: mapless-node-humble\n"));
+        // A paragraph: each further line of the description is indented.
+        let description = control.split_once("Description: ").unwrap().1;
+        assert!(description.lines().skip(1).all(|line| line.starts_with(' ')));
+    }
+}
