@@ -30,7 +30,8 @@ import { published } from '../run/published.ts';
 import { GroundTools } from '../view/groundTools.ts';
 import { ObjectTool } from '../view/objectTool.ts';
 import { Stage } from '../view/stage.ts';
-import { beginPlainly, begun, core } from './startCore.ts';
+import { AddressBar } from './addressBar.ts';
+import { beginAt, begun, core } from './startCore.ts';
 import { begin, leadOut } from './welcome.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
@@ -144,10 +145,9 @@ const app = new App(core, {
   experiment(editor) {
     undoButtons.show(editor);
     showCourse(editor);
-    // A link in the address is no longer what is shown.
-    if (editor.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
     if (!editor.experiment) return;
-    if (app.touched) autosave.save(editor.experiment);
+    // What the address brings back is no work to keep.
+    if (!addressBar.show(editor, !app.touched)) autosave.save(editor.experiment, !editor.asOpened);
     app.attempt(leadOut(editor.experiment));
   },
   notice: (message) => notice.show(message),
@@ -242,6 +242,7 @@ const undoButtons = new UndoButtons(app);
 const terrainsSheet = new TerrainsSheet(app);
 const shareSheet = new ShareSheet(app);
 const autosave = new Autosave((why) => notice.show(why));
+const addressBar = new AddressBar((experiment) => app.attempt(app.run({ experiment })));
 const controls = new Controls(actions);
 const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
 byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
@@ -267,4 +268,8 @@ keepOffline((start) => notice.tell('A new version of this page is ready.', 'Relo
 
 publish(app);
 
-app.attempt(begin(app, notice, begun, beginPlainly));
+app.attempt(
+  begin(app, notice, begun, beginAt).then(async (beginning) => {
+    if (beginning?.from === 'last visit' && beginning.own) await autosave.goOnWith(beginning.own);
+  }),
+);

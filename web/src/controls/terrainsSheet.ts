@@ -2,8 +2,9 @@
 
 import { byId, html, setText } from '../base/dom.ts';
 import { readTheme } from '../colours/theme.ts';
-import { CATALOGUE } from '../experiment/catalogue.ts';
-import { FAMILIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
+import { kept, works } from '../experiment/autosave.ts';
+import { CATALOGUE, entry } from '../experiment/catalogue.ts';
+import { type Experiment, FAMILIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
 import type { NamedFile, TerrainPreview } from '../protocol/simulationProtocol.ts';
 import { drawRelief } from './reliefPicture.ts';
 
@@ -15,6 +16,7 @@ export interface TerrainActions {
   preview(terrain: Terrain): Promise<TerrainPreview>;
   runScenario(scenario: string): Promise<void>;
   runTerrain(terrain: Terrain, name: string): Promise<void>;
+  run(source: { readonly experiment: Experiment }): Promise<void>;
   /** `holes`: what becomes of samples without a height. */
   runFiles(files: readonly NamedFile[], holes: Holes): Promise<void>;
   /** Says what goes wrong. */
@@ -29,6 +31,7 @@ export class TerrainsSheet {
   readonly #family = byId('family', HTMLSelectElement);
   readonly #seed = byId('terrain-seed', HTMLInputElement);
   readonly #files = byId('files', HTMLInputElement);
+  readonly #works = byId('earlier-work', HTMLElement);
   readonly #holes = byId('holes', HTMLSelectElement);
 
   constructor(actions: TerrainActions) {
@@ -59,11 +62,36 @@ export class TerrainsSheet {
     // Pictures follow light and dark, so they are drawn for each visit.
     this.#cards.replaceChildren(...TERRAINS.map(([name, title, scenario]) => this.#catalogued(name, title, scenario)));
     this.#generate();
+    this.#listWork().catch(() => this.#showWork([]));
     if (!this.#sheet.open) this.#sheet.showModal();
   }
 
   #catalogued(name: string, title: string, scenario: string): HTMLElement {
     return this.#card({ catalogue: name }, title, () => this.#actions.runScenario(scenario));
+  }
+
+  async #listWork(): Promise<void> {
+    this.#showWork(
+      (await works()).map(({ id, name, saved }) => {
+        const button = html('button', 'plain', [`${entry(name).title}, ${saved.toLocaleString()}`]);
+        button.type = 'button';
+        button.addEventListener('click', () => {
+          this.#sheet.close();
+          this.#actions.attempt(this.#reopen(id));
+        });
+        return html('li', '', [button]);
+      }),
+    );
+  }
+
+  #showWork(items: readonly HTMLElement[]): void {
+    this.#works.replaceChildren(...items);
+    byId('earlier', HTMLElement).hidden = items.length === 0;
+  }
+
+  async #reopen(id: string): Promise<void> {
+    const work = await kept(id);
+    if (work) await this.#actions.run({ experiment: work.experiment });
   }
 
   #generate(): void {

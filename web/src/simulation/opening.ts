@@ -17,7 +17,7 @@ import { readExperiment } from '../experiment/readExperiment.ts';
 import { recipeFile, scenarioFile } from '../experiment/scenarioFiles.ts';
 import type { Setup } from '../experiment/setting.ts';
 import { unzip } from '../files/archive.ts';
-import type { NamedFile, Source, TerrainPreview } from '../protocol/simulationProtocol.ts';
+import type { Loaded, NamedFile, Source, TerrainPreview } from '../protocol/simulationProtocol.ts';
 import type { ScenarioRead, TerrainFiles } from '../wasm/mapless_wasm.js';
 
 const ARCHIVE = /\.zip$/i;
@@ -33,6 +33,9 @@ export function filesOf(core: Core, experiment: Experiment): [NamedFile, NamedFi
   const scenario = encoder.encode(scenarioFile(experiment, TERRAIN_FILE));
   return [{ name: 'scenario.toml', bytes: scenario }, ...filesOfTerrain(core, experiment.terrain, experiment.strokes)];
 }
+
+/** What is loaded, and the scenario that it is named after, as that comes; nothing where there is none. */
+type Opening = Pick<Loaded, 'experiment' | 'scenario'>;
 
 /** A terrain as the core takes it, and what is to be said of the file that it imports. */
 interface ReadTerrain {
@@ -78,18 +81,24 @@ export async function preview(core: Core, terrain: Terrain): Promise<TerrainPrev
   return core.terrain_preview(files, PREVIEW_SAMPLES);
 }
 
-export async function experimentFrom(core: Core, source: Source): Promise<Experiment> {
-  if ('experiment' in source) return source.experiment;
-  if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setup);
-  if ('files' in source) return fromFiles(core, source.files, source.holes, source.setup);
-  const { scenario, setup, seed } = source;
-  const { read, terrain } = TASK.test(scenario) ? await task(core, scenario) : catalogued(core, scenario);
-  return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setup);
+export async function openingFrom(core: Core, source: Source): Promise<Opening> {
+  if ('scenario' in source) {
+    const { scenario: name, setup, seed } = source;
+    const { read, terrain } = TASK.test(name) ? await task(core, name) : catalogued(core, name);
+    const scenario = fromScenario(read, name, terrain, setup);
+    return { experiment: seed === undefined ? scenario : { ...scenario, seed }, scenario };
+  }
+  const experiment = await experimentFrom(core, source);
+  return { experiment, scenario: scenarioOf(core, experiment) };
 }
 
-/** The scenario that what was loaded is named after, as it comes; nothing where there is none. */
-export function scenarioOf(core: Core, source: Source, experiment: Experiment): Experiment | undefined {
-  if ('scenario' in source) return experiment;
+async function experimentFrom(core: Core, source: Exclude<Source, { scenario: string }>): Promise<Experiment> {
+  if ('experiment' in source) return source.experiment;
+  if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setup);
+  return fromFiles(core, source.files, source.holes, source.setup);
+}
+
+function scenarioOf(core: Core, experiment: Experiment): Experiment | undefined {
   const { name, terrain: own } = experiment;
   // Files of one's own may bear any name.
   if (!('catalogue' in own) || !CATALOGUE.some(({ id }) => id === name)) return undefined;
