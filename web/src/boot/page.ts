@@ -171,6 +171,8 @@ try {
 const measure = new Measure({
   record: app.record,
   view: stage,
+  editor: app.editor,
+  heightAt: (place) => app.heightAt(place),
   go: (time_s) => app.attempt(app.seekTime(time_s)),
   notice: (message) => notice.show(message),
 });

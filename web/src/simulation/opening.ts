@@ -207,9 +207,11 @@ async function onLevelPlaces(core: Core, terrain: Terrain, name: string, setup: 
   return fromScenario(read, name, terrain, setup);
 }
 
+/** A saved experiment, or the result of a run, which holds one. */
 function readFile(name: string, json: string): Experiment {
   try {
-    return readExperiment(JSON.parse(json));
+    const read = JSON.parse(json);
+    return readExperiment(read?.run?.experiment ?? read?.experiment ?? read);
   } catch (cause) {
     throw new Error(`${name}: ${cause instanceof Error ? cause.message : cause}`, { cause });
   }
