@@ -76,8 +76,13 @@ function quantile(sorted: Float64Array, percent: number): number {
 /** What a file says of where it comes from: `experiment` opens in the page, and gives this run unless something changed while it drove. */
 export function whatWasRun({ info, frame, experiment, changes }: Run) {
   const { scenario, preset, seed } = info;
-  const changed_at_ticks = frame.timeline.changes.filter((tick) => tick > 0);
+  const changed_at_ticks = changesUnderWay(frame);
   return { scenario, planner: preset, seed, changes, changed_at_ticks, experiment };
+}
+
+/** The ticks at which ground, objects or route were changed; before the last change of the ground there is no going back. */
+function changesUnderWay({ timeline: { first, changes } }: Frame): readonly number[] {
+  return [...new Set([first, ...changes])].filter((tick) => tick > 0);
 }
 
 /** The same in a line or several, for a picture. */
@@ -96,6 +101,6 @@ export function runWords(run: Run): readonly string[] {
 export function fileName({ info, experiment, changes, frame }: Run, what: string): string {
   const { scenario, preset, seed } = info;
   const planner = preset === FIRST_SETUP.preset ? '' : `-${preset}`;
-  const changed = changes.length > 0 || frame.timeline.changes.some((tick) => tick > 0);
+  const changed = changes.length > 0 || changesUnderWay(frame).length > 0;
   return `mapless-${plainName(scenario)}${planner}-seed${seed}${changed ? `-changed-${hashOf(experiment)}` : ''}-${what}`;
 }
