@@ -5,6 +5,7 @@ import { readTheme } from '../colours/theme.ts';
 import { kept, works } from '../experiment/autosave.ts';
 import { CATALOGUE, entry } from '../experiment/catalogue.ts';
 import { type Experiment, FAMILIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
+import { pngHead } from '../files/pngHead.ts';
 import type { NamedFile, TerrainPreview } from '../protocol/simulationProtocol.ts';
 import { drawRelief } from './reliefPicture.ts';
 
@@ -130,6 +131,14 @@ export class TerrainsSheet {
       files.push({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
     }
     const holes = HOLES.find((one) => one === this.#holes.value) ?? 'refuse';
+    const [first] = files;
+    const head = files.length === 1 && first && pngHead(first.bytes);
+    if (head) {
+      const { HeightsSheet } = await import('./heightsSheet.ts');
+      const recipe = await new HeightsSheet(first, head, holes, (terrain) => this.#actions.preview(terrain)).ask();
+      if (!recipe) return;
+      files.push(recipe);
+    }
     if (files.length > 0) await this.#actions.runFiles(files, holes);
   }
 }

@@ -1,5 +1,6 @@
 /** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
 
+import { base64, fromBase64 } from '../base/base64.ts';
 import { loadHeights } from '../bindings/heightsModule.ts';
 import type { Core } from '../bindings/simulationModule.ts';
 import { loadTrials } from '../bindings/trialsModule.ts';
@@ -179,12 +180,22 @@ function terrainOf(
   holes: Holes,
 ): Terrain | undefined {
   if (!grid) return recipe ? { recipe: recipe.text } : undefined;
-  const name = `terrain${(GRIDS.exec(grid.name)?.[0] ?? '').toLowerCase()}`;
+  const name = gridName(grid.name);
   const imported = { name, base64: base64(grid.bytes) };
   // A recipe says how its grid is to be read, but by the file's own name.
   if (recipe) return { recipe: recipe.text.replace(/^(\s*file\s*=\s*).*$/m, `$1"${name}"`), imported };
   const more = holes === 'refuse' ? '' : `holes = "${holes}"\n`;
   return { recipe: `name = ${JSON.stringify(shortName(grid.name))}\n\n[import]\nfile = "${name}"\n${more}`, imported };
+}
+
+/** A file of heights keeps its name, as far as documents and archives take it: messages are to name it. */
+function gridName(file: string): string {
+  const own =
+    stem(file)
+      .replace(/[^\w .-]+/g, '-')
+      .replace(/^\W+/, '')
+      .slice(0, 70) || 'terrain';
+  return own + (GRIDS.exec(file)?.[0] ?? '').toLowerCase();
 }
 
 /** A terrain of the catalogue that a scenario names without its file being there. */
@@ -223,16 +234,6 @@ function text({ name, bytes }: NamedFile): string {
   } catch (cause) {
     throw new Error(`${name}: expected text in UTF-8`, { cause });
   }
-}
-
-function base64(bytes: Uint8Array): string {
-  const parts: string[] = [];
-  for (let at = 0; at < bytes.length; at += 0x8000) parts.push(String.fromCharCode(...bytes.subarray(at, at + 0x8000)));
-  return btoa(parts.join(''));
-}
-
-function fromBase64(letters: string): Uint8Array<ArrayBuffer> {
-  return Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
 }
 
 /** A path's last part without its extension. */
