@@ -47,7 +47,7 @@ for (const [device, options] of Object.entries(DEVICES)) {
     test('16 bits: asked for cell and heights, with a preview, and written down', async ({ mapless: page }) => {
       await open(page, 'slope.png', ramp(16));
       await expect(sheet(page)).toContainText('41 × 41 pixels of 16 bits');
-      await expect(sheet(page)).toContainText('10.0 × 10.0 m, from 0.00 m to 65.53 m: 65.5 m of relief.');
+      await expect(sheet(page)).toContainText('10.0 × 10.0 m, from 0.00 m to 65.54 m: 65.5 m of relief.');
       await expect(sheet(page).getByRole('img', { name: /^Preview: 10.0 × 10.0 m/ })).toBeVisible();
       expect(await faults(page)).toEqual([]);
       const part = (name: string) => sheet(page).getByLabel(name);
