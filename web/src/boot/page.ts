@@ -207,6 +207,16 @@ const objectPanel = new ObjectPanel({
   remove: () => objectTool?.remove(),
 });
 
+/** A choice that is refused goes back to what holds. */
+async function orBack(choice: Promise<void>): Promise<void> {
+  try {
+    await choice;
+  } catch (error) {
+    if (app.info) controls.showSession(app.info);
+    throw error;
+  }
+}
+
 const actions = {
   togglePlay: () => app.attempt(app.togglePlay()),
   step: () => app.attempt(app.step()),
@@ -214,7 +224,7 @@ const actions = {
   next: () => app.attempt(app.next()),
   setSpeed: (speed: number) => app.attempt(app.setSpeed(speed)),
   faster: (steps: number) => app.attempt(app.faster(steps)),
-  load: (...args: Parameters<App['runScenario']>) => app.attempt(app.runScenario(...args)),
+  load: (...args: Parameters<App['runScenario']>) => app.attempt(orBack(app.runScenario(...args))),
   selectTool(tool: Parameters<GroundTools['select']>[0]) {
     tools?.select(tool);
     objectTool?.select(tool === 'objects');
@@ -222,7 +232,7 @@ const actions = {
     controls.showTool(tool);
     brushPanel.tool(tool);
   },
-  change: (part: Parameters<App['change']>[0]) => app.attempt(app.change(part)),
+  change: (part: Parameters<App['change']>[0]) => app.attempt(orBack(app.change(part))),
   growBrush: (steps: number) => brushPanel.grow(steps),
   strengthenBrush: (steps: number) => brushPanel.strengthen(steps),
   terrains: () => terrainsSheet.open(),

@@ -160,7 +160,7 @@ export class SeedsTab implements Tab {
       ['Goal reached', `${reached} of ${trials} (95 %: ${percent(low)} to ${percent(high)})`],
       ...METRIC_ROWS.map(({ key, name, unit, decimals }): [string, string] => {
         const { mean, deviation } = metrics[key];
-        return [name, `${fixed(mean, decimals)} ± ${fixed(deviation, decimals)} ${unit}`];
+        return [name, `${spreadWords(mean, deviation, decimals, reached)} ${unit}`];
       }),
     ];
     const rows = lines.map(([name, words]) => {
@@ -181,6 +181,14 @@ export class SeedsTab implements Tab {
     await this.#app.setOverrides(this.#course.overrides, seed);
     await this.#app.play();
   }
+}
+
+/** A mean with its standard deviation, which needs two trials, with as many decimals as show both. */
+function spreadWords(mean: number, deviation: number, decimals: number, trials: number): string {
+  if (trials < 2) return fixed(mean, decimals);
+  const needed =
+    deviation > 0 ? Math.max(decimals, Math.min(Math.ceil(-Math.log10(deviation)), decimals + 3)) : decimals;
+  return `${fixed(mean, needed)} ± ${fixed(deviation, needed)}`;
 }
 
 /** All that trials with other seeds have in common. */
