@@ -30,6 +30,15 @@ test('a parameter is found, changed, refused with the reason at its field, and r
   await expect(page.locator('.parameter:visible .parameter-fault')).toBeHidden();
 });
 
+test('what is written into the search is no key of the page', async ({ mapless: page }) => {
+  await openLab(page, 'Parameters');
+  const search = page.getByRole('searchbox', { name: 'Search parameters' });
+  await search.focus();
+  await page.keyboard.type('pitch bcd');
+  await expect(search).toHaveValue('pitch bcd');
+  await expect(page.getByRole('radio', { name: 'Look' })).toBeChecked();
+});
+
 test('a refused choice goes back to what holds, and an unusual value is called so', async ({ mapless: page }) => {
   await page.evaluate(() =>
     window.mapless?.setOverrides({ planner: { perception: { kernel: { length_scales_rad: [0.25, 0.25] } } } }),
