@@ -3,10 +3,12 @@
 import { byId, html, setText } from '../base/dom.ts';
 import { readTheme } from '../colours/theme.ts';
 import { kept, works } from '../experiment/autosave.ts';
-import { CATALOGUE, entry } from '../experiment/catalogue.ts';
+import { CATALOGUE, entry, isKnown } from '../experiment/catalogue.ts';
 import { type Experiment, FAMILIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
+import type { Setup } from '../experiment/setting.ts';
 import { pngHead } from '../files/pngHead.ts';
 import type { NamedFile, TerrainPreview } from '../protocol/simulationProtocol.ts';
+import type { Replay } from '../trials/campaignRows.ts';
 import { drawRelief } from './reliefPicture.ts';
 
 /** Generated terrains shown at once. */
@@ -15,7 +17,7 @@ const GENERATED = 4;
 export interface TerrainActions {
   /** A terrain, coarsely, for a picture. */
   preview(terrain: Terrain): Promise<TerrainPreview>;
-  runScenario(scenario: string): Promise<void>;
+  runScenario(scenario: string, setup?: Partial<Setup>, seed?: number): Promise<void>;
   runTerrain(terrain: Terrain, name: string): Promise<void>;
   run(source: { readonly experiment: Experiment }): Promise<void>;
   /** `holes`: what becomes of samples without a height. */
@@ -124,6 +126,18 @@ export class TerrainsSheet {
     return html('li', '', [button]);
   }
 
+  /** The table of a campaign. */
+  async #openTable({ name, bytes }: NamedFile): Promise<void> {
+    const [{ LeaderboardSheet }, { campaignRows }] = await Promise.all([
+      import('./leaderboardSheet.ts'),
+      import('../trials/campaignRows.ts'),
+    ]);
+    const rows = campaignRows(name, new TextDecoder().decode(bytes), isKnown);
+    const drive = ({ scenario, seed, preset, overrides }: Replay) =>
+      this.#actions.attempt(this.#actions.runScenario(scenario, { preset, overrides, learning: 'fixed' }, seed));
+    await new LeaderboardSheet(name, rows, drive).show();
+  }
+
   async #open(list: ArrayLike<File>): Promise<void> {
     this.#sheet.close();
     const files: NamedFile[] = [];
@@ -132,6 +146,10 @@ export class TerrainsSheet {
     }
     const holes = HOLES.find((one) => one === this.#holes.value) ?? 'refuse';
     const [first] = files;
+    if (files.length === 1 && first && /\.csv$/i.test(first.name)) {
+      await this.#openTable(first);
+      return;
+    }
     const head = files.length === 1 && first && pngHead(first.bytes);
     if (head) {
       const { HeightsSheet } = await import('./heightsSheet.ts');
