@@ -30,6 +30,42 @@ test('a parameter is found, changed, refused with the reason at its field, and r
   await expect(page.locator('.parameter:visible .parameter-fault')).toBeHidden();
 });
 
+test('what is written into the search is no key of the page', async ({ mapless: page }) => {
+  await openLab(page, 'Parameters');
+  const search = page.getByRole('searchbox', { name: 'Search parameters' });
+  await search.focus();
+  await page.keyboard.type('pitch bcd');
+  await expect(search).toHaveValue('pitch bcd');
+  await expect(page.getByRole('radio', { name: 'Look' })).toBeChecked();
+});
+
+test('a refused choice goes back to what holds, and an unusual value is called so', async ({ mapless: page }) => {
+  await page.evaluate(() =>
+    window.mapless?.setOverrides({ planner: { perception: { kernel: { length_scales_rad: [0.25, 0.25] } } } }),
+  );
+  await page.locator('#learning').selectOption('every_scan');
+  await expect(page.locator('#notice-text')).toBeVisible();
+  await expect(page.locator('#learning')).toHaveValue('fixed');
+  expect((await state(page)).learning).toBe('fixed');
+  await page.evaluate(() => window.mapless?.setOverrides({}));
+  await openLab(page, 'Parameters');
+  await page.getByRole('searchbox', { name: 'Search parameters' }).fill('steepness weight');
+  const field = page.locator('.parameter:visible').first();
+  await expect(field.getByText('Outside what is usual')).toBeHidden();
+  await field.getByRole('spinbutton').fill('1000');
+  await field.getByRole('spinbutton').press('Enter');
+  await expect(field.getByText('Outside what is usual')).toBeVisible();
+});
+
+test('one trial has no deviation', async ({ mapless: page }) => {
+  await shortCourse(page, 3);
+  await openLab(page, 'Seeds');
+  await page.getByLabel('How many').fill('1');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await expect(page.locator('.seeds-summary')).toContainText('1 of 1');
+  await expect(page.locator('.seeds-summary tbody')).not.toContainText('±');
+});
+
 test('every kind of parameter is set, and the command line drives the same way with them', async ({
   mapless: page,
 }) => {

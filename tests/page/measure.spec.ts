@@ -2,9 +2,10 @@ import { mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { McapIndexedReader } from '@mcap/core';
-import type { Page } from '@playwright/test';
+import type { Download, Page } from '@playwright/test';
+import type { Experiment } from '../../web/src/experiment/experiment.ts';
 import { driven } from './commandLine.ts';
-import { download, driveTo, expect, state, test, until } from './page.ts';
+import { download, driveTo, expect, file, ownOf, state, test, until } from './page.ts';
 
 // A small view leaves a processor without graphics card its time.
 test.use({ viewport: { width: 720, height: 560 } });
@@ -96,9 +97,67 @@ test('trajectory and result are those of the command line', async ({ mapless: pa
   const csv = await download(page, 'save-csv');
   expect(csv.name).toBe('mapless-ht-seed5-trajectory.csv');
   expect(csv.bytes.toString()).toBe(readFileSync(join(out, 'trajectory.csv'), 'utf8'));
-  const { planner_ms: _page, ...result } = JSON.parse((await download(page, 'save-json')).bytes.toString());
+  const { planner_ms: _page, run, ...result } = JSON.parse((await download(page, 'save-json')).bytes.toString());
   const { planner_ms: _line, ...expected } = JSON.parse(readFileSync(join(out, 'result.json'), 'utf8'));
   expect(result).toEqual(expected);
+  expect(run).toMatchObject({ scenario: 'ht', planner: 'default', seed: 5, changes: [], changed_at_ticks: [] });
+  expect(run.experiment).toEqual(await ownOf(page));
+});
+
+/** What a file says of what was run. */
+interface Said {
+  changes: string[];
+  changed_at_ticks: number[];
+  experiment: Experiment;
+}
+
+test('every file of a changed run says what was run, in its name and within', async ({ mapless: page }) => {
+  await page.evaluate(() => window.mapless?.loadScenario('ht', { preset: 'paper' }));
+  await page.evaluate(() =>
+    window.mapless?.setOverrides({ planner: { perception: { variance_threshold: 0.7 } }, sensor: { columns: 900 } }),
+  );
+  await driveTo(page, 12);
+  const own = await ownOf(page);
+  const changes = ['planner.perception.variance_threshold = 0.7', 'sensor.columns = 900'];
+  const name = (what: string) => new RegExp(`^mapless-ht-paper-seed1-changed-[0-9a-f]{8}-${what}$`);
+
+  const downloads: Download[] = [];
+  page.on('download', (one) => downloads.push(one));
+  await page.locator('#save-csv').click();
+  await expect.poll(() => downloads.length).toBe(2);
+  const names = downloads.map((one) => one.suggestedFilename()).sort();
+  expect(names[0]).toMatch(name('trajectory.csv'));
+  expect(names[1]).toMatch(name('trajectory.run.json'));
+  const side = downloads.find((one) => one.suggestedFilename().endsWith('.run.json'));
+  const beside: Said = JSON.parse(readFileSync((await side?.path()) ?? '', 'utf8'));
+  expect(beside).toMatchObject({ changes, experiment: own });
+
+  const json = await download(page, 'save-json');
+  expect(json.name).toMatch(name('result.json'));
+  const within: Said = JSON.parse(json.bytes.toString()).run;
+  expect(within).toEqual(beside);
+
+  const svg = await download(page, 'save-plots');
+  expect(svg.name).toMatch(name('plots.svg'));
+  for (const words of [...changes, 'planner paper, seed 1']) expect(svg.bytes.toString()).toContain(words);
+
+  const mcap = await download(page, 'save-mcap');
+  expect(mcap.name).toMatch(name('run.mcap'));
+  expect(mcap.bytes.toString()).toContain(JSON.stringify(own));
+
+  // What a file says opens again, and is the same run.
+  await page.evaluate(() => window.mapless?.loadScenario('ml'));
+  await page.locator('#files').setInputFiles(file(json.name, json.bytes));
+  await until(page, (now) => now.scenario === 'ht');
+  expect((await download(page, 'save-json')).name).toBe(json.name);
+  await driveTo(page, 3);
+  await page.evaluate(() =>
+    window.mapless?.sculpt({ kind: 'raise', radius_m: 1, strength_m: 0.1, points_cm: [500, 500] }),
+  );
+  await until(page, (now) => now.disturbed);
+  const later: Said = JSON.parse((await download(page, 'save-json')).bytes.toString()).run;
+  expect(later.changes).toEqual(['1 stroke on the ground', ...changes]);
+  expect(later.changed_at_ticks).toHaveLength(1);
 });
 
 test('the MCAP file is valid, complete and in the schemas of Foxglove', async ({ mapless: page }) => {

@@ -247,23 +247,27 @@ export function ownOf(page: Asked): Promise<Experiment | undefined> {
   return page.evaluate(() => window.mapless?.experiment());
 }
 
+/** The pieces of work that the browser has kept, the newest last. */
+export function allKept(page: Asked): Promise<Experiment[]> {
+  return page.evaluate(
+    () =>
+      new Promise((resolve, reject) => {
+        const opening = indexedDB.open('mapless', 1);
+        opening.onupgradeneeded = () => opening.result.createObjectStore('experiments');
+        opening.onerror = () => reject(opening.error);
+        opening.onsuccess = () => {
+          const reading = opening.result.transaction('experiments').objectStore('experiments').getAll();
+          reading.onerror = () => reject(reading.error);
+          reading.onsuccess = () => resolve(reading.result as Experiment[]);
+        };
+      }),
+  );
+}
+
 /** Waits until the browser has kept the experiment for the next visit; returns it. */
 export async function kept(page: Asked): Promise<Experiment | undefined> {
   const own = await ownOf(page);
-  const stored = () =>
-    page.evaluate(
-      () =>
-        new Promise((resolve, reject) => {
-          const opening = indexedDB.open('mapless', 1);
-          opening.onerror = () => reject(opening.error);
-          opening.onsuccess = () => {
-            const reading = opening.result.transaction('experiments').objectStore('experiments').get('last');
-            reading.onerror = () => reject(reading.error);
-            reading.onsuccess = () => resolve(reading.result);
-          };
-        }),
-    );
-  await expect.poll(stored).toEqual(own);
+  await expect.poll(async () => (await allKept(page)).at(-1)).toEqual(own);
   return own;
 }
 

@@ -268,3 +268,49 @@ plain('after a panic the message can be read, and a tap drives from the start th
   await press(button(page, 'Play'));
   await until(page, (now) => now.tick > 3);
 });
+
+test('a finger that holds Raise keeps to where it is; decisions are large enough for it', async ({ mapless: page }) => {
+  await still(page);
+  await press(tool(page, 'Raise'));
+  // Beside the robot, which the view follows when it rises.
+  const from = await within(page.locator('#view'), 0.3, 0.5);
+  const before = (await ownOf(page))?.strokes.length ?? 0;
+  // Small movements of a finger that rests, for as long as a hill needs to grow.
+  const session = await page.context().newCDPSession(page);
+  const send = (type: 'touchStart' | 'touchMove' | 'touchEnd', dx = 0) =>
+    session.send('Input.dispatchTouchEvent', {
+      type,
+      touchPoints: type === 'touchEnd' ? [] : [{ x: from.x + dx, y: from.y, id: 0 }],
+    });
+  await send('touchStart');
+  const began = Date.now();
+  for (let move = 0; Date.now() - began < 2500; move += 1) await send('touchMove', move % 2);
+  await send('touchEnd');
+  await session.detach();
+  await expect.poll(async () => (await ownOf(page))?.strokes.length).toBe(before + 1);
+  const points = (await ownOf(page))?.strokes.at(-1)?.points_cm ?? [];
+  expect(points.length).toBeGreaterThan(10);
+  const away = points.map((value, at) => Math.abs(value - (points[at % 2] ?? 0)));
+  // A pixel is some centimetres of ground.
+  expect(Math.max(...away)).toBeLessThan(60);
+  const row = await page.locator('.candidate').first().boundingBox();
+  expect(row?.height).toBeGreaterThanOrEqual(40);
+});
+
+test('that no object is in hand can be read on a phone', async ({ mapless: page }) => {
+  await page.evaluate(() => window.mapless?.loadScenario('movers-1-0001'));
+  await still(page);
+  await press(tool(page, 'Objects'));
+  const list = page.locator('#object-list');
+  await expect(list.locator('option:checked')).toHaveText('None');
+  const room = await list.evaluate((select: HTMLSelectElement) => {
+    const free = select.cloneNode(true) as HTMLSelectElement;
+    free.replaceChildren(new Option('None'));
+    free.style.cssText = 'position:fixed;flex:none;width:auto;min-width:0;max-width:none';
+    document.body.append(free);
+    const needed = free.offsetWidth;
+    free.remove();
+    return select.offsetWidth - needed;
+  });
+  expect(room).toBeGreaterThanOrEqual(0);
+});

@@ -197,8 +197,7 @@ export class App {
   }
 
   /** The files with which `mapless run` drives the same run. */
-  files(): Promise<NamedFile[]> {
-    const { experiment } = this.editor;
+  files(experiment = this.editor.experiment): Promise<NamedFile[]> {
     if (!experiment) return Promise.reject(new Error('No scenario is loaded yet.'));
     return this.#core.request({ type: 'export', experiment });
   }

@@ -30,7 +30,8 @@ import { published } from '../run/published.ts';
 import { GroundTools } from '../view/groundTools.ts';
 import { ObjectTool } from '../view/objectTool.ts';
 import { Stage } from '../view/stage.ts';
-import { beginPlainly, begun, core } from './startCore.ts';
+import { AddressBar } from './addressBar.ts';
+import { beginAt, begun, core } from './startCore.ts';
 import { begin, leadOut } from './welcome.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
@@ -144,10 +145,9 @@ const app = new App(core, {
   experiment(editor) {
     undoButtons.show(editor);
     showCourse(editor);
-    // A link in the address is no longer what is shown.
-    if (editor.canUndo && location.hash) history.replaceState(undefined, '', location.pathname + location.search);
     if (!editor.experiment) return;
-    if (app.touched) autosave.save(editor.experiment);
+    // What the address brings back is no work to keep.
+    if (!addressBar.show(editor, !app.touched)) autosave.save(editor.experiment, !editor.asOpened);
     app.attempt(leadOut(editor.experiment));
   },
   notice: (message) => notice.show(message),
@@ -171,6 +171,8 @@ try {
 const measure = new Measure({
   record: app.record,
   view: stage,
+  editor: app.editor,
+  heightAt: (place) => app.heightAt(place),
   go: (time_s) => app.attempt(app.seekTime(time_s)),
   notice: (message) => notice.show(message),
 });
@@ -205,6 +207,16 @@ const objectPanel = new ObjectPanel({
   remove: () => objectTool?.remove(),
 });
 
+/** A choice that is refused goes back to what holds. */
+async function orBack(choice: Promise<void>): Promise<void> {
+  try {
+    await choice;
+  } catch (error) {
+    if (app.info) controls.showSession(app.info);
+    throw error;
+  }
+}
+
 const actions = {
   togglePlay: () => app.attempt(app.togglePlay()),
   step: () => app.attempt(app.step()),
@@ -212,7 +224,7 @@ const actions = {
   next: () => app.attempt(app.next()),
   setSpeed: (speed: number) => app.attempt(app.setSpeed(speed)),
   faster: (steps: number) => app.attempt(app.faster(steps)),
-  load: (...args: Parameters<App['runScenario']>) => app.attempt(app.runScenario(...args)),
+  load: (...args: Parameters<App['runScenario']>) => app.attempt(orBack(app.runScenario(...args))),
   selectTool(tool: Parameters<GroundTools['select']>[0]) {
     tools?.select(tool);
     objectTool?.select(tool === 'objects');
@@ -220,7 +232,7 @@ const actions = {
     controls.showTool(tool);
     brushPanel.tool(tool);
   },
-  change: (part: Parameters<App['change']>[0]) => app.attempt(app.change(part)),
+  change: (part: Parameters<App['change']>[0]) => app.attempt(orBack(app.change(part))),
   growBrush: (steps: number) => brushPanel.grow(steps),
   strengthenBrush: (steps: number) => brushPanel.strengthen(steps),
   terrains: () => terrainsSheet.open(),
@@ -242,6 +254,7 @@ const undoButtons = new UndoButtons(app);
 const terrainsSheet = new TerrainsSheet(app);
 const shareSheet = new ShareSheet(app);
 const autosave = new Autosave((why) => notice.show(why));
+const addressBar = new AddressBar((experiment) => app.attempt(app.run({ experiment })));
 const controls = new Controls(actions);
 const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
 byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
@@ -267,4 +280,8 @@ keepOffline((start) => notice.tell('A new version of this page is ready.', 'Relo
 
 publish(app);
 
-app.attempt(begin(app, notice, begun, beginPlainly));
+app.attempt(
+  begin(app, notice, begun, beginAt).then(async (beginning) => {
+    if (beginning?.from === 'last visit' && beginning.own) await autosave.goOnWith(beginning.own);
+  }),
+);

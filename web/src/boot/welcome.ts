@@ -8,21 +8,30 @@ import { linkTo } from '../experiment/link.ts';
 import type { Notice } from '../notices/notice.ts';
 import type { Beginning } from '../protocol/simulationProtocol.ts';
 
-/** `begun` is what the core loads; `plainly` has it load what it would without an address. */
+/** `begun` is what the core loads; `beginAt` has it load what it would at a shorter address. Returns what it began with, if anything of it worked. */
 export async function begin(
   app: App,
   notice: Notice,
   begun: Promise<Beginning>,
-  plainly: () => Promise<Beginning>,
-): Promise<void> {
+  beginAt: (search: string) => Promise<Beginning>,
+): Promise<Beginning | undefined> {
   // In another page's frame: the view alone, with a way out of it.
   if (new URLSearchParams(location.search).has('embed')) document.documentElement.toggleAttribute('data-embed', true);
   try {
-    welcome(app, notice, await app.begin(begun));
+    const beginning = await app.begin(begun);
+    welcome(app, notice, beginning);
+    return beginning;
   } catch (error) {
     // What was asked for does not work: say why, and show what does. That may be the very work of the last visit.
-    await app.begin(plainly()).catch(() => first(app));
+    const less = location.hash ? [location.search, ''] : [''];
+    const instead = await less
+      .reduce<Promise<Beginning>>(
+        (before, search) => before.catch(() => app.begin(beginAt(search))),
+        Promise.reject(error),
+      )
+      .catch(() => first(app));
     notice.show(error instanceof Error ? error.message : String(error));
+    return instead ?? undefined;
   }
 }
 

@@ -77,11 +77,16 @@ export function bindKeys(actions: KeyActions, inspector: InspectorKeys): void {
   });
 }
 
+/** Fields that somebody writes into. */
+const WRITTEN = ['number', 'search', 'text'];
+
 /** Whether the focused control has its own use for the key. */
 function takesKey(event: KeyboardEvent): boolean {
   const { target } = event;
   if (target instanceof HTMLSelectElement) return true;
   if (target instanceof HTMLInputElement)
-    return target.type === 'number' || (event.key === ' ' && (target.type === 'radio' || target.type === 'checkbox'));
+    return (
+      WRITTEN.includes(target.type) || (event.key === ' ' && (target.type === 'radio' || target.type === 'checkbox'))
+    );
   return event.key === ' ' && (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement);
 }

@@ -38,7 +38,7 @@ export class ObjectPanel {
   }
 
   show(objects: readonly WorldObject[], held: number | undefined): void {
-    const none = html('option', '', [objects.length === 0 ? 'No object yet' : 'None in hand']);
+    const none = html('option', '', [objects.length === 0 ? 'No object yet' : 'None']);
     none.value = '';
     const options = objects.map((object, index) => {
       const option = html('option', '', [`${objectName(object, index)}, ${sizeWords(object)}`]);

@@ -4,7 +4,7 @@ import { byId, setText } from '../base/dom.ts';
 import type { Experiment } from '../experiment/experiment.ts';
 import { linkTo, MAX_LINK_CHARACTERS } from '../experiment/link.ts';
 import { zip } from '../files/archive.ts';
-import { download } from '../files/download.ts';
+import { download, plainName } from '../files/download.ts';
 import { heightsAscii, heightsPng } from '../files/heights.ts';
 import type { HeightField } from '../ground/heightField.ts';
 import type { NamedFile } from '../protocol/simulationProtocol.ts';
@@ -73,7 +73,7 @@ export class ShareSheet {
 
   #saves(id: string, save: (name: string) => Promise<void>): void {
     byId(id, HTMLButtonElement).addEventListener('click', () => {
-      const name = (this.#shared.editor.experiment?.name ?? 'experiment').replace(/[^\w-]+/g, '-');
+      const name = plainName(this.#shared.editor.experiment?.name ?? 'experiment');
       // What goes wrong is said in the sheet, which covers the notice.
       save(name).then(
         () => setText(this.#state, ''),

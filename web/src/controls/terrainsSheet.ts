@@ -2,9 +2,13 @@
 
 import { byId, html, setText } from '../base/dom.ts';
 import { readTheme } from '../colours/theme.ts';
-import { CATALOGUE } from '../experiment/catalogue.ts';
-import { FAMILIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
+import { kept, works } from '../experiment/autosave.ts';
+import { CATALOGUE, entry, isKnown } from '../experiment/catalogue.ts';
+import { type Experiment, FAMILIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
+import type { Setup } from '../experiment/setting.ts';
+import { pngHead } from '../files/pngHead.ts';
 import type { NamedFile, TerrainPreview } from '../protocol/simulationProtocol.ts';
+import type { Replay } from '../trials/campaignRows.ts';
 import { drawRelief } from './reliefPicture.ts';
 
 /** Generated terrains shown at once. */
@@ -13,8 +17,9 @@ const GENERATED = 4;
 export interface TerrainActions {
   /** A terrain, coarsely, for a picture. */
   preview(terrain: Terrain): Promise<TerrainPreview>;
-  runScenario(scenario: string): Promise<void>;
+  runScenario(scenario: string, setup?: Partial<Setup>, seed?: number): Promise<void>;
   runTerrain(terrain: Terrain, name: string): Promise<void>;
+  run(source: { readonly experiment: Experiment }): Promise<void>;
   /** `holes`: what becomes of samples without a height. */
   runFiles(files: readonly NamedFile[], holes: Holes): Promise<void>;
   /** Says what goes wrong. */
@@ -29,6 +34,7 @@ export class TerrainsSheet {
   readonly #family = byId('family', HTMLSelectElement);
   readonly #seed = byId('terrain-seed', HTMLInputElement);
   readonly #files = byId('files', HTMLInputElement);
+  readonly #works = byId('earlier-work', HTMLElement);
   readonly #holes = byId('holes', HTMLSelectElement);
 
   constructor(actions: TerrainActions) {
@@ -59,11 +65,36 @@ export class TerrainsSheet {
     // Pictures follow light and dark, so they are drawn for each visit.
     this.#cards.replaceChildren(...TERRAINS.map(([name, title, scenario]) => this.#catalogued(name, title, scenario)));
     this.#generate();
+    this.#listWork().catch(() => this.#showWork([]));
     if (!this.#sheet.open) this.#sheet.showModal();
   }
 
   #catalogued(name: string, title: string, scenario: string): HTMLElement {
     return this.#card({ catalogue: name }, title, () => this.#actions.runScenario(scenario));
+  }
+
+  async #listWork(): Promise<void> {
+    this.#showWork(
+      (await works()).map(({ id, name, saved }) => {
+        const button = html('button', 'plain', [`${entry(name).title}, ${saved.toLocaleString()}`]);
+        button.type = 'button';
+        button.addEventListener('click', () => {
+          this.#sheet.close();
+          this.#actions.attempt(this.#reopen(id));
+        });
+        return html('li', '', [button]);
+      }),
+    );
+  }
+
+  #showWork(items: readonly HTMLElement[]): void {
+    this.#works.replaceChildren(...items);
+    byId('earlier', HTMLElement).hidden = items.length === 0;
+  }
+
+  async #reopen(id: string): Promise<void> {
+    const work = await kept(id);
+    if (work) await this.#actions.run({ experiment: work.experiment });
   }
 
   #generate(): void {
@@ -95,6 +126,18 @@ export class TerrainsSheet {
     return html('li', '', [button]);
   }
 
+  /** The table of a campaign. */
+  async #openTable({ name, bytes }: NamedFile): Promise<void> {
+    const [{ LeaderboardSheet }, { campaignRows }] = await Promise.all([
+      import('./leaderboardSheet.ts'),
+      import('../trials/campaignRows.ts'),
+    ]);
+    const rows = campaignRows(name, new TextDecoder().decode(bytes), isKnown);
+    const drive = ({ scenario, seed, preset, overrides }: Replay) =>
+      this.#actions.attempt(this.#actions.runScenario(scenario, { preset, overrides, learning: 'fixed' }, seed));
+    await new LeaderboardSheet(name, rows, drive).show();
+  }
+
   async #open(list: ArrayLike<File>): Promise<void> {
     this.#sheet.close();
     const files: NamedFile[] = [];
@@ -102,6 +145,18 @@ export class TerrainsSheet {
       files.push({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
     }
     const holes = HOLES.find((one) => one === this.#holes.value) ?? 'refuse';
+    const [first] = files;
+    if (files.length === 1 && first && /\.csv$/i.test(first.name)) {
+      await this.#openTable(first);
+      return;
+    }
+    const head = files.length === 1 && first && pngHead(first.bytes);
+    if (head) {
+      const { HeightsSheet } = await import('./heightsSheet.ts');
+      const recipe = await new HeightsSheet(first, head, holes, (terrain) => this.#actions.preview(terrain)).ask();
+      if (!recipe) return;
+      files.push(recipe);
+    }
     if (files.length > 0) await this.#actions.runFiles(files, holes);
   }
 }

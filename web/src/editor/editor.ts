@@ -49,6 +49,7 @@ export class Editor {
   readonly #patches = new Map<Stroke, MadeStroke>();
   #patchBytes = 0;
   #loaded: Experiment | undefined;
+  readonly #opened = new WeakSet<Experiment>();
   /** The scenario that the experiment is named after. */
   #scenario: Experiment | undefined;
   /** What stands on the ground where the document does not say it. */
@@ -76,6 +77,7 @@ export class Editor {
   /** The core has loaded this. */
   loaded({ experiment, scenario }: Pick<Loaded, 'experiment' | 'scenario'>): void {
     this.#loaded = experiment;
+    this.#opened.add(experiment);
     this.#scenario = scenario;
     this.#unsaid = experiment.objects ? undefined : this.#core.info()?.objects;
   }
@@ -83,6 +85,16 @@ export class Editor {
   /** Whether ground, start and route are those of the scenario that the experiment is named after; nothing where there is none. */
   get asItComes(): boolean | undefined {
     return this.experiment && this.#scenario && sameCourse(this.experiment, this.#scenario);
+  }
+
+  /** The scenario that the experiment is named after, as it comes; nothing where there is none. */
+  get scenario(): Experiment | undefined {
+    return this.#scenario;
+  }
+
+  /** Whether the experiment is as it was opened. */
+  get asOpened(): boolean {
+    return this.experiment !== undefined && this.#opened.has(this.experiment);
   }
 
   /** The core has changed the ground here. */
@@ -95,7 +107,7 @@ export class Editor {
     return this.#next(async () => {
       const { from, own } = await begun;
       this.#history = new History();
-      if (own && from !== 'last visit') this.#history.push(own);
+      if (own && from !== 'last visit') this.#history.push(own.experiment);
       if (this.#loaded) this.#push(this.#loaded);
     });
   }

@@ -1,31 +1,56 @@
-/** What the page's address asks for: `?scenario=cht-ad`, with `&seed=7`, `&preset=paper` and `&reality=field`. */
+/** What the page's address asks for: `?scenario=cht-ad`, with `&seed=7`, `&preset=paper`, `&learning=once` and `&reality=field`. */
 
 import { fail, oneOf, whole } from '../base/checks.ts';
-import { MAX_SEED, PRESETS, REALITIES } from './experiment.ts';
-import type { Preset } from './setting.ts';
+import { type Experiment, FIRST_SETUP, LEARNING, MAX_SEED, PRESETS, REALITIES, sameCourse } from './experiment.ts';
+import type { Learning, Preset } from './setting.ts';
 
 export interface Asked {
   readonly scenario: string;
   readonly preset: Preset | undefined;
+  readonly learning: Learning | undefined;
   /** The scenario's own without it. */
   readonly seed: number | undefined;
   /** The preset of what goes wrong; the scenario's own without it. */
   readonly reality: string | undefined;
 }
 
+/** The options of an address that say what to run. */
+export const ASKED = ['scenario', 'preset', 'learning', 'seed', 'reality'] as const;
+
 /** Nothing when no scenario is asked for; throws where the address makes no sense. */
 export function askedFor(options: URLSearchParams): Asked | undefined {
-  const names = ['scenario', 'preset', 'seed', 'reality'];
-  const [scenario, preset, seed, reality] = names.map((name) => options.get(name) ?? undefined);
+  const [scenario, preset, learning, seed, reality] = ASKED.map((name) => options.get(name) ?? undefined);
   if (scenario === undefined) {
-    if (preset !== undefined || seed !== undefined || reality !== undefined)
-      fail('?scenario', undefined, 'a name, since a seed, a preset or a reality is given');
+    if (ASKED.some((name) => options.has(name)))
+      fail('?scenario', undefined, 'a name, since a seed, a preset, a learning or a reality is given');
     return undefined;
   }
   return {
     scenario,
     preset: preset === undefined ? undefined : oneOf(preset, '?preset', PRESETS),
+    learning: learning === undefined ? undefined : oneOf(learning, '?learning', LEARNING),
     seed: seed === undefined ? undefined : whole(/^\d+$/.test(seed) ? Number(seed) : seed, '?seed', 0, MAX_SEED),
     reality: reality === undefined ? undefined : oneOf(reality, '?reality', REALITIES),
   };
+}
+
+/** What asks for an experiment again, which `scenario` comes nearest to; nothing where no address can say it. */
+export function askingFor(experiment: Experiment, scenario: Experiment | undefined): URLSearchParams | undefined {
+  if (!scenario || !sameCourse(experiment, scenario)) return undefined;
+  const { name, preset, learning, seed, overrides } = experiment;
+  const reality = realityOf(experiment);
+  if (reality === undefined && JSON.stringify(overrides) !== '{}') return undefined;
+  const asked: [(typeof ASKED)[number], string | undefined][] = [
+    ['scenario', name],
+    ['preset', preset === FIRST_SETUP.preset ? undefined : preset],
+    ['learning', learning === FIRST_SETUP.learning ? undefined : learning],
+    ['seed', seed === scenario.seed ? undefined : String(seed)],
+    ['reality', reality],
+  ];
+  return new URLSearchParams(asked.flatMap(([key, value]) => (value === undefined ? [] : [[key, value]])));
+}
+
+/** The preset of what goes wrong, where that is all that is set. */
+function realityOf({ overrides }: Experiment): string | undefined {
+  return REALITIES.find((preset) => JSON.stringify(overrides) === JSON.stringify({ reality: { preset } }));
 }

@@ -88,6 +88,11 @@ function resolve(path: string): string {
 /** Names like those of generated tasks; the core says what is wrong with one. */
 export const TASK = new RegExp(`^(${FAMILIES.join('|')})-\\d`);
 
+/** Whether a scenario comes with the page, or is drawn by it. */
+export function isKnown(name: string): boolean {
+  return CATALOGUE.some(({ id }) => id === name) || TASK.test(name);
+}
+
 export function entry(id: string): CatalogueEntry {
   const task = {
     id,

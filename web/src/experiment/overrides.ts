@@ -36,6 +36,13 @@ export function countOverrides(overrides: Overrides): number {
   return counts.reduce((sum, count) => sum + count, 0);
 }
 
+/** Each value that is overridden, with its whole name: `sensor.range_noise_m = 0.1`. */
+export function assignmentsOf(overrides: Overrides, path = ''): readonly string[] {
+  return Object.entries(overrides).flatMap(([key, value]) =>
+    isTable(value) ? assignmentsOf(value, `${path}${key}.`) : [`${path}${key} = ${literal(value)}`],
+  );
+}
+
 /** The sections of a scenario file that say the same. */
 export function sectionsOf(overrides: Overrides): string {
   return Object.entries(overrides)

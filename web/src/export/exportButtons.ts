@@ -2,14 +2,14 @@
 
 import { byId, setText } from '../base/dom.ts';
 import { download } from '../files/download.ts';
-import { fileName, type Run, runJson, trajectoryCsv } from './exportedRun.ts';
+import { fileName, type Run, runJson, runWords, trajectoryCsv, whatWasRun } from './exportedRun.ts';
 import { Camera, canFilm, type Filmed } from './film.ts';
 
 export interface Source {
   /** Nothing until the first scenario is loaded. */
   run(): Run | undefined;
-  /** The plots over time, as SVG. */
-  plots(title: string): string;
+  /** The plots over time, as SVG, with what was run beneath. */
+  plots(words: readonly string[]): string;
   /** Without WebGL there is no view to picture. */
   readonly view: Filmed | undefined;
   notice(message: string): void;
@@ -26,7 +26,7 @@ export class ExportButtons {
     this.#on('save-csv', 'trajectory.csv', (run) => text(trajectoryCsv(run), 'text/csv'));
     this.#on('save-json', 'result.json', (run) => text(runJson(run), 'application/json'));
     this.#on('save-mcap', 'run.mcap', async (run) => (await import('./mcap.ts')).mcapFile(run));
-    this.#on('save-plots', 'plots.svg', (run) => text(source.plots(title(run)), 'image/svg+xml'));
+    this.#on('save-plots', 'plots.svg', (run) => text(source.plots(runWords(run)), 'image/svg+xml'));
     this.#on('save-picture', 'view.png', () => this.#camera?.picture());
     this.#film.addEventListener('click', () => this.#toggleFilm());
     byId('save-picture', HTMLButtonElement).disabled = !this.#camera;
@@ -44,6 +44,8 @@ export class ExportButtons {
       try {
         const blob = await make(run);
         if (blob) download(fileName(run, what), blob);
+        // A table of numbers has no place for what was run.
+        if (id === 'save-csv') download(fileName(run, 'trajectory.run.json'), runFile(run));
         if (run.record.cut) {
           this.#source.notice(
             `The run is longer than its record: the files begin at tick ${run.record.get(0, 'tick')}.`,
@@ -84,8 +86,8 @@ export class ExportButtons {
   }
 }
 
-function title({ info }: Run): string {
-  return `${info.scenario}, planner ${info.preset}, seed ${info.seed}`;
+function runFile(run: Run): Blob {
+  return text(`${JSON.stringify(whatWasRun(run), null, 2)}\n`, 'application/json');
 }
 
 function text(content: string, type: string): Blob {

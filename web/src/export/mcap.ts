@@ -3,7 +3,7 @@
 import { FrameTransform, PointCloud, PoseInFrame } from '@foxglove/schemas/jsonschema';
 import { type IWritable, McapWriter } from '@mcap/core';
 import { ROW } from '../run/record.ts';
-import type { Run } from './exportedRun.ts';
+import { type Run, whatWasRun } from './exportedRun.ts';
 
 /** A tick's row as it stands in the record, for plots of any of its numbers. */
 const TICK = {
@@ -29,7 +29,7 @@ export async function mcapFile(run: Run): Promise<Blob> {
 
   const { x, y, heading_rad = 0 } = info.goal;
   const begin_s = record.length > 0 ? record.get(0, 'time_s') : frame.time_s;
-  await goal(begin_s, inWorld(begin_s, { x, y, z: 0 }, orientation(0, 0, heading_rad)));
+  await goal(begin_s, inWorld(begin_s, { x, y, z: run.goal_z_m }, orientation(0, 0, heading_rad)));
   for (let row = 0; row < record.before(frame.tick); row += 1) {
     const value = (name: (typeof ROW)[number]) => record.get(row, name);
     const time_s = value('time_s');
@@ -55,9 +55,10 @@ export async function mcapFile(run: Run): Promise<Blob> {
     fields: ['x', 'y', 'z'].map((name, index) => ({ name, offset: 4 * index, type: FLOAT32 })),
     data: base64(run.points),
   });
-  const { scenario, preset, learning, seed } = info;
+  const { changes, changed_at_ticks, experiment, seed, ...what } = whatWasRun(run);
   const { outcome, digest } = frame;
-  const metadata = { scenario, preset, learning, seed: String(seed), outcome, digest };
+  const lists = { changes: changes.join('; '), changed_at_ticks: changed_at_ticks.join(', ') };
+  const metadata = { ...what, seed: String(seed), ...lists, outcome, digest, experiment: JSON.stringify(experiment) };
   await writer.addMetadata({ name: 'mapless', metadata: new Map(Object.entries(metadata)) });
   await writer.end();
   return file.blob();

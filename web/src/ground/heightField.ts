@@ -57,6 +57,11 @@ export class HeightField {
     return x >= 0 && y >= 0 && x <= this.width_m && y <= this.depth_m;
   }
 
+  /** The ground as it is now, whatever becomes of this. */
+  copy(): HeightField {
+    return new HeightField({ ...this, heights_m: this.heights_m.slice() });
+  }
+
   /** Bilinear height; the nearest edge's outside the field. */
   height(x: number, y: number): number {
     const u = Math.min(Math.max(x / this.cell_m, 0), this.columns - 1);

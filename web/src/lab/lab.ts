@@ -8,6 +8,7 @@ import type { Stage } from '../view/stage.ts';
 import { CompareTab } from './compareTab.ts';
 import { ParametersTab } from './parametersTab.ts';
 import { SeedsTab } from './seedsTab.ts';
+import { SweepTab } from './sweepTab.ts';
 
 /** One page of the drawer. */
 export interface Tab {
@@ -30,7 +31,7 @@ export class Lab {
   constructor(app: App, stage: Stage | undefined, opener: HTMLButtonElement) {
     this.#opener = opener;
     const compare = new CompareTab(app, stage);
-    this.#tabs = [new ParametersTab(app, compare), compare, new SeedsTab(app)];
+    this.#tabs = [new ParametersTab(app, compare), compare, new SeedsTab(app), new SweepTab(app)];
     this.#buttons = this.#tabs.map((tab, index) => this.#button(tab, index));
     const list = html('div', 'lab-tabs', this.#buttons);
     list.setAttribute('role', 'tablist');

@@ -19,6 +19,7 @@ export class ParameterField {
   readonly #inputs: readonly Input[];
   readonly #reset = html('button', 'plain field-reset', ['Reset']);
   readonly #angle = html('span', 'parameter-unit');
+  readonly #unusual = html('p', 'parameter-unusual', ['Outside what is usual: it is taken as it stands.']);
   readonly #fault = html('p', 'parameter-fault');
   readonly #words: string;
   /** What holds; the fields may show it rounded. */
@@ -54,6 +55,7 @@ export class ParameterField {
       controls,
       text,
       html('p', 'parameter-facts', [facts(parameter)]),
+      this.#unusual,
       this.#fault,
     ]);
     this.show(undefined);
@@ -75,8 +77,13 @@ export class ParameterField {
     this.#values = values;
     this.#reset.hidden = value === undefined;
     this.element.classList.toggle('is-changed', value !== undefined);
-    const angles = this.#parameter.unit === 'rad' ? values.map((angle) => degrees(Number(angle), 1)).join(', ') : '';
-    setText(this.#angle, angles && `(${angles})`);
+    const { unit, range } = this.#parameter;
+    // More than a turn is no angle that anybody reads in degrees.
+    const turns = unit === 'rad' && values.every((angle) => Math.abs(Number(angle)) <= 2 * Math.PI);
+    setText(this.#angle, turns ? `(${values.map((angle) => degrees(Number(angle), 1)).join(', ')})` : '');
+    const [low, high] = range ?? [Number.NEGATIVE_INFINITY, Number.POSITIVE_INFINITY];
+    const unusual = values.some((one) => typeof one === 'number' && (one < low || one > high));
+    this.#unusual.hidden = !unusual;
     this.complain(undefined);
   }
 

@@ -11,6 +11,7 @@ import { Batch, type FromBatch, workersFor } from '../trials/batch.ts';
 import { courseOf } from '../trials/course.ts';
 import type { Summary, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
+import { labelled, numberInput } from './numberInput.ts';
 
 const MOST_SEEDS = 500;
 const MAX_SEED = 0xffff_ffff;
@@ -19,8 +20,8 @@ export class SeedsTab implements Tab {
   readonly title = 'Seeds';
   readonly element = html('div');
   readonly #app: App;
-  readonly #count = numberInput('How many', 1, MOST_SEEDS, 10);
-  readonly #first = numberInput('From seed', 0, MAX_SEED, 1);
+  readonly #count = numberInput('seeds', 'How many', 1, MOST_SEEDS, 10);
+  readonly #first = numberInput('seeds', 'From seed', 0, MAX_SEED, 1);
   readonly #start = html('button', 'lab-action', ['Run']);
   readonly #cancel = html('button', 'plain', ['Cancel']);
   readonly #progress = html('progress', 'lab-progress');
@@ -160,7 +161,7 @@ export class SeedsTab implements Tab {
       ['Goal reached', `${reached} of ${trials} (95 %: ${percent(low)} to ${percent(high)})`],
       ...METRIC_ROWS.map(({ key, name, unit, decimals }): [string, string] => {
         const { mean, deviation } = metrics[key];
-        return [name, `${fixed(mean, decimals)} ± ${fixed(deviation, decimals)} ${unit}`];
+        return [name, `${spreadWords(mean, deviation, decimals, reached)} ${unit}`];
       }),
     ];
     const rows = lines.map(([name, words]) => {
@@ -183,24 +184,15 @@ export class SeedsTab implements Tab {
   }
 }
 
+/** A mean with its standard deviation, which needs two trials, with as many decimals as show both. */
+function spreadWords(mean: number, deviation: number, decimals: number, trials: number): string {
+  if (trials < 2) return fixed(mean, decimals);
+  const needed =
+    deviation > 0 ? Math.max(decimals, Math.min(Math.ceil(-Math.log10(deviation)), decimals + 3)) : decimals;
+  return `${fixed(mean, needed)} ± ${fixed(deviation, needed)}`;
+}
+
 /** All that trials with other seeds have in common. */
 function courseKey({ scenario, preset, learning, overrides, start, waypoints, goal }: SessionInfo): string {
   return JSON.stringify([scenario, preset, learning, overrides, start, waypoints, goal]);
-}
-
-function numberInput(name: string, min: number, max: number, value: number): HTMLInputElement {
-  const input = html('input');
-  input.type = 'number';
-  input.id = `seeds-${name.toLowerCase().replaceAll(' ', '-')}`;
-  input.required = true;
-  input.step = '1';
-  [input.min, input.max, input.value] = [String(min), String(max), String(value)];
-  input.setAttribute('aria-label', name);
-  return input;
-}
-
-function labelled(input: HTMLInputElement): [HTMLElement, HTMLInputElement] {
-  const label = html('label', '', [input.getAttribute('aria-label') ?? '']);
-  label.htmlFor = input.id;
-  return [label, input];
 }

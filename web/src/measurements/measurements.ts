@@ -1,6 +1,9 @@
 /** The measurements of a run: the six metrics beside the paper's, plots over time, times, digest, and its files. */
 
 import { byId, setText } from '../base/dom.ts';
+import type { Editor } from '../editor/editor.ts';
+import { changesOf } from '../experiment/changes.ts';
+import type { Place } from '../experiment/place.ts';
 import { ExportButtons } from '../export/exportButtons.ts';
 import type { Run } from '../export/exportedRun.ts';
 import type { Filmed } from '../export/film.ts';
@@ -17,6 +20,9 @@ const THANKS_MS = 1600;
 export interface MeasureOptions {
   readonly record: RunRecord;
   readonly view: Filmed | undefined;
+  /** What is run, and the scenario that it is named after. */
+  readonly editor: Pick<Editor, 'experiment' | 'scenario'>;
+  heightAt(place: Place): number | undefined;
   /** Takes the run to another time. */
   go(time_s: number): Promise<void>;
   notice(message: string): void;
@@ -27,16 +33,20 @@ export class Measure {
   readonly #metrics = new MetricsPanel(byId('metrics', HTMLElement));
   readonly #timing = new TimingPanel();
   readonly #record: RunRecord;
+  readonly #editor: MeasureOptions['editor'];
+  readonly #heightAt: MeasureOptions['heightAt'];
   #info: SessionInfo | undefined;
   #frame: Frame | undefined;
 
-  constructor({ record, view, go, notice }: MeasureOptions) {
+  constructor({ record, view, go, notice, editor, heightAt }: MeasureOptions) {
     this.#record = record;
+    this.#editor = editor;
+    this.#heightAt = heightAt;
     this.#plots = new TimePlots(record, go);
     byId('plots', HTMLElement).append(this.#plots.element);
     this.#enlarges();
     this.#copiesDigest(notice);
-    new ExportButtons({ run: () => this.#run(), plots: (title) => this.#plots.file(title), view, notice });
+    new ExportButtons({ run: () => this.#run(), plots: (words) => this.#plots.file(words), view, notice });
   }
 
   session(info: SessionInfo): void {
@@ -59,8 +69,17 @@ export class Measure {
 
   #run(): Run | undefined {
     const [info, frame] = [this.#info, this.#frame];
-    if (!info || !frame) return undefined;
-    return { info, frame, record: this.#record.copy(), points: frame.buffers.points.slice(0, 3 * frame.returns) };
+    const { experiment, scenario } = this.#editor;
+    if (!info || !frame || !experiment) return undefined;
+    return {
+      info,
+      frame,
+      record: this.#record.copy(),
+      points: frame.buffers.points.slice(0, 3 * frame.returns),
+      experiment,
+      changes: changesOf(experiment, scenario),
+      goal_z_m: this.#heightAt(info.goal) ?? 0,
+    };
   }
 
   /** The plots move into a sheet of the whole window, and back. */

@@ -17,6 +17,7 @@ import type { Theme } from '../colours/theme.ts';
 import { type WorldObject, walkOf } from '../experiment/objects.ts';
 import type { Place } from '../experiment/place.ts';
 import type { Solid } from '../protocol/simulationProtocol.ts';
+import { MoverShadows } from './moverShadows.ts';
 import { colour } from './relief.ts';
 import { ThickLines } from './thickLines.ts';
 
@@ -37,6 +38,7 @@ export class Solids {
   readonly group = new Group();
   readonly #look = new MeshStandardMaterial({ roughness: 0.85 });
   readonly #meshes = new Map<Solid['shape'], InstancedMesh>();
+  readonly #shadows = new MoverShadows();
   readonly #walks = new ThickLines(MOST_WALK_PIECES, 2, 0.7);
   #objects: readonly WorldObject[] = [];
   #standing: readonly Solid[] = [];
@@ -49,7 +51,7 @@ export class Solids {
   #heldIn = new Color();
 
   constructor() {
-    this.group.add(this.#walks.line);
+    this.group.add(this.#walks.line, this.#shadows.mesh);
     this.#walks.line.visible = false;
   }
 
@@ -73,6 +75,7 @@ export class Solids {
   walk(solids: readonly Solid[]): void {
     if (solids.length === 0 && this.#walking.length === 0) return;
     this.#walking = solids;
+    this.#shadows.show(solids, this.#height);
     this.#draw();
   }
 

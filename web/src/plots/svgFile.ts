@@ -12,8 +12,12 @@ const PROPERTIES = [
 ] as const;
 
 const HEAD = 34;
+const LINE = 15;
+/** Width of a letter of the words beneath, at most on average. */
+const LETTER = 6;
 
-export function toSvgFile(drawing: SVGSVGElement, title: string): string {
+/** The first of the words is the title; the others stand beneath, as many in a line as fit. */
+export function toSvgFile(drawing: SVGSVGElement, [title = '', ...words]: readonly string[]): string {
   const copy = drawing.cloneNode(true) as SVGSVGElement;
   const originals = drawing.querySelectorAll('*');
   copy.querySelectorAll('*').forEach((element, index) => {
@@ -24,6 +28,8 @@ export function toSvgFile(drawing: SVGSVGElement, title: string): string {
     element.removeAttribute('class');
   });
   const { width, height } = drawing.viewBox.baseVal;
+  const beneath = linesOf(words, Math.floor(width / LETTER));
+  const whole = { x: -12, y: -HEAD, width: width + 24, height: height + HEAD + 12 + beneath.length * LINE };
   const page = getComputedStyle(drawing.ownerDocument.body);
   const surface = getComputedStyle(drawing.ownerDocument.documentElement).getPropertyValue('--surface');
   const frame = (name: string, attributes: Record<string, string | number>, text = '') => {
@@ -35,13 +41,26 @@ export function toSvgFile(drawing: SVGSVGElement, title: string): string {
   copy.removeAttribute('class');
   copy.removeAttribute('aria-hidden');
   copy.setAttribute('xmlns', 'http://www.w3.org/2000/svg');
-  copy.setAttribute('viewBox', `-12 ${-HEAD} ${width + 24} ${height + HEAD + 8}`);
-  copy.setAttribute('width', String(width + 24));
-  copy.setAttribute('height', String(height + HEAD + 8));
+  copy.setAttribute('viewBox', Object.values(whole).join(' '));
+  copy.setAttribute('width', String(whole.width));
+  copy.setAttribute('height', String(whole.height));
+  const type = { fill: page.color, 'font-family': page.fontFamily };
   copy.prepend(
     frame('title', {}, title),
-    frame('rect', { x: -12, y: -HEAD, width: width + 24, height: height + HEAD + 8, fill: surface.trim() }),
-    frame('text', { y: -14, fill: page.color, 'font-family': page.fontFamily, 'font-size': 13 }, title),
+    frame('rect', { ...whole, fill: surface.trim() }),
+    frame('text', { y: -14, ...type, 'font-size': 13 }, title),
+    ...beneath.map((line, at) => frame('text', { y: height + (at + 1) * LINE, ...type, 'font-size': 11 }, line)),
   );
   return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(copy)}\n`;
+}
+
+/** Words joined to lines of so many letters; longer words have a line of their own. */
+function linesOf(words: readonly string[], most: number): readonly string[] {
+  const lines: string[] = [];
+  for (const word of words) {
+    const last = lines.at(-1);
+    if (last !== undefined && last.length + 2 + word.length <= most) lines[lines.length - 1] = `${last}; ${word}`;
+    else lines.push(word);
+  }
+  return lines;
 }

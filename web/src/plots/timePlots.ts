@@ -92,9 +92,9 @@ export class TimePlots {
   }
 
   /** The plots as they stand, as an SVG file. */
-  file(title: string): string {
+  file(words: readonly string[]): string {
     this.#draw();
-    return toSvgFile(this.#figure.svg, title);
+    return toSvgFile(this.#figure.svg, words);
   }
 
   get #whole_s(): Span {

@@ -5,6 +5,7 @@
  * Pitch is positive nose-up, roll positive with the left side up. Azimuths are positive to the robot's left.
  */
 
+import type { Work } from '../experiment/autosave.ts';
 import type { Experiment, Holes, Stroke, Terrain } from '../experiment/experiment.ts';
 import type { WorldObject } from '../experiment/objects.ts';
 import type { ParameterGroup } from '../experiment/parameters.ts';
@@ -122,17 +123,18 @@ export type Source =
   | { readonly terrain: Terrain; readonly name: string; readonly setup: Setup }
   | { readonly files: readonly NamedFile[]; readonly holes: Holes; readonly setup: Setup };
 
-/** The parts of the page's address that say what to begin with. */
+/** The parts of the page's address that say what to begin with, and which piece of work this tab was at. */
 export interface Address {
   readonly hash: string;
   readonly search: string;
+  readonly work: string | undefined;
 }
 
 /** What the page began with. */
 export interface Beginning {
   readonly from: 'link' | 'address' | 'last visit' | 'catalogue';
   /** Where somebody left off. */
-  readonly own: Experiment | undefined;
+  readonly own: Work | undefined;
   /** Why that cannot be read, where it cannot. */
   readonly unread: string | undefined;
 }

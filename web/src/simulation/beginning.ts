@@ -1,18 +1,18 @@
 /** What the page begins with: a link, a scenario by name, where somebody left off, or the first scenario. */
 
 import { askedFor } from '../experiment/address.ts';
-import { kept } from '../experiment/autosave.ts';
+import { kept, type Work } from '../experiment/autosave.ts';
 import { CATALOGUE } from '../experiment/catalogue.ts';
-import { type Experiment, FIRST_SETUP } from '../experiment/experiment.ts';
+import { FIRST_SETUP } from '../experiment/experiment.ts';
 import { carriesExperiment, experimentIn } from '../experiment/link.ts';
 import type { Address, Beginning, Source } from '../protocol/simulationProtocol.ts';
 
 /** What the page's address asks for, or else what this browser kept; throws where the address makes no sense. */
-export async function beginningAt({ hash, search }: Address): Promise<Beginning & { readonly source: Source }> {
-  let own: Experiment | undefined;
+export async function beginningAt({ hash, search, work }: Address): Promise<Beginning & { readonly source: Source }> {
+  let own: Work | undefined;
   let unread: string | undefined;
   try {
-    own = await kept();
+    own = await kept(work);
   } catch (error) {
     unread = error instanceof Error ? error.message : String(error);
   }
@@ -21,11 +21,11 @@ export async function beginningAt({ hash, search }: Address): Promise<Beginning 
   }
   const asked = askedFor(new URLSearchParams(search));
   if (asked) {
-    const { scenario, preset = FIRST_SETUP.preset, seed, reality } = asked;
+    const { scenario, preset = FIRST_SETUP.preset, learning = FIRST_SETUP.learning, seed, reality } = asked;
     const overrides = reality === undefined ? FIRST_SETUP.overrides : { reality: { preset: reality } };
-    return { from: 'address', source: { scenario, setup: { ...FIRST_SETUP, preset, overrides }, seed }, own, unread };
+    return { from: 'address', source: { scenario, setup: { preset, learning, overrides }, seed }, own, unread };
   }
-  if (own) return { from: 'last visit', source: { experiment: own }, own, unread };
+  if (own) return { from: 'last visit', source: { experiment: own.experiment }, own, unread };
   const first = { scenario: CATALOGUE[0]?.id ?? '', setup: FIRST_SETUP, seed: undefined };
   return { from: 'catalogue', source: first, own, unread };
 }

@@ -1,5 +1,6 @@
 /** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
 
+import { base64, fromBase64 } from '../base/base64.ts';
 import { loadHeights } from '../bindings/heightsModule.ts';
 import type { Core } from '../bindings/simulationModule.ts';
 import { loadTrials } from '../bindings/trialsModule.ts';
@@ -17,7 +18,7 @@ import { readExperiment } from '../experiment/readExperiment.ts';
 import { recipeFile, scenarioFile } from '../experiment/scenarioFiles.ts';
 import type { Setup } from '../experiment/setting.ts';
 import { unzip } from '../files/archive.ts';
-import type { NamedFile, Source, TerrainPreview } from '../protocol/simulationProtocol.ts';
+import type { Loaded, NamedFile, Source, TerrainPreview } from '../protocol/simulationProtocol.ts';
 import type { ScenarioRead, TerrainFiles } from '../wasm/mapless_wasm.js';
 
 const ARCHIVE = /\.zip$/i;
@@ -33,6 +34,9 @@ export function filesOf(core: Core, experiment: Experiment): [NamedFile, NamedFi
   const scenario = encoder.encode(scenarioFile(experiment, TERRAIN_FILE));
   return [{ name: 'scenario.toml', bytes: scenario }, ...filesOfTerrain(core, experiment.terrain, experiment.strokes)];
 }
+
+/** What is loaded, and the scenario that it is named after, as that comes; nothing where there is none. */
+type Opening = Pick<Loaded, 'experiment' | 'scenario'>;
 
 /** A terrain as the core takes it, and what is to be said of the file that it imports. */
 interface ReadTerrain {
@@ -78,18 +82,24 @@ export async function preview(core: Core, terrain: Terrain): Promise<TerrainPrev
   return core.terrain_preview(files, PREVIEW_SAMPLES);
 }
 
-export async function experimentFrom(core: Core, source: Source): Promise<Experiment> {
-  if ('experiment' in source) return source.experiment;
-  if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setup);
-  if ('files' in source) return fromFiles(core, source.files, source.holes, source.setup);
-  const { scenario, setup, seed } = source;
-  const { read, terrain } = TASK.test(scenario) ? await task(core, scenario) : catalogued(core, scenario);
-  return fromScenario({ ...read, seed: seed ?? read.seed }, scenario, terrain, setup);
+export async function openingFrom(core: Core, source: Source): Promise<Opening> {
+  if ('scenario' in source) {
+    const { scenario: name, setup, seed } = source;
+    const { read, terrain } = TASK.test(name) ? await task(core, name) : catalogued(core, name);
+    const scenario = fromScenario(read, name, terrain, setup);
+    return { experiment: seed === undefined ? scenario : { ...scenario, seed }, scenario };
+  }
+  const experiment = await experimentFrom(core, source);
+  return { experiment, scenario: scenarioOf(core, experiment) };
 }
 
-/** The scenario that what was loaded is named after, as it comes; nothing where there is none. */
-export function scenarioOf(core: Core, source: Source, experiment: Experiment): Experiment | undefined {
-  if ('scenario' in source) return experiment;
+async function experimentFrom(core: Core, source: Exclude<Source, { scenario: string }>): Promise<Experiment> {
+  if ('experiment' in source) return source.experiment;
+  if ('terrain' in source) return onLevelPlaces(core, source.terrain, source.name, source.setup);
+  return fromFiles(core, source.files, source.holes, source.setup);
+}
+
+function scenarioOf(core: Core, experiment: Experiment): Experiment | undefined {
   const { name, terrain: own } = experiment;
   // Files of one's own may bear any name.
   if (!('catalogue' in own) || !CATALOGUE.some(({ id }) => id === name)) return undefined;
@@ -170,12 +180,22 @@ function terrainOf(
   holes: Holes,
 ): Terrain | undefined {
   if (!grid) return recipe ? { recipe: recipe.text } : undefined;
-  const name = `terrain${(GRIDS.exec(grid.name)?.[0] ?? '').toLowerCase()}`;
+  const name = gridName(grid.name);
   const imported = { name, base64: base64(grid.bytes) };
   // A recipe says how its grid is to be read, but by the file's own name.
   if (recipe) return { recipe: recipe.text.replace(/^(\s*file\s*=\s*).*$/m, `$1"${name}"`), imported };
   const more = holes === 'refuse' ? '' : `holes = "${holes}"\n`;
   return { recipe: `name = ${JSON.stringify(shortName(grid.name))}\n\n[import]\nfile = "${name}"\n${more}`, imported };
+}
+
+/** A file of heights keeps its name, as far as documents and archives take it: messages are to name it. */
+function gridName(file: string): string {
+  const own =
+    stem(file)
+      .replace(/[^\w .-]+/g, '-')
+      .replace(/^\W+/, '')
+      .slice(0, 70) || 'terrain';
+  return own + (GRIDS.exec(file)?.[0] ?? '').toLowerCase();
 }
 
 /** A terrain of the catalogue that a scenario names without its file being there. */
@@ -198,9 +218,11 @@ async function onLevelPlaces(core: Core, terrain: Terrain, name: string, setup: 
   return fromScenario(read, name, terrain, setup);
 }
 
+/** A saved experiment, or the result of a run, which holds one. */
 function readFile(name: string, json: string): Experiment {
   try {
-    return readExperiment(JSON.parse(json));
+    const read = JSON.parse(json);
+    return readExperiment(read?.run?.experiment ?? read?.experiment ?? read);
   } catch (cause) {
     throw new Error(`${name}: ${cause instanceof Error ? cause.message : cause}`, { cause });
   }
@@ -212,16 +234,6 @@ function text({ name, bytes }: NamedFile): string {
   } catch (cause) {
     throw new Error(`${name}: expected text in UTF-8`, { cause });
   }
-}
-
-function base64(bytes: Uint8Array): string {
-  const parts: string[] = [];
-  for (let at = 0; at < bytes.length; at += 0x8000) parts.push(String.fromCharCode(...bytes.subarray(at, at + 0x8000)));
-  return btoa(parts.join(''));
-}
-
-function fromBase64(letters: string): Uint8Array<ArrayBuffer> {
-  return Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
 }
 
 /** A path's last part without its extension. */

@@ -12,7 +12,7 @@ import {
 } from '../protocol/simulationProtocol.ts';
 import { rowOf } from '../run/record.ts';
 import { beginningAt } from './beginning.ts';
-import { experimentFrom, filesOf, preview, scenarioOf } from './opening.ts';
+import { filesOf, openingFrom, preview } from './opening.ts';
 import { Session } from './session.ts';
 import { Trail } from './trail.ts';
 
@@ -202,14 +202,13 @@ function beginOtherFuture(): void {
 async function load(source: Source, play: boolean, id: number): Promise<void> {
   const core = await loading;
   post({ type: 'opening', id });
-  const experiment = await experimentFrom(core, source);
-  const opened = await Session.open(core, experiment);
+  const opening = await openingFrom(core, source);
+  const opened = await Session.open(core, opening.experiment);
   session?.free();
   session = opened;
   playing ||= play;
   const ground = session.ground();
-  const scenario = scenarioOf(core, source, experiment);
-  const loaded = { ground, experiment, scenario };
+  const loaded = { ground, ...opening };
   post({ type: 'session', info: session.info, loaded }, [ground.heights_m.buffer]);
   openFromStart();
 }

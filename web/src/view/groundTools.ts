@@ -140,6 +140,7 @@ export class GroundTools {
     const { gesture } = BRUSHES[this.#tool];
     if (gesture === 'line') return;
     this.#stroke = this.#begin(this.#tool, at);
+    this.#stage.pickAsBefore(true);
     this.#dab();
     // A still pointer keeps on working, like a spray can.
     if (gesture === 'spray') this.#dabbing = setInterval(() => this.#dab(), DAB_INTERVAL_MS);
@@ -277,6 +278,7 @@ export class GroundTools {
     this.#dabbing = undefined;
     this.#stroke?.end();
     this.#stroke = undefined;
+    this.#stage.pickAsBefore(false);
     this.#pointer = undefined;
     this.#pressed = undefined;
   }

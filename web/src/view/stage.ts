@@ -28,6 +28,8 @@ export class Stage {
   readonly #believedGlide = new Glide();
   #info: SessionInfo | undefined;
   #field: HeightField | undefined;
+  /** The ground before the stroke that is made. */
+  #before: HeightField | undefined;
   #frame: Frame | undefined;
   #solids: readonly Solid[] = [];
   #shown: Pose | undefined;
@@ -194,7 +196,12 @@ export class Stage {
   /** The point of the ground under a place of the window. */
   pick(clientX: number, clientY: number): Vector | undefined {
     const { origin, direction } = this.#ray(clientX, clientY);
-    return this.#field?.intersect(origin, direction);
+    return (this.#before ?? this.#field)?.intersect(origin, direction);
+  }
+
+  /** While a stroke is made, `pick` finds places on the ground as it was before: else a hill that is raised would meet the ray ever nearer to the eye. */
+  pickAsBefore(stroke: boolean): void {
+    this.#before = stroke ? this.#field?.copy() : undefined;
   }
 
   /** The object in hand, if any, and how far it is dragged from where it stands. */

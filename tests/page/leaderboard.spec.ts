@@ -1,0 +1,65 @@
+/** The table of a campaign, as the command line writes it: standings, and each trial to be driven in the view. */
+
+import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import type { Page } from '@playwright/test';
+import { rowsOf } from '../../web/src/files/csv.ts';
+import { DEVICES, faults } from './axe.ts';
+import { said } from './commandLine.ts';
+import { expect, file, state, test, until } from './page.ts';
+
+/** A campaign of two planners on a short scenario. */
+function campaign(): string {
+  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  const scenario = resolve('terrains/scenarios/ht.toml');
+  const text = `planners = ["default", "direct"]\nroutes = ["${scenario}"]\nseeds = [3, 4]\n`;
+  writeFileSync(join(folder, 'small.toml'), text);
+  said('trials', join(folder, 'small.toml'), '--out', join(folder, 'results'));
+  return readFileSync(join(folder, 'results/trials.csv'), 'utf8');
+}
+
+let csv = '';
+test.beforeAll(() => {
+  csv = campaign();
+});
+
+const sheet = (page: Page) => page.getByRole('dialog', { name: 'Trials of trials.csv' });
+const open = (page: Page, content: string) => page.locator('#files').setInputFiles(file('trials.csv', content));
+
+for (const [device, options] of Object.entries(DEVICES)) {
+  test.describe(device, () => {
+    test.use(options);
+
+    test('standings, filters and a trial that drives with the digest of its row', async ({ mapless: page }) => {
+      await open(page, csv);
+      const standings = sheet(page).getByRole('table', { name: 'Standings' });
+      await expect(standings.getByRole('row', { name: /^default 2 100\.0 % \(34\.2 to 100\.0\)/ })).toBeVisible();
+      await expect(standings.getByRole('row', { name: /^direct 2 / })).toBeVisible();
+      const trials = sheet(page).getByRole('table', { name: 'Trials' });
+      await expect(trials.locator('tbody tr')).toHaveCount(4);
+      expect(await faults(page)).toEqual([]);
+      await expect(trials.getByRole('button', { name: 'Drive ht, 3 with direct' })).toBeDisabled();
+      await sheet(page).getByLabel('Planner').selectOption('default');
+      await expect(trials.locator('tbody tr')).toHaveCount(2);
+      const drive = trials.getByRole('button', { name: 'Drive ht, 4 with default' });
+      await (device === 'phone' ? drive.tap() : drive.click());
+      await expect(sheet(page)).toHaveCount(0);
+      await until(page, (now) => now.scenario === 'ht' && now.seed === 4);
+      await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
+      await until(page, (now) => now.outcome !== 'running');
+      const row = rowsOf(csv).find(({ planner, seed }) => planner === 'default' && seed === '4');
+      expect((await state(page)).digest).toBe(row?.digest);
+    });
+  });
+}
+
+test('a row is driven by keyboard; another table says what it lacks', async ({ mapless: page }) => {
+  await open(page, csv);
+  await sheet(page).getByLabel('Planner').selectOption('default');
+  await sheet(page).getByRole('button', { name: 'Drive ht, 3 with default' }).focus();
+  await page.keyboard.press('Enter');
+  await until(page, (now) => now.scenario === 'ht' && now.seed === 3);
+  await open(page, 'time_s,x_m\n0,1\n');
+  await expect(page.locator('#notice-text')).toContainText('trials.csv: no column planner, route, seed, outcome');
+});

@@ -1,0 +1,119 @@
+/** One parameter over values and seeds: a plot, a table to replay from, and files that the command line drives the same way. */
+
+import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Page } from '@playwright/test';
+import { unzipSync } from 'fflate';
+import { DEVICES, faults } from './axe.ts';
+import { said } from './commandLine.ts';
+import { expect, openLab, shortCourse, state, test, until } from './page.ts';
+
+const tab = (page: Page) => page.getByRole('tabpanel', { name: 'Sweep' });
+const PATH = 'planner.perception.variance_threshold';
+
+/** The rows of a table with commas, by the names of its columns. */
+function rows(csv: string): Record<string, string>[] {
+  const [head = '', ...lines] = csv.trim().split('\n');
+  const names = head.split(',');
+  return lines.map((line) => Object.fromEntries(line.split(',').map((cell, at) => [names[at], cell])));
+}
+
+async function saved(page: Page, name: string): Promise<Buffer> {
+  const [file] = await Promise.all([page.waitForEvent('download'), tab(page).getByRole('button', { name }).click()]);
+  return readFileSync(await file.path());
+}
+
+for (const [device, options] of Object.entries(DEVICES)) {
+  test.describe(device, () => {
+    test.use(options);
+
+    test('values are driven with seeds, plotted and replayed', async ({ mapless: page }) => {
+      await shortCourse(page, 3);
+      await openLab(page, 'Sweep', device === 'phone' ? 'tap' : 'click');
+      await expect(tab(page).getByLabel('Parameter')).toHaveValue(PATH);
+      await tab(page).getByLabel('Values').fill('0.3, 0.7');
+      await tab(page).getByLabel('Seeds').fill('2');
+      const run = tab(page).getByRole('button', { name: 'Run' });
+      await (device === 'phone' ? run.tap() : run.click());
+      await expect(tab(page).getByRole('status')).toHaveText('4 trials. Press a value to see it driven.');
+      const plots = tab(page).getByRole('img');
+      await expect(plots).toHaveCount(2);
+      await expect(plots.first()).toHaveAttribute('aria-label', '0.3: 100 %; 0.7: 100 %');
+      await expect(plots.last()).toHaveAttribute('aria-label', /^0\.3: 3\.\d; 0\.7: 3\.\d$/);
+      await tab(page).getByLabel('Metric').selectOption({ label: 'Largest roll' });
+      await expect(plots.last()).toHaveAttribute('aria-label', /^0\.3: 0\.\d{3}; 0\.7: 0\.\d{3}$/);
+      expect(await faults(page)).toEqual([]);
+      const show = tab(page).getByRole('button', { name: 'Show 0.7 with seed 2' });
+      await (device === 'phone' ? show.tap() : show.click());
+      await until(page, (now) => now.seed === 2 && now.outcome === 'reached');
+      expect((await state(page)).overrides).toEqual({ planner: { perception: { variance_threshold: 0.7 } } });
+    });
+  });
+}
+
+test('its campaign gives the same digests on the command line as its table says', async ({ mapless: page }) => {
+  await page.evaluate(() => window.mapless?.loadScenario('ht'));
+  await shortCourse(page, 3);
+  await page.evaluate(() => window.mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } }));
+  await openLab(page, 'Sweep');
+  await tab(page).getByLabel('Values').fill('0.3, 0.5');
+  await tab(page).getByLabel('Seeds').fill('2');
+  await tab(page).getByRole('button', { name: 'Run' }).click();
+  await expect(tab(page).getByRole('status')).toHaveText(/^4 trials/);
+  const table = rows((await saved(page, 'Save as CSV')).toString());
+  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  for (const [name, bytes] of Object.entries(unzipSync(await saved(page, 'Save as campaign')))) {
+    writeFileSync(join(folder, name), bytes);
+  }
+  said('trials', join(folder, 'campaign.toml'), '--out', join(folder, 'results'));
+  const native = rows(readFileSync(join(folder, 'results/trials.csv'), 'utf8'));
+  const key = (row: Record<string, string>) =>
+    `${Number(row.parameters?.split('=')[1])} ${row.seed} ${row.outcome} ${row.ticks} ${row.digest}`;
+  expect(table.map(key).sort()).toEqual(native.map(key).sort());
+  expect(table.every(({ route, planner }) => route === 'ht' && planner === 'default')).toBe(true);
+});
+
+test('a value that is none is said at once, one that is refused when it is driven; by keyboard', async ({
+  mapless: page,
+}) => {
+  await shortCourse(page, 3);
+  await page.keyboard.press('p');
+  await expect(page.getByRole('tab', { name: 'Parameters' })).toBeFocused();
+  for (let tabs = 0; tabs < 3; tabs += 1) await page.keyboard.press('ArrowRight');
+  await expect(page.getByRole('tab', { name: 'Sweep' })).toBeFocused();
+  // The button that closes the drawer, the parameter, the values.
+  for (let tabs = 0; tabs < 3; tabs += 1) await page.keyboard.press('Tab');
+  await expect(tab(page).getByLabel('Values')).toBeFocused();
+  await page.keyboard.press('Control+A');
+  // With letters that are keys of the page elsewhere.
+  await page.keyboard.type('0.5, much');
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Enter');
+  await expect(tab(page).getByRole('alert')).toHaveText(/“much”: expected numbers with commas between/);
+  await expect(tab(page).getByLabel('Values')).toBeFocused();
+  await page.keyboard.press('Control+A');
+  await page.keyboard.type('-1');
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Enter');
+  await expect(tab(page).getByRole('alert')).toHaveText(new RegExp(`^${PATH.replaceAll('.', '\\.')} = -1: `));
+  await expect(tab(page).getByRole('status')).toHaveText('');
+});
+
+test('a sweep is cancelled, and an edited course takes no replay', async ({ mapless: page }) => {
+  await shortCourse(page, 3);
+  await openLab(page, 'Sweep');
+  await tab(page).getByLabel('Seeds').fill('100');
+  await tab(page).getByRole('button', { name: 'Run' }).click();
+  const first = tab(page)
+    .getByRole('button', { name: /^Show .* with seed/ })
+    .first();
+  await expect(first).toBeEnabled();
+  await tab(page).getByRole('button', { name: 'Cancel' }).click();
+  await expect(tab(page).getByRole('status')).toHaveText(/^Cancelled after \d+ trials\.$/);
+  const { start } = await state(page);
+  await page.evaluate((goal) => window.mapless?.setGoal(goal), { x: start.x + 5, y: start.y });
+  await expect(first).toBeDisabled();
+});

@@ -1,0 +1,262 @@
+/** One parameter over values and seeds, in the background: what it buys, as a plot, a table to replay from, and files. */
+
+import type { App } from '../app/app.ts';
+import { html, setText } from '../base/dom.ts';
+import { clock, fixed } from '../base/format.ts';
+import { withOverride } from '../experiment/overrides.ts';
+import { label, type Parameter } from '../experiment/parameters.ts';
+import { zip } from '../files/archive.ts';
+import { download, plainName } from '../files/download.ts';
+import { OUTCOME_WORDS } from '../inspector/status.ts';
+import { METRIC_ROWS } from '../measurements/metrics.ts';
+import type { NamedFile, SessionInfo } from '../protocol/simulationProtocol.ts';
+import { courseOf } from '../trials/course.ts';
+import { overridesWith, type Sweep, SweepRun, type SweptTrial, valuesIn } from '../trials/sweep.ts';
+import { campaignFile, trialsCsv } from '../trials/sweepFiles.ts';
+import type { Summary } from '../trials/trialsProtocol.ts';
+import type { Tab } from './lab.ts';
+import { labelled, numberInput } from './numberInput.ts';
+import { sweepPlot } from './sweepPlot.ts';
+
+const [MOST_VALUES, MOST_SEEDS] = [20, 100];
+const FIRST_PATH = 'planner.perception.variance_threshold';
+
+export class SweepTab implements Tab {
+  readonly title = 'Sweep';
+  readonly element = html('div');
+  readonly #app: App;
+  readonly #parameter = named('select', 'Parameter');
+  readonly #values = named('input', 'Values');
+  readonly #count = numberInput('sweep', 'Seeds', 1, MOST_SEEDS, 5);
+  readonly #metric = named('select', 'Metric');
+  readonly #start = action('lab-action', 'Run', () => this.#begin());
+  readonly #cancel = action('plain', 'Cancel', () => this.#end(`Cancelled after ${this.#trials.length} trials.`));
+  readonly #csv = action('plain', 'Save as CSV', () => this.#saveCsv());
+  readonly #campaign = action('plain', 'Save as campaign', () => this.#saveCampaign());
+  readonly #note = html('p', 'lab-note');
+  readonly #fault = html('p', 'parameter-fault');
+  readonly #plot = html('div');
+  readonly #rows = html('tbody');
+  readonly #table = html('table', 'comparison seeds-table');
+  readonly #shown = html('div', '', [html('div', 'sweep-form', labelled(this.#metric)), this.#plot]);
+  readonly #saves = html('div', 'lab-row', [this.#csv, this.#campaign]);
+  #run: SweepRun | undefined;
+  #sweep: Sweep | undefined;
+  /** What the command line reads, of the experiment as it was when the sweep began. */
+  #files: Promise<NamedFile[]> | undefined;
+  #trials: SweptTrial[] = [];
+  #summaries = new Map<number, Summary>();
+  #course: string | undefined;
+
+  constructor(app: App) {
+    this.#app = app;
+    this.#note.setAttribute('role', 'status');
+    this.#fault.setAttribute('role', 'alert');
+    this.#metric.append(...METRIC_ROWS.map(({ key, name }) => new Option(name, key)));
+    this.#metric.addEventListener('change', () => this.#draw());
+    this.#values.type = 'text';
+    this.#parameter.addEventListener('change', () => this.#suggest());
+    const head = ['Value', 'Seed', 'Outcome', 'Time', 'Distance'].map((name) => {
+      const cell = html('th', '', [name]);
+      cell.scope = 'col';
+      return cell;
+    });
+    this.#table.append(html('thead', '', [html('tr', '', head)]), this.#rows);
+    this.element.append(
+      html('div', 'sweep-form', [...labelled(this.#parameter), ...labelled(this.#values), ...labelled(this.#count)]),
+      html('div', 'lab-row', [this.#start, this.#cancel]),
+      this.#note,
+      this.#fault,
+      this.#shown,
+      this.#saves,
+      this.#table,
+    );
+    setText(this.#note, 'Each value drives with the same seeds, beside the page, which stays as it is.');
+    this.#show();
+  }
+
+  session(info: SessionInfo): void {
+    if (this.#parameter.options.length === 0) this.#fill(info);
+    if (this.#course !== undefined && courseKey(info) !== this.#course) this.sculpted();
+  }
+
+  sculpted(): void {
+    if (this.#course === undefined) return;
+    this.#course = undefined;
+    for (const button of this.#rows.querySelectorAll('button')) button.disabled = true;
+  }
+
+  #fill({ parameters }: SessionInfo): void {
+    for (const { table, title, parameters: all } of parameters) {
+      const numbers = all.filter(({ value }) => typeof value === 'number');
+      if (numbers.length === 0) continue;
+      const group = html(
+        'optgroup',
+        '',
+        numbers.map(({ name }) => new Option(label(name), `${table}.${name}`)),
+      );
+      group.label = title;
+      this.#parameter.append(group);
+    }
+    this.#parameter.value = FIRST_PATH;
+    this.#suggest();
+  }
+
+  get #chosen(): Parameter | undefined {
+    const path = this.#parameter.value;
+    const groups = this.#app.info?.parameters ?? [];
+    return groups
+      .flatMap(({ table, parameters }) => parameters.map((one) => ({ one, path: `${table}.${one.name}` })))
+      .find((known) => known.path === path)?.one;
+  }
+
+  /** The ends of what is usual, and what holds by itself. */
+  #suggest(): void {
+    const { value, range } = this.#chosen ?? {};
+    const ends = [range?.[0], value, range?.[1]].filter((one) => typeof one === 'number');
+    this.#values.value = [...new Set(ends)].sort((a, b) => a - b).join(', ');
+  }
+
+  #begin(): void {
+    const { info, field } = this.#app;
+    const [chosen, experiment] = [this.#chosen, this.#app.editor.experiment];
+    if (!info || !field || !chosen || !experiment || !this.#count.reportValidity()) return;
+    setText(this.#fault, '');
+    const whole = chosen.kind === 'whole';
+    try {
+      const values = valuesIn(this.#values.value, whole, MOST_VALUES);
+      const seeds = Array.from({ length: this.#count.valueAsNumber }, (_, index) => index + 1);
+      const [path, name] = [this.#parameter.value, plainName(info.scenario)];
+      const route = name === 'terrain' ? 'scenario' : name;
+      this.#sweep = { course: courseOf(info, field), planner: info.preset, route, path, whole, values, seeds };
+    } catch (error) {
+      setText(this.#fault, error instanceof Error ? error.message : String(error));
+      this.#values.focus();
+      return;
+    }
+    this.#app.touch();
+    [this.#trials, this.#summaries, this.#course] = [[], new Map(), courseKey(info)];
+    // A campaign knows no learning but that of its scenario.
+    const overrides = withOverride(info.overrides, 'planner.perception.learning', 'mode', info.learning);
+    this.#files = this.#app.files({ ...experiment, overrides });
+    this.#files.catch(() => undefined);
+    this.#rows.replaceChildren();
+    this.#tellCount();
+    this.#run = new SweepRun(this.#sweep, navigator.hardwareConcurrency, {
+      trial: (trial) => this.#enter(trial),
+      summary: (value, summary) => {
+        this.#summaries.set(value, summary);
+        this.#draw();
+      },
+      failed: (message) => this.#fault.append(html('span', 'fault-line', [message])),
+      end: () => this.#end(this.#trials.length > 0 ? `${this.#driven} Press a value to see it driven.` : ''),
+    });
+    this.#show();
+    this.#draw();
+  }
+
+  #enter(trial: SweptTrial): void {
+    this.#trials.push(trial);
+    const { value, result } = trial;
+    const replay = action('plain', String(value), () => this.#app.attempt(this.#replay(trial)));
+    replay.setAttribute('aria-label', `Show ${value} with seed ${result.seed}`);
+    const end = html('td', '', [OUTCOME_WORDS[result.outcome]]);
+    end.dataset.outcome = result.outcome;
+    const head = html('th', '', [replay]);
+    head.scope = 'row';
+    const cells = [clock(result.time_s), fixed(result.metrics.distance_m, 1)];
+    const seed = html('td', '', [String(result.seed)]);
+    this.#rows.append(html('tr', '', [head, seed, end, ...cells.map((words) => html('td', '', [words]))]));
+    this.#tellCount();
+    this.#show();
+  }
+
+  #tellCount(): void {
+    setText(this.#note, `${this.#trials.length} of ${this.#total} done.`);
+  }
+
+  get #total(): number {
+    const { values = [], seeds = [] } = this.#sweep ?? {};
+    return values.length * seeds.length;
+  }
+
+  get #driven(): string {
+    const done = this.#trials.length;
+    return done === this.#total ? `${done} trials.` : `${done} of ${this.#total} trials.`;
+  }
+
+  async #replay({ value, result }: SweptTrial): Promise<void> {
+    this.#app.touch();
+    if (!this.#sweep || this.#course === undefined) return;
+    const { course, path } = this.#sweep;
+    await this.#app.setOverrides(overridesWith(course, path, value), result.seed);
+    await this.#app.play();
+  }
+
+  #end(words: string): void {
+    this.#run?.stop();
+    this.#run = undefined;
+    setText(this.#note, words);
+    this.#show();
+  }
+
+  #show(): void {
+    this.#cancel.hidden = this.#run === undefined;
+    this.#start.disabled = this.#run !== undefined;
+    for (const part of [this.#table, this.#saves, this.#shown]) part.hidden = this.#trials.length === 0;
+    for (const button of [this.#csv, this.#campaign]) button.disabled = this.#run !== undefined;
+  }
+
+  #draw(): void {
+    const metric = METRIC_ROWS.find(({ key }) => key === this.#metric.value) ?? METRIC_ROWS[0];
+    if (!this.#sweep || !metric) return;
+    const { values } = this.#sweep;
+    this.#plot.replaceChildren(
+      sweepPlot(
+        values,
+        values.map((value) => this.#summaries.get(value)),
+        metric,
+      ),
+    );
+  }
+
+  #saveCsv(): void {
+    if (!this.#sweep) return;
+    const csv = trialsCsv(this.#sweep, this.#trials);
+    download(`mapless-${this.#sweep.route}-sweep.csv`, new Blob([csv], { type: 'text/csv' }));
+  }
+
+  /** A campaign, the scenario and its terrain, with which `mapless trials` drives the same trials. */
+  async #saveCampaign(): Promise<void> {
+    const sweep = this.#sweep;
+    if (!sweep || !this.#files) return;
+    try {
+      const files = (await this.#files).map((one) =>
+        one.name === 'scenario.toml' ? { ...one, name: `${sweep.route}.toml` } : one,
+      );
+      const campaign = { name: 'campaign.toml', bytes: new TextEncoder().encode(campaignFile(sweep)) };
+      download(`mapless-${sweep.route}-sweep.zip`, zip([campaign, ...files]));
+    } catch (error) {
+      setText(this.#fault, error instanceof Error ? error.message : String(error));
+    }
+  }
+}
+
+/** All that the trials of a sweep have in common but for parameters. */
+function courseKey({ scenario, preset, learning, start, waypoints, goal, objects }: SessionInfo): string {
+  return JSON.stringify([scenario, preset, learning, start, waypoints, goal, objects]);
+}
+
+function named<K extends 'select' | 'input'>(kind: K, name: string): HTMLElementTagNameMap[K] {
+  const control = html(kind);
+  control.id = `sweep-${name.toLowerCase()}`;
+  control.setAttribute('aria-label', name);
+  return control;
+}
+
+function action(look: string, words: string, act: () => void): HTMLButtonElement {
+  const button = html('button', look, [words]);
+  button.type = 'button';
+  button.addEventListener('click', act);
+  return button;
+}
