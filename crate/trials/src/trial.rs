@@ -1,5 +1,7 @@
 //! One trial: a loop of world, scan, planner and command.
 
+mod equipment;
+
 use core::convert::Infallible;
 use core::time::Duration;
 use std::sync::Arc;

@@ -1,14 +1,20 @@
 //! One loaded scenario.
 
 mod frame;
+mod inside;
 mod scene;
 mod tick;
+mod what_if;
 
 pub use frame::{Frame, FrameBuffers, Point, SensorPose, Timeline};
+pub use inside::{ClimbStep, Inside, InsideQuestion, Placement};
 pub use scene::{ImageSize, Mount, Scene, SegmentDemands, TiltLimits};
 pub use tick::{Activity, Standing, Tick, Velocity};
+pub use what_if::{ThinkingWith, Thought};
 
-use glam::DVec2;
+use what_if::Rethought;
+
+use glam::{DMat3, DVec2};
 use mapless::gp::learning::LearningMode;
 use mapless::skyline::scan_filter::ReturnKind;
 use mapless::terrain::mount_misfit::MountMisfit;
@@ -37,6 +43,8 @@ pub struct Session {
     history: Option<History<Moment>>,
     /// Whether the ground has changed since the last scan.
     ground_changed: bool,
+    /// What is shown in place of what the run decided, until that goes on.
+    rethought: Option<Rethought>,
     seed: u64,
     preset: Preset,
     learning: Option<LearningMode>,
@@ -54,6 +62,8 @@ struct Moment {
     trial: Trial,
     /// Where the last scan was taken: the robot has moved on since.
     scanned_from: mapless_world::SensorPose,
+    /// The robot's axes there.
+    world_from_robot: DMat3,
     /// Whether the planner has seen the last scan.
     is_planned: bool,
     /// What is wrong with the mount of the sensor, by the first scan.
@@ -63,7 +73,9 @@ struct Moment {
 impl Moment {
     fn new(trial: Trial) -> Self {
         let scanned_from = sensor_pose(&trial);
-        let mut moment = Self { trial, scanned_from, is_planned: false, mount_misfit: None };
+        let world_from_robot = trial.pose().world_from_robot();
+        let mut moment =
+            Self { trial, scanned_from, world_from_robot, is_planned: false, mount_misfit: None };
         moment.begin();
         moment
     }
@@ -77,6 +89,7 @@ impl Moment {
 
     fn sense(&mut self) {
         self.scanned_from = sensor_pose(&self.trial);
+        self.world_from_robot = self.trial.pose().world_from_robot();
         self.trial.look_far();
         self.is_planned = false;
     }
@@ -112,6 +125,7 @@ impl Session {
             now: Moment::new(trial),
             history: None,
             ground_changed: false,
+            rethought: None,
             seed,
             preset,
             learning,
@@ -134,7 +148,7 @@ impl Session {
         trial.set_start(now.start())?;
         trial.set_route(now.waypoints_m().to_vec(), now.goal_m(), now.goal_heading_rad())?;
         (self.now, self.history, self.ground_changed) = (Moment::new(trial), None, false);
-        (self.running, self.seed) = (running, seed);
+        (self.running, self.seed, self.rethought) = (running, seed, None);
         Ok(())
     }
 
@@ -143,7 +157,8 @@ impl Session {
     /// # Errors
     /// A value that does not fit the preset.
     pub fn parameters(&self) -> Result<Vec<Ts<ParameterGroup>>, JsError> {
-        parameters::groups(&self.file, &self.running, self.preset)?.iter().map(give).collect()
+        let (running, preset) = self.setting();
+        parameters::groups(&self.file, running, preset)?.iter().map(give).collect()
     }
 
     /// The whole ground.
@@ -172,7 +187,7 @@ impl Session {
 
     fn begin_from(&mut self, start: StartPose) -> Result<(), JsError> {
         self.now.trial.set_start(start)?;
-        (self.history, self.ground_changed) = (None, false);
+        (self.history, self.ground_changed, self.rethought) = (None, false, None);
         self.now.begin();
         Ok(())
     }
@@ -194,6 +209,7 @@ impl Session {
     /// Goes back to `tick`, or to the nearest one that can be gone to; gives that. The session may stand
     /// shortly before it: running forward from there repeats what happened.
     pub fn go_back(&mut self, tick: f64) -> f64 {
+        self.rethought = None;
         let now = self.now.trial.ticks();
         let Some(history) = &self.history else { return now as f64 };
         let tick = (tick as u64).clamp(history.first_tick(), history.end_tick());

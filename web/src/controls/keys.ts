@@ -19,6 +19,8 @@ export interface KeyActions {
   /** So many jumps along the timeline. */
   jump(times: number): void;
   lab(): void;
+  /** The Gaussian process by hand. */
+  method(): void;
 }
 
 export interface InspectorKeys {
@@ -39,6 +41,7 @@ export function bindKeys(actions: KeyActions, inspector: InspectorKeys): void {
     j: () => actions.jump(-1),
     k: () => actions.jump(1),
     p: () => actions.lab(),
+    m: () => actions.method(),
     n: () => actions.next(),
     f: () => inspector.toggleFollow(),
     e: () => inspector.toggleEye(),

@@ -16,6 +16,7 @@ import { DetailCard } from './detail.ts';
 import { LayersPanel } from './layersPanel.ts';
 import { neighbour, VarianceImage } from './varianceImage.ts';
 import { ViewKey } from './viewKey.ts';
+import { WhatIf } from './whatIf.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
 const button = (id: string) => byId(id, HTMLButtonElement);
@@ -46,10 +47,20 @@ export class Inspector implements TourHost {
     this.#watch();
   });
   #imageInSight = false;
+  readonly #whatIf: WhatIf;
 
-  constructor(app: App, stage: Stage | undefined, view: HTMLCanvasElement) {
+  readonly #enlarged: (large: boolean) => void;
+
+  /** `enlarged` is told when the image becomes large or small. */
+  constructor(app: App, stage: Stage | undefined, view: HTMLCanvasElement, enlarged: (large: boolean) => void) {
+    this.#enlarged = enlarged;
     this.#app = app;
     this.#stage = stage;
+    this.#whatIf = new WhatIf({
+      goOn: () => app.attempt(app.play()),
+      fromStart: () => app.attempt(app.runTried()),
+      forget: () => app.attempt(app.forgetTried()),
+    });
     const cameras: [string, () => void][] = [
       ['follow', () => this.toggleFollow()],
       ['eye', () => this.toggleEye()],
@@ -80,7 +91,18 @@ export class Inspector implements TourHost {
     this.#showCamera();
   }
 
+  /** The image, for whoever looks inside it. */
+  get image(): VarianceImage {
+    return this.#image;
+  }
+
+  /** Play was pressed while something is only tried. */
+  askHow(): void {
+    this.#whatIf.ask();
+  }
+
   frame(frame: Frame): void {
+    this.#whatIf.show(frame);
     this.#image.show(frame);
     this.#key.show(frame);
     this.#decision.show(frame);
@@ -156,6 +178,7 @@ export class Inspector implements TourHost {
   enlargeImage(large: boolean): void {
     this.#page.dataset.image = large ? 'large' : 'small';
     button('enlarge').setAttribute('aria-pressed', String(large));
+    this.#enlarged(large);
     // A phone scrolls the large image sideways: it begins with what is ahead.
     const scroller = element('seen-scroll');
     scroller.scrollLeft = (scroller.scrollWidth - scroller.clientWidth) / 2;
