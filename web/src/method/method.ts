@@ -241,6 +241,7 @@ export class Method {
     }
     this.#sayError(frame);
     this.#drawSlice();
+    this.#image.again();
   }
 
   #sayError({ buffers, thought }: Frame): void {
