@@ -253,8 +253,12 @@ test('learning without bounds climbs step by step, and its skyline runs away', a
   await step.focus();
   await page.keyboard.press('Home');
   await expect(said).toContainText('Step 0 of');
-  await expect.poll(() => off_deg(page)).toBe(own);
+  // It began where the run's own values are.
+  await expect(page.locator('.method-error')).toHaveText(/by (.*); the run’s: \1\.$/);
 });
+
+/** A browser that shares two cores with others is this much slower than one that has them. */
+const SLOW = 4;
 
 test('thinking again takes 100 ms, and a look inside 50 ms, at the 95th percentile', async ({ page }) => {
   await page.addInitScript(() => {
@@ -302,7 +306,8 @@ test('thinking again takes 100 ms, and a look inside 50 ms, at the 95th percenti
   };
   const report = JSON.stringify({ inside_ms: p95('inside'), think_ms: p95('think') });
   test.info().annotations.push({ type: 'time', description: report });
-  console.log(report);
+  expect(p95('think'), report).toBeLessThan(SLOW * 100);
+  expect(p95('inside'), report).toBeLessThan(SLOW * 50);
 });
 
 test('axe finds nothing serious in the process by hand and in what is only tried', async ({ mapless: page }) => {
@@ -330,7 +335,7 @@ test.describe('on a phone', () => {
     await expect(method(page)).toBeVisible();
     await expect(page.locator('.method-error')).toContainText('cm at 7 m');
     const knob = page.getByRole('slider', { name: 'V_th', exact: true });
-    await knob.scrollIntoViewIfNeeded();
+    await knob.evaluate((one) => one.scrollIntoView({ block: 'end' }));
     await drag(page, [await within(knob, 0.27, 0.5), await within(knob, 0.8, 0.5)]);
     await until(page, (now) => now.thought === 'what_if' && now.threshold > 0.6);
     const { tick } = await state(page);

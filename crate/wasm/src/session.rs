@@ -45,6 +45,8 @@ pub struct Session {
     ground_changed: bool,
     /// What is shown in place of what the run decided, until that goes on.
     rethought: Option<Rethought>,
+    /// The true skyline, from where it was last asked for; none on other ground.
+    truth: Option<Truth>,
     seed: u64,
     preset: Preset,
     learning: Option<LearningMode>,
@@ -54,6 +56,13 @@ pub struct Session {
     running: Scenario,
     scratch: Vec<f32>,
     clock: Option<Performance>,
+}
+
+/// The true skyline in each column, as seen from a sensor along a robot's axes.
+#[derive(Debug)]
+struct Truth {
+    seen_from: (mapless_world::SensorPose, DMat3),
+    elevations: Vec<f32>,
 }
 
 /// All that belongs to one point in time.
@@ -126,6 +135,7 @@ impl Session {
             history: None,
             ground_changed: false,
             rethought: None,
+            truth: None,
             seed,
             preset,
             learning,
@@ -234,7 +244,7 @@ impl Session {
             }
         }
         let Some(rect) = changed else { return Ok(None) };
-        (self.history, self.ground_changed) = (None, true);
+        (self.history, self.ground_changed, self.truth) = (None, true, None);
         give(&GroundPatch::of(self.now.trial.field(), rect)).map(Some)
     }
 
@@ -245,7 +255,7 @@ impl Session {
     pub fn replace_ground(&mut self, patch: Ts<GroundPatch>) -> Result<(), JsError> {
         let patch = read(patch)?;
         self.now.trial.replace_ground(patch.rect(), &patch.heights_m())?;
-        (self.history, self.ground_changed) = (None, true);
+        (self.history, self.ground_changed, self.truth) = (None, true, None);
         Ok(())
     }
 

@@ -163,8 +163,9 @@ impl BeamGp {
 
     /// Column and row of each inducing input of the last scan.
     pub(crate) fn directions(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        (0..self.inducing_inputs())
-            .map(|input| (self.column_at((self.positions[input] * self.stride_columns) as i64), self.rows[input]))
+        (0..self.inducing_inputs()).map(|input| {
+            (self.column_at((self.positions[input] * self.stride_columns) as i64), self.rows[input])
+        })
     }
 
     /// Takes the cells in `masks` (one for each column), and places the inducing inputs among them.
@@ -390,9 +391,8 @@ impl BeamGp {
         surface.mean_m.fill(0.0);
         surface.relative_variance.fill(1.0);
         let rows = surface.rows();
-        let queries: Vec<Query> = (0..SECTOR_COLUMNS)
-            .flat_map(|column| (0..rows).map(move |row| Query { column, row }))
-            .collect();
+        let queries: Vec<Query> =
+            (0..SECTOR_COLUMNS).flat_map(|column| (0..rows).map(move |row| Query { column, row })).collect();
         let mut values = Vec::new();
         for sector in 0..SECTORS {
             if !self.enter(sector)? {

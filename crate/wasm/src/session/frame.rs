@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-use super::{Moment, Session};
 use super::tick::{Activity, Velocity};
 use super::what_if::Thought;
+use super::{Moment, Session, Truth};
 use crate::decision::{self, PathPoint, Segment, Subgoal};
 use crate::objects::Solid;
 use crate::returns::{self, SetAside};
@@ -154,7 +154,12 @@ impl Session {
     ///
     /// # Errors
     /// A start whose ground has gone.
-    pub fn frame(&mut self, buffers: Ts<FrameBuffers>, surfaces: bool, truth: bool) -> Result<Ts<Frame>, JsError> {
+    pub fn frame(
+        &mut self,
+        buffers: Ts<FrameBuffers>,
+        surfaces: bool,
+        truth: bool,
+    ) -> Result<Ts<Frame>, JsError> {
         self.look_again()?;
         let buffers = read(buffers)?;
         let returns = self.fill_points(&buffers.points);
@@ -272,13 +277,26 @@ impl Session {
     }
 
     /// The true skyline around the place of the last scan, along the robot's axes as the planner sees it.
-    fn fill_truth(&self, truth: &Float32Array) {
+    fn fill_truth(&mut self, out: &Float32Array) {
+        let seen_from = (self.shown().scanned_from, self.shown().world_from_robot);
+        if self.truth.as_ref().is_none_or(|truth| truth.seen_from != seen_from) {
+            self.truth = Some(Truth { seen_from, elevations: self.true_elevations() });
+        }
+        let elevations = self.truth.as_ref().map_or(&[][..], |truth| &truth.elevations);
+        let fit = elevations.len().min(out.length() as usize);
+        out.subarray(0, fit as u32).copy_from(&elevations[..fit]);
+    }
+
+    fn true_elevations(&self) -> Vec<f32> {
         let &Moment { ref trial, scanned_from, world_from_robot, .. } = self.shown();
-        let (pose, config) = (mapless_world::SensorPose { world_from_sensor: world_from_robot, ..scanned_from }, trial.planner_config());
+        let (pose, config) = (
+            mapless_world::SensorPose { world_from_sensor: world_from_robot, ..scanned_from },
+            trial.planner_config(),
+        );
         let sensor = &config.sensor;
         let between_rad = [sensor.lowest_elevation_rad, sensor.highest_elevation_rad];
         let radius_m = config.perception.surface_radius_m;
-        let elevations: Vec<f32> = (0..COLUMNS.min(truth.length() as usize))
+        (0..COLUMNS)
             .map(|column| {
                 let azimuth_rad = column_azimuth_rad(column);
                 match true_skyline(trial.caster(), &pose, radius_m, azimuth_rad, between_rad) {
@@ -286,8 +304,7 @@ impl Session {
                     Skyline::Unknown | Skyline::Wall => f32::NAN,
                 }
             })
-            .collect();
-        truth.subarray(0, elevations.len() as u32).copy_from(&elevations);
+            .collect()
     }
 
     /// Where there is no posterior, nothing was observed: 0 and 1.

@@ -102,8 +102,7 @@ impl Session {
         let InsideQuestion { placement, without } = read(question)?;
         let config = self.perception();
         let observed = self.shown().trial.step().observed;
-        let placement =
-            placement.map_or_else(|| config.inducing_inputs.into(), inspection::Placement::from);
+        let placement = placement.map_or_else(|| config.inducing_inputs.into(), inspection::Placement::from);
         let mut inspection = Inspection::new(&config, observed, placement);
         let inducing: Vec<u16> = inspection
             .inducing_inputs()

@@ -13,7 +13,7 @@ use crate::shared::{Overrides, changed, read};
 
 /// So many of the past looks are shown to a planner that has not driven here, so that it remembers the ground
 /// around the robot; each costs as much as a tick.
-const PAST_LOOKS: usize = 3;
+const PAST_LOOKS: usize = 2;
 
 /// What the planner thinks with.
 #[derive(Debug, Deserialize, Tsify)]
