@@ -23,6 +23,7 @@ import { OUTCOME_WORDS, StatusPanel } from '../inspector/status.ts';
 import type { Lab } from '../lab/lab.ts';
 import { Measure } from '../measurements/measurements.ts';
 import type { Method } from '../method/method.ts';
+import type { Weighing } from '../method/weighing.ts';
 import { watchFaults, watchGraphics } from '../notices/faults.ts';
 import { MountNotice } from '../notices/mountNotice.ts';
 import { Notice } from '../notices/notice.ts';
@@ -82,6 +83,21 @@ async function toggleMethod(): Promise<void> {
   showMethod(loaded, open);
 }
 
+/** The cost by hand: loaded when it is first opened. */
+let weighing: Weighing | undefined;
+
+async function toggleWeighing(): Promise<void> {
+  const [place, opener] = [element('weighing'), byId('weigh', HTMLButtonElement)];
+  if (!weighing) {
+    const { Weighing } = await import('../method/weighing.ts');
+    weighing ??= new Weighing(app);
+    place.replaceChildren(weighing.element);
+  }
+  place.hidden = !place.hidden;
+  opener.setAttribute('aria-expanded', String(!place.hidden));
+  if (!place.hidden) place.scrollIntoView({ block: 'nearest' });
+}
+
 function showMethod(loaded: Method, open: boolean): void {
   element('app').toggleAttribute('data-method', open);
   byId('by-hand', HTMLButtonElement).setAttribute('aria-expanded', String(open));
@@ -119,6 +135,7 @@ const app = new App(core, {
     labCount(countOverrides(info.overrides));
     lab?.session(info);
     method?.session(info);
+    weighing?.session(info);
     inspector.session(info, field);
     roll.limit(info.limits.roll_rad);
     pitch.limit(info.limits.pitch_rad);
@@ -268,6 +285,7 @@ const actions = {
   jump: (times: number) => app.attempt(app.jump(times)),
   lab: () => app.attempt(openLab()),
   method: () => app.attempt(toggleMethod()),
+  weigh: () => app.attempt(toggleWeighing()),
 };
 const brushPanel = new BrushPanel((setting) => tools?.brush(setting));
 const groundKey = new GroundKey((colouring) => stage?.colouring(colouring));
@@ -279,6 +297,7 @@ const controls = new Controls(actions);
 const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
 byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
 byId('by-hand', HTMLButtonElement).addEventListener('click', actions.method);
+byId('weigh', HTMLButtonElement).addEventListener('click', actions.weigh);
 bindKeys(actions, inspector);
 controls.showTool('look');
 controls.showSpeed(1);

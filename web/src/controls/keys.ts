@@ -21,6 +21,8 @@ export interface KeyActions {
   lab(): void;
   /** The Gaussian process by hand. */
   method(): void;
+  /** The weights of the cost. */
+  weigh(): void;
 }
 
 export interface InspectorKeys {
@@ -42,6 +44,7 @@ export function bindKeys(actions: KeyActions, inspector: InspectorKeys): void {
     k: () => actions.jump(1),
     p: () => actions.lab(),
     m: () => actions.method(),
+    w: () => actions.weigh(),
     n: () => actions.next(),
     f: () => inspector.toggleFollow(),
     e: () => inspector.toggleEye(),
