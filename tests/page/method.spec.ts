@@ -257,6 +257,42 @@ test('learning without bounds climbs step by step, and its skyline runs away', a
   await expect(page.locator('.method-error')).toHaveText(/by (.*); the run’s: \1\.$/);
 });
 
+test('weights are dragged, the candidates weighed anew and the path with them', async ({ mapless: page }) => {
+  await pausedAt(page, 40);
+  const before = await state(page);
+  const costs = () => page.locator('.candidate-total').allTextContents();
+  const old = await costs();
+  await page.keyboard.press('w');
+  const weight = page.getByRole('slider', { name: 'direction' });
+  await expect(weight).toHaveValue('0.2');
+  await weight.focus();
+  for (let step = 0; step < 10; step += 1) await page.keyboard.press('ArrowRight');
+  await until(page, (now) => JSON.stringify(now.overrides).includes('"direction_weight":0.7'));
+  expect(await state(page)).toMatchObject({ thought: 'what_if', tick: before.tick, pose: before.pose });
+  await expect.poll(costs).not.toEqual(old);
+});
+
+test('changes of mind are gone through, each with what changed it', async ({ mapless: page }) => {
+  await page.evaluate(() => window.mapless?.loadScenario('ht'));
+  await page.evaluate(() => window.mapless?.play());
+  await driveTo(page, 200);
+  await page.evaluate(() => window.mapless?.seek(1));
+  await page.getByRole('button', { name: 'Weigh' }).click();
+  const said = page.locator('.weighing-said');
+  const ticks: number[] = [];
+  for (let step = 0; step < 2; step += 1) {
+    await page.getByRole('button', { name: 'Next', exact: true }).click();
+    await until(page, (now) => now.tick > (ticks.at(-1) ?? 1));
+    await expect(said).toHaveText(/^From .+ to .+: .+\.$/);
+    ticks.push((await state(page)).tick);
+  }
+  await page.getByRole('button', { name: 'Earlier' }).click();
+  await until(page, (now) => now.tick === ticks[0]);
+  await page.evaluate(() => window.mapless?.seek(1));
+  await page.getByRole('button', { name: 'Earlier' }).click();
+  await expect(said).toHaveText('No earlier change of mind in the run so far.');
+});
+
 /** A browser that shares two cores with others is this much slower than one that has them. */
 const SLOW = 4;
 

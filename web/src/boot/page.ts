@@ -76,9 +76,10 @@ async function loadMethod(): Promise<Method> {
   return method;
 }
 
-async function toggleMethod(): Promise<void> {
+async function byHand(open: boolean): Promise<void> {
+  if (!open && !method) return;
   const loaded = await loadMethod();
-  const open = !loaded.isOpen;
+  if (loaded.isOpen === open) return;
   if (open) inspector.enlargeImage(true);
   showMethod(loaded, open);
 }
@@ -220,9 +221,12 @@ const measure = new Measure({
   go: (time_s) => app.attempt(app.seekTime(time_s)),
   notice: (message) => notice.show(message),
 });
-const inspector = new Inspector(app, stage, view, (large) => {
-  if (large) app.attempt(loadMethod().then(() => undefined));
-  else if (method?.isOpen) showMethod(method, false);
+const inspector = new Inspector(app, stage, view, {
+  enlarged(large) {
+    if (large) app.attempt(loadMethod().then(() => undefined));
+    else if (method?.isOpen) showMethod(method, false);
+  },
+  byHand,
 });
 const tools = stage
   ? new GroundTools(view, stage, {
@@ -284,7 +288,7 @@ const actions = {
   setGoalHeading: (heading_rad: number | undefined) => app.attempt(app.setGoalHeading(heading_rad)),
   jump: (times: number) => app.attempt(app.jump(times)),
   lab: () => app.attempt(openLab()),
-  method: () => app.attempt(toggleMethod()),
+  method: () => app.attempt(byHand(!method?.isOpen)),
   weigh: () => app.attempt(toggleWeighing()),
 };
 const brushPanel = new BrushPanel((setting) => tools?.brush(setting));

@@ -21,6 +21,14 @@ import { WhatIf } from './whatIf.ts';
 const element = (id: string) => byId(id, HTMLElement);
 const button = (id: string) => byId(id, HTMLButtonElement);
 
+/** What is loaded when somebody opens it. */
+export interface Opens {
+  /** The image has become large or small. */
+  enlarged(large: boolean): void;
+  /** Opens the Gaussian process by hand, or closes it. */
+  byHand(open: boolean): Promise<void>;
+}
+
 export class Inspector implements TourHost {
   readonly #app: App;
   readonly #stage: Stage | undefined;
@@ -49,11 +57,10 @@ export class Inspector implements TourHost {
   #imageInSight = false;
   readonly #whatIf: WhatIf;
 
-  readonly #enlarged: (large: boolean) => void;
+  readonly #opens: Opens;
 
-  /** `enlarged` is told when the image becomes large or small. */
-  constructor(app: App, stage: Stage | undefined, view: HTMLCanvasElement, enlarged: (large: boolean) => void) {
-    this.#enlarged = enlarged;
+  constructor(app: App, stage: Stage | undefined, view: HTMLCanvasElement, opens: Opens) {
+    this.#opens = opens;
     this.#app = app;
     this.#stage = stage;
     this.#whatIf = new WhatIf({
@@ -178,7 +185,7 @@ export class Inspector implements TourHost {
   enlargeImage(large: boolean): void {
     this.#page.dataset.image = large ? 'large' : 'small';
     button('enlarge').setAttribute('aria-pressed', String(large));
-    this.#enlarged(large);
+    this.#opens.enlarged(large);
     // A phone scrolls the large image sideways: it begins with what is ahead.
     const scroller = element('seen-scroll');
     scroller.scrollLeft = (scroller.scrollWidth - scroller.clientWidth) / 2;
@@ -189,8 +196,19 @@ export class Inspector implements TourHost {
     return this.#app.playing;
   }
 
-  play(playing: boolean): Promise<void> {
-    return playing ? this.#app.play() : this.#app.pause();
+  /** What was only tried on the tour is taken back before the robot drives on. */
+  async play(playing: boolean): Promise<void> {
+    if (!playing) return this.#app.pause();
+    await this.#app.forgetTried();
+    await this.#app.play();
+  }
+
+  get isByHand(): boolean {
+    return this.#page.hasAttribute('data-method');
+  }
+
+  byHand(open: boolean): Promise<void> {
+    return this.#app.attempt(this.#opens.byHand(open));
   }
 
   decided(): Promise<{ frame: Frame; info: SessionInfo }> {

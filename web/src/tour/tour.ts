@@ -20,7 +20,7 @@ export interface TourHost {
   view(camera: CameraMode): void;
   enlargeImage(large: boolean): void;
   /** Opens the Gaussian process to be changed by hand, or closes it. */
-  byHand(open: boolean): void;
+  byHand(open: boolean): Promise<void>;
   play(playing: boolean): Promise<void>;
   pin(finder: Finder | undefined): void;
 }
@@ -67,7 +67,7 @@ export class Tour {
     // What the last step leaves running goes on.
     this.#host.view(this.#at === STEPS.length - 1 ? 'chase' : camera);
     this.#host.enlargeImage(imageIsLarge);
-    this.#host.byHand(isByHand);
+    void this.#host.byHand(isByHand);
     void this.#host.play(playing || this.#at === STEPS.length - 1);
     this.#ended();
   }
@@ -81,7 +81,7 @@ export class Tour {
     const { frame, info } = await this.#host.decided();
     this.#host.showLayers({ ...BARE, ...step.layers });
     this.#host.enlargeImage(step.image ?? false);
-    this.#host.byHand(step.byHand ?? false);
+    await this.#host.byHand(step.byHand ?? false);
     this.#host.view(step.camera);
     this.#host.pin(step.marks);
     setText(this.#count, `${to + 1} of ${STEPS.length}`);
