@@ -107,8 +107,10 @@ export class Knobs {
     }
   }
 
-  show(values: Hyperparameters): void {
+  /** Shows what holds; with `busy`, a slider in hand stays where it is. */
+  show(values: Hyperparameters, busy: boolean): void {
     for (const [of, { input, output, knob }] of this.#rows) {
+      if (busy && input === document.activeElement) continue;
       input.value = String(Math.round(STEPS * shareOf(knob, values[of])));
       show(input, output, knob, values[of]);
     }

@@ -82,7 +82,7 @@ export class Method {
     seen.append(this.#element);
     this.#element.hidden = true;
     new ResizeObserver(() => this.#drawSlice()).observe(this.#slice);
-    image.onDrawn((plot) => this.#handle.place(plot, this.#frame?.threshold));
+    image.onDrawn((plot) => this.#handle.place(plot, this.#frame?.threshold, this.#newest.busy));
     canvas.addEventListener('pointermove', (event) => {
       if (event.pointerType === 'mouse' && event.buttons === 0) this.#point(event);
     });
@@ -120,7 +120,7 @@ export class Method {
     this.#info = info;
     this.#azimuth.max = String(info.image.columns / 2 - 1);
     this.#azimuth.min = String(-info.image.columns / 2);
-    this.#knobs.show(hyperparametersOf(info));
+    this.#knobs.show(hyperparametersOf(info), this.#newest.busy);
   }
 
   frame(frame: Frame): void {

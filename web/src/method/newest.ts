@@ -3,6 +3,11 @@ export class Newest {
   #busy = false;
   #next: (() => Promise<void>) | undefined;
 
+  /** Whether work is under way: what it gives may be older than what somebody holds. */
+  get busy(): boolean {
+    return this.#busy;
+  }
+
   do(work: () => Promise<void>): void {
     this.#next = work;
     if (!this.#busy) void this.#run();

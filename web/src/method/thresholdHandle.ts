@@ -19,8 +19,8 @@ export class ThresholdHandle {
     this.element.addEventListener('change', () => set(Number(this.element.value)));
   }
 
-  /** Puts it over the scale of the plot. */
-  place(plot: Plot, threshold: number | undefined): void {
+  /** Puts it over the scale of the plot; with `busy`, it stays where it is held. */
+  place(plot: Plot, threshold: number | undefined, busy: boolean): void {
     this.element.hidden = !plot.detailed || threshold === undefined;
     if (this.element.hidden || threshold === undefined) return;
     const { style } = this.element;
@@ -28,9 +28,8 @@ export class ThresholdHandle {
     style.left = `${plot.left + plot.width + 3}px`;
     style.top = `${plot.top + plot.height * (1 - highest) - THUMB_PX / 2}px`;
     style.height = `${plot.height * (highest - lowest) + THUMB_PX}px`;
-    if (document.activeElement !== this.element || !this.element.matches(':active')) {
-      this.element.value = String(threshold);
-    }
+    const held = document.activeElement === this.element && (busy || this.element.matches(':active'));
+    if (!held) this.element.value = String(threshold);
     this.element.setAttribute('aria-valuetext', fixed(threshold, 2));
   }
 }

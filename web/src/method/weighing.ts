@@ -71,6 +71,8 @@ export class Weighing {
       const own = parameters.find((one) => one.name === name);
       const value = Number(override(info.overrides, TABLE, name) ?? own?.value);
       row.title = own?.text ?? '';
+      // A slider in hand stays where it is: what comes in is older.
+      if (this.#newest.busy && input === document.activeElement) return;
       input.value = String(value);
       setText(output, fixed(value, 2));
     });

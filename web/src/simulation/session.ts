@@ -109,8 +109,9 @@ export class Session {
     const own = JSON.stringify(setup) === JSON.stringify(this.#setup);
     if (own) this.#core.forget_thought();
     else this.#core.think_again(setup);
+    const same = sameDefaults(this.#tried ?? this.#setup, setup);
     this.#tried = own ? undefined : setup;
-    this.#info = this.#readInfo(undefined);
+    this.#info = this.#readInfo(same ? this.#info : undefined);
   }
 
   /** Senses and decides again here, after something has changed or the robot stands elsewhere. */
@@ -248,4 +249,10 @@ export class Session {
       kinds: new Uint8Array(columns),
     };
   }
+}
+
+/** Whether every parameter has the same value unless it is overridden: those of the planner follow sensor and robot. */
+function sameDefaults(a: Setup, b: Setup): boolean {
+  const given = ({ preset, overrides: { planner: _, ...others } }: Setup) => JSON.stringify([preset, others]);
+  return given(a) === given(b);
 }

@@ -2,6 +2,7 @@
 
 use mapless::gp::learning::LearningMode;
 use mapless_trials::{Preset, Scenario, Trial};
+use mapless_world::HeightField;
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -14,6 +15,9 @@ use crate::shared::{Overrides, changed, read};
 /// So many of the past looks are shown to a planner that has not driven here, so that it remembers the ground
 /// around the robot; each costs as much as a tick.
 const PAST_LOOKS: usize = 2;
+
+/// Spacing of the samples of ground on which nothing happens.
+const BARE_CELL_M: f64 = 1.0;
 
 /// What the planner thinks with.
 #[derive(Debug, Deserialize, Tsify)]
@@ -74,6 +78,14 @@ impl Moment {
     }
 }
 
+/// Level ground as large as `field`: of a trial that only lends its equipment, what it stands on does not matter.
+fn bare_ground(field: &HeightField) -> Result<HeightField, JsError> {
+    let extent_m = field.extent_m();
+    let samples = |length_m: f64| (length_m / BARE_CELL_M).ceil() as usize + 1;
+    let (columns, rows) = (samples(extent_m.x), samples(extent_m.y));
+    Ok(HeightField::new(columns, rows, BARE_CELL_M, vec![0.0; columns * rows])?)
+}
+
 #[wasm_bindgen]
 impl Session {
     /// Senses and decides again where the robot stands, with other parameters where they are given; frames show
@@ -91,7 +103,8 @@ impl Session {
         };
         let (preset, learning) = (preset.into(), learning.map(LearningMode::from));
         let running = changed(&self.file, &overrides)?;
-        let other = super::trial(self.now.trial.field().clone(), &running, preset, learning, self.seed)?;
+        let other =
+            super::trial(bare_ground(self.now.trial.field())?, &running, preset, learning, self.seed)?;
         let mut moment = self.now.clone();
         moment.trial.equip(self.informed(other)?)?;
         let trial = moment.trial.clone();
