@@ -293,6 +293,35 @@ test('changes of mind are gone through, each with what changed it', async ({ map
   await expect(said).toHaveText('No earlier change of mind in the run so far.');
 });
 
+test('why not there? is answered for any place on the ground, by pointer and by keys', async ({ mapless: page }) => {
+  await pausedAt(page, 40);
+  await page.getByRole('button', { name: 'Weigh' }).click();
+  const why = page.locator('.weighing-said').last();
+  const { x, y } = await within(page.locator('#view'), 0.6, 0.45);
+  await page.mouse.click(x, y);
+  await expect(why).toHaveText(/^[\d.]+ m away, .+\. In truth .+/);
+  const bearing = page.getByRole('slider', { name: 'Bearing' });
+  await bearing.focus();
+  await page.keyboard.press('End');
+  await expect(why).toHaveText(/^5\.0 m away, 180° /);
+  // A hill in the way makes it too steep.
+  const { pose } = await state(page);
+  const hill = { x: pose.x + 5 * Math.cos(pose.yaw), y: pose.y + 5 * Math.sin(pose.yaw) };
+  await page.evaluate(
+    ({ x, y }) =>
+      window.mapless?.sculpt({
+        kind: 'raise',
+        radius_m: 2,
+        strength_m: 4,
+        points_cm: [x, y].map((m) => Math.round(100 * m)),
+      }),
+    { x: hill.x + 1.2 * Math.cos(pose.yaw), y: hill.y + 1.2 * Math.sin(pose.yaw) },
+  );
+  await page.keyboard.press('Home');
+  for (let degree = 0; degree < 180; degree += 1) await page.keyboard.press('ArrowRight');
+  await expect(why).toHaveText(/^5\.0 m away, ahead\. In truth too steep .+: up to \d+° of (pitch|roll)/);
+});
+
 /** A browser that shares two cores with others is this much slower than one that has them. */
 const SLOW = 4;
 

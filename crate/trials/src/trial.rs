@@ -1,6 +1,9 @@
 //! One trial: a loop of world, scan, planner and command.
 
 mod equipment;
+mod stance;
+
+pub use stance::Stance;
 
 use core::convert::Infallible;
 use core::time::Duration;

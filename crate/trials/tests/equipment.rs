@@ -60,3 +60,17 @@ fn another_period_is_refused() {
     assert!(error.starts_with("sensor.period_s = 0.2: expected 0.1 under way"), "{error}");
     assert_eq!(trial.period_s(), 0.1);
 }
+
+#[test]
+fn a_stance_tells_tilt_and_contact_of_a_place_and_none_off_the_terrain() {
+    use glam::DVec2;
+    use mapless_world::{Brush, BrushKind};
+    let mut trial = driven(1);
+    let level = trial.stance_at(DVec2::new(10.0, 10.0), 1.0).unwrap();
+    assert!(!level.is_too_steep && level.contact.is_none() && level.attitude.pitch_rad.abs() < 1e-9);
+    assert!(trial.stance_at(DVec2::new(0.1, 10.0), 0.0).is_none());
+    let kind = BrushKind::Raise;
+    trial.sculpt(&Brush { centre: DVec2::new(10.0, 10.0), radius_m: 3.0, strength_m: 4.0, kind }).unwrap();
+    let steep = trial.stance_at(DVec2::new(11.5, 10.0), 0.0).unwrap();
+    assert!(steep.is_too_steep && steep.attitude.pitch_rad < -0.5, "{steep:?}");
+}

@@ -2,12 +2,14 @@
 
 mod frame;
 mod inside;
+mod place;
 mod scene;
 mod tick;
 mod what_if;
 
 pub use frame::{Frame, FrameBuffers, Point, SensorPose, Timeline};
 pub use inside::{ClimbStep, Inside, InsideQuestion, Placement};
+pub use place::{HeadingThere, PlaceReport};
 pub use scene::{ImageSize, Mount, Scene, SegmentDemands, TiltLimits};
 pub use tick::{Activity, Standing, Tick, Velocity};
 pub use what_if::{ThinkingWith, Thought};

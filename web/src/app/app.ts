@@ -17,6 +17,7 @@ import type {
   InsideQuestion,
   Loaded,
   NamedFile,
+  PlaceReport,
   SessionInfo,
   Solid,
   Source,
@@ -220,6 +221,11 @@ export class App {
 
   lookInside(question: InsideQuestion): Promise<Inside> {
     return this.#core.request({ type: 'inside', question });
+  }
+
+  /** What is true of a place, and what the scan in view saw of it. */
+  reportOn(place: Place): Promise<PlaceReport> {
+    return this.#core.request({ type: 'place', place });
   }
 
   /** The climb of the bound on the scan that is shown, with nothing to hold the values. */

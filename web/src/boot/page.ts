@@ -91,12 +91,13 @@ async function toggleWeighing(): Promise<void> {
   const [place, opener] = [element('weighing'), byId('weigh', HTMLButtonElement)];
   if (!weighing) {
     const { Weighing } = await import('../method/weighing.ts');
-    weighing ??= new Weighing(app);
+    weighing ??= new Weighing(app, stage, view);
     place.replaceChildren(weighing.element);
   }
   place.hidden = !place.hidden;
   opener.setAttribute('aria-expanded', String(!place.hidden));
-  if (!place.hidden) place.scrollIntoView({ block: 'nearest' });
+  if (place.hidden) weighing.close();
+  else place.scrollIntoView({ block: 'nearest' });
 }
 
 function showMethod(loaded: Method, open: boolean): void {

@@ -5,15 +5,20 @@ import type { App } from '../app/app.ts';
 import { html, setText } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
 import { type Overrides, override, withOverride } from '../experiment/overrides.ts';
+import type { Place } from '../experiment/place.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { Stage } from '../view/stage.ts';
 import { changeOfMind, whatChangedIt } from './changesOfMind.ts';
 import { Newest } from './newest.ts';
+import { whyThere } from './whyThere.ts';
 
 const TABLE = 'planner.decision';
 const WEIGHTS = ['direction', 'distance', 'steepness', 'climb', 'commitment', 'correction'] as const;
 /** The paper has the first three. */
 const PAPER_WEIGHTS = 3;
 const HIGHEST = 3;
+/** Radius of the mark on the ground: about half of the robot. */
+const MARK_M = 0.5;
 
 export class Weighing {
   readonly element = html('div', 'weighing');
@@ -21,9 +26,23 @@ export class Weighing {
   readonly #rows: readonly { name: string; row: HTMLElement; input: HTMLInputElement; output: HTMLOutputElement }[];
   readonly #said = html('p', 'weighing-said');
   readonly #newest = new Newest();
+  readonly #stage: Stage | undefined;
+  readonly #bearing = slider('Bearing', -180, 180, 1);
+  readonly #distance = slider('Distance', 1, 15, 0.5);
+  readonly #why = html('p', 'weighing-said');
 
-  constructor(app: App) {
+  /** `view` is the canvas of the 3D view: while this is open, a press on its ground asks why the robot does not go there. */
+  constructor(app: App, stage: Stage | undefined, view: HTMLCanvasElement) {
     this.#app = app;
+    this.#stage = stage;
+    this.#why.setAttribute('role', 'status');
+    this.#bearing.value = '0';
+    this.#distance.value = '5';
+    view.addEventListener('click', ({ clientX, clientY }) => {
+      const place = view.dataset.tool === 'look' && this.#isOpen ? stage?.pick(clientX, clientY) : undefined;
+      if (place) this.#ask(place);
+    });
+    for (const input of [this.#bearing, this.#distance]) input.addEventListener('input', () => this.#askThere());
     this.#rows = WEIGHTS.map((weight) => {
       const name = `${weight}_weight`;
       const input = html('input');
@@ -60,6 +79,11 @@ export class Weighing {
         step('Next', 'To the next change of mind', 1),
       ]),
       this.#said,
+      html('h3', '', ['Why not there?']),
+      html('p', 'lab-note', ['Press the ground in the view, or choose a place around the robot.']),
+      html('label', 'knob', [html('span', '', ['bearing']), this.#bearing]),
+      html('label', 'knob', [html('span', '', ['distance']), this.#distance]),
+      this.#why,
     );
     if (app.info) this.session(app.info);
   }
@@ -75,6 +99,38 @@ export class Weighing {
       if (this.#newest.busy && input === document.activeElement) return;
       input.value = String(value);
       setText(output, fixed(value, 2));
+    });
+  }
+
+  /** Takes the mark off the ground. */
+  close(): void {
+    this.#stage?.brush({ x: 0, y: 0 }, { x: 0, y: 0 }, 0);
+    setText(this.#why, '');
+  }
+
+  get #isOpen(): boolean {
+    return this.element.checkVisibility();
+  }
+
+  /** The place that bearing and distance say, the bearing to the right positive, as on the slider. */
+  #askThere(): void {
+    const { frame } = this.#app;
+    if (!frame) return;
+    const bearing_rad = frame.pose.yaw - (Number(this.#bearing.value) * Math.PI) / 180;
+    const distance_m = Number(this.#distance.value);
+    const { x, y } = frame.pose;
+    this.#ask({ x: x + distance_m * Math.cos(bearing_rad), y: y + distance_m * Math.sin(bearing_rad) });
+  }
+
+  #ask({ x, y }: Place): void {
+    const place = { x, y };
+    this.#newest.do(async () => {
+      await this.#app.pause();
+      const report = await this.#app.reportOn(place);
+      const { frame, info } = this.#app;
+      if (!frame || !info) return;
+      this.#stage?.brush(place, place, MARK_M);
+      setText(this.#why, whyThere(place, report, frame, info));
     });
   }
 
@@ -108,4 +164,11 @@ export class Weighing {
     await app.seek(tick + 1);
     if (app.frame) setText(this.#said, whatChangedIt(former, before, app.frame));
   }
+}
+
+function slider(name: string, lowest: number, highest: number, step: number): HTMLInputElement {
+  const input = html('input');
+  Object.assign(input, { type: 'range', min: String(lowest), max: String(highest), step: String(step) });
+  input.setAttribute('aria-label', name);
+  return input;
 }

@@ -39,6 +39,7 @@ export type {
   Outcome,
   PathPoint,
   Placement,
+  PlaceReport,
   Pose,
   Segment,
   SensorPose,
@@ -162,6 +163,8 @@ export type Command =
   | { type: 'think'; setup: Setup }
   /** Answered with an `Inside`. */
   | { type: 'inside'; question: InsideQuestion }
+  /** Answered with what is true of a place, as a `PlaceReport`. */
+  | { type: 'place'; place: Place }
   /** Answered with the steps of learning, as a list of `ClimbStep`. */
   | { type: 'climb' }
   /** Answered with the covariances of all directions with this one. */

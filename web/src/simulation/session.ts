@@ -14,6 +14,7 @@ import type {
   GroundPatch,
   Inside,
   InsideQuestion,
+  PlaceReport,
   SessionInfo,
   Solid,
 } from '../protocol/simulationProtocol.ts';
@@ -134,6 +135,10 @@ export class Session {
 
   lookInside(question: InsideQuestion): Inside {
     return this.#core.look_inside(question);
+  }
+
+  reportOn({ x, y }: Place): PlaceReport {
+    return this.#core.place_report({ x, y });
   }
 
   climb(): ClimbStep[] {

@@ -300,6 +300,8 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
       break;
     case 'inside':
       return session.lookInside(command.question);
+    case 'place':
+      return session.reportOn(command.place);
     case 'climb':
       return session.climb();
     case 'kernel':

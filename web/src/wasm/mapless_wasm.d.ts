@@ -315,6 +315,20 @@ export interface SetAside {
 }
 
 /**
+ * How the robot would stand with one heading, by the true ground.
+ */
+export interface HeadingThere {
+    heading_rad: number;
+    roll_rad: number;
+    pitch_rad: number;
+    is_too_steep: boolean;
+    /**
+     * What the body would do there, as `run into an object`, if anything.
+     */
+    touches: string | undefined;
+}
+
+/**
  * Lattice of the predicted surfaces; the observed one has a row for each ring of the sensor.
  */
 export interface ImageSize {
@@ -655,6 +669,20 @@ export interface SegmentDemands {
 export type StrokeKind = "raise" | "lower" | "smooth" | "level" | "roughen" | "crater" | "boulder" | "ramp" | "ditch";
 
 /**
+ * What is true of a place, and what the scan in view saw of it.
+ */
+export interface PlaceReport {
+    /**
+     * Seen from above, from the place to the nearest return; absent without returns.
+     */
+    nearest_return_m: number | undefined;
+    /**
+     * Evenly around the circle, from east counter-clockwise; empty off the terrain.
+     */
+    headings: HeadingThere[];
+}
+
+/**
  * What people are told of a parameter.
  */
 export interface Parameter {
@@ -954,6 +982,13 @@ export class Session {
      */
     parameters(): ParameterGroup[];
     /**
+     * Tells of a place on the ground.
+     *
+     * # Errors
+     * None, unless JavaScript runs out of memory.
+     */
+    place_report(place: Place): PlaceReport;
+    /**
      * Puts other heights in place of those in a rectangle.
      *
      * # Errors
@@ -1025,8 +1060,8 @@ export class Session {
      */
     standing(): Standing;
     /**
-     * Senses and decides again where the robot stands, with other parameters where they are given; frames show
-     * that until the run goes on. The run itself stays as it was.
+     * Senses and decides again where the robot stands, with other parameters where they are given; frames
+     * show that until the run goes on. The run itself stays as it was.
      *
      * # Errors
      * A value that makes no sense or cannot change under way, with its place and what was expected; nothing
@@ -1108,6 +1143,7 @@ export interface InitOutput {
     readonly session_new: (a: any) => [number, number, number];
     readonly session_objects: (a: number) => [number, number, number];
     readonly session_parameters: (a: number) => [number, number, number, number];
+    readonly session_place_report: (a: number, b: any) => [number, number, number];
     readonly session_replace_ground: (a: number, b: any) => [number, number];
     readonly session_restart: (a: number) => [number, number];
     readonly session_scene: (a: number) => [number, number, number];

@@ -199,8 +199,8 @@ impl Learner {
         self.learn_watched(inputs, targets, inducing, start, |_, _| {})
     }
 
-    /// As [`Learner::learn`]; `watch` is told the hyperparameters and the bound (nats) of every evaluation, the
-    /// start among them. Some of the climb's evaluations are steps too far and lie lower than those before.
+    /// As [`Learner::learn`]; `watch` is told the hyperparameters and the bound (nats) of every evaluation,
+    /// the start among them. Some of the climb's evaluations are steps too far and lie lower than those before.
     ///
     /// # Errors
     /// As [`Learner::learn`].

@@ -147,8 +147,8 @@ impl BeamGp {
         }
     }
 
-    /// Places the inducing inputs at these columns and rows from now on, instead of every few of both. Rows lie
-    /// where [`BeamGp::directions`] may give them.
+    /// Places the inducing inputs at these columns and rows from now on, instead of every few of both. Rows
+    /// lie where [`BeamGp::directions`] may give them.
     pub(crate) fn place(&mut self, inputs: impl Iterator<Item = (usize, usize)>) {
         self.stride_columns = 1;
         let mut placed = vec![Vec::new(); COLUMNS];

@@ -78,7 +78,7 @@ impl Moment {
     }
 }
 
-/// Level ground as large as `field`: of a trial that only lends its equipment, what it stands on does not matter.
+/// Level ground as large as `field`: what a trial stands on that only lends its equipment does not matter.
 fn bare_ground(field: &HeightField) -> Result<HeightField, JsError> {
     let extent_m = field.extent_m();
     let samples = |length_m: f64| (length_m / BARE_CELL_M).ceil() as usize + 1;
@@ -88,8 +88,8 @@ fn bare_ground(field: &HeightField) -> Result<HeightField, JsError> {
 
 #[wasm_bindgen]
 impl Session {
-    /// Senses and decides again where the robot stands, with other parameters where they are given; frames show
-    /// that until the run goes on. The run itself stays as it was.
+    /// Senses and decides again where the robot stands, with other parameters where they are given; frames
+    /// show that until the run goes on. The run itself stays as it was.
     ///
     /// # Errors
     /// A value that makes no sense or cannot change under way, with its place and what was expected; nothing
