@@ -200,7 +200,7 @@ impl Learner {
     }
 
     /// As [`Learner::learn`]; `watch` is told the hyperparameters and the bound (nats) of every evaluation,
-    /// the start among them. Some of the climb's evaluations are steps too far and lie lower than those before.
+    /// the start among them. Some evaluations are steps too far and lie lower than those before.
     ///
     /// # Errors
     /// As [`Learner::learn`].

@@ -7,7 +7,8 @@ use crate::navigator::Navigator;
 
 impl<N: Navigator> Trial<N> {
     /// Goes on where it is as `other` is equipped: with its sensor, its robot, what goes wrong for it, and
-    /// its navigator with all that this remembers. Ground, objects, route, seed, time, metrics and digest stay.
+    /// its navigator with all that this remembers. Ground, objects, route, seed, time, metrics and digest
+    /// stay.
     ///
     /// # Errors
     /// [`TrialError`] for another period of the scans, in which time is counted, and for a robot that has no
