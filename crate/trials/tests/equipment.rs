@@ -1,5 +1,5 @@
 //! A trial that goes on with other equipment: what stays, what changes, and what is refused.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 use mapless_trials::{Preset, Scenario, Trial};
 use mapless_world::HeightField;

@@ -185,6 +185,7 @@ pub fn relative_covariances(kernel: &RationalQuadratic, from: LatticeDirection, 
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what is the same has the same bits")]
 mod tests {
     use super::*;
     use crate::config::PlannerConfig;
