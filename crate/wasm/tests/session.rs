@@ -276,7 +276,7 @@ fn returns_lie_on_the_ground() {
     // cm.
     let level: Vec<_> = points.chunks_exact(3).filter(|p| p[1] < 2.0).collect();
     assert!(level.len() > 50 && level.iter().all(|p| p[2].abs() < 0.1));
-    let short = session.frame(Ts::new_unchecked(buffers(&session, 10)), false);
+    let short = session.frame(Ts::new_unchecked(buffers(&session, 10)), false, false);
     assert_eq!(number(&got(short), "returns"), 10.0);
     // Each return leaves the sensor along one of its rings: whole even degrees, but for a little noise of the
     // range.
@@ -309,7 +309,7 @@ fn the_image_has_the_size_that_the_scene_says() {
     let rings = number(&got(session.scene()), "image.rings") as usize;
     let rows = number(&got(session.scene()), "image.rows") as usize;
     let given = buffers(&session, 10);
-    let shown = got(session.frame(Ts::new_unchecked(given.clone()), true));
+    let shown = got(session.frame(Ts::new_unchecked(given.clone()), true, false));
     let array = |name: &str| at(&given, name).unchecked_into::<Float32Array>().to_vec();
     let (occupancy, variance, observed) = (array("occupancy"), array("variance"), array("observed"));
     assert!(variance.iter().all(|v| (0.0..=1.0 + 1e-6).contains(v) && *v > 0.0));
