@@ -153,15 +153,15 @@ test('the tour goes through by keyboard, pauses for each page and puts everythin
   const card = page.getByRole('dialog', { name: 'Guided tour' });
   await expect(card).toBeVisible();
   const titles = new Set<string>();
-  for (let step = 1; step <= 9; step += 1) {
-    await expect(card).toContainText(`${step} of 9`);
+  for (let step = 1; step <= 11; step += 1) {
+    await expect(card).toContainText(`${step} of 11`);
     titles.add((await card.getByRole('heading').textContent()) ?? '');
-    await until(page, (now) => now.playing === (step === 9));
-    if (step < 9) await page.keyboard.press('ArrowRight');
+    await until(page, (now) => now.playing === (step === 11));
+    if (step < 11) await page.keyboard.press('ArrowRight');
   }
-  expect(titles.size).toBe(9);
+  expect(titles.size).toBe(11);
   await page.keyboard.press('ArrowLeft');
-  await expect(card).toContainText('8 of 9');
+  await expect(card).toContainText('10 of 11');
   await page.keyboard.press('Escape');
   await expect(card).toBeHidden();
   await expect(page.locator('#tour-open')).toBeFocused();
@@ -205,9 +205,9 @@ plain.describe('on a phone', () => {
     await expect(page.locator('#detail')).toBeHidden();
     await page.locator('#tour-open').tap();
     const card = page.getByRole('dialog', { name: 'Guided tour' });
-    for (let step = 1; step <= 9; step += 1) {
-      await expect(card).toContainText(`${step} of 9`);
-      await card.getByRole('button', { name: step < 9 ? 'Next' : 'Done' }).tap();
+    for (let step = 1; step <= 11; step += 1) {
+      await expect(card).toContainText(`${step} of 11`);
+      await card.getByRole('button', { name: step < 11 ? 'Next' : 'Done' }).tap();
     }
     await expect(card).toBeHidden();
     await expect(page.evaluate(() => document.documentElement.scrollWidth)).resolves.toBeLessThanOrEqual(390);

@@ -15,7 +15,7 @@ function sent(passes: (name: string) => boolean): { gzip: number; brotli: number
   return sizes;
 }
 
-test('the page keeps to its budget: 350 kB of wasm (430 kB as gzip) to begin with, 400 kB of all else', () => {
+test('the page keeps to its budget: 370 kB of wasm (470 kB as gzip) to begin with, 400 kB of all else', () => {
   const core = sent((name) => /^mapless_wasm_bg.*\.wasm$/.test(name));
   // Loaded by those alone who open a file of heights.
   const heights = sent((name) => /^mapless_wasm_heights_bg.*\.wasm$/.test(name));
@@ -23,8 +23,8 @@ test('the page keeps to its budget: 350 kB of wasm (430 kB as gzip) to begin wit
   test.info().annotations.push({ type: 'bytes', description: JSON.stringify({ core, heights, rest }) });
   expect(core.brotli).toBeGreaterThan(0);
   // Hosts that know brotli send the first, all send the second.
-  expect(core.brotli, JSON.stringify(core)).toBeLessThan(350_000);
-  expect(core.gzip, JSON.stringify(core)).toBeLessThan(430_000);
+  expect(core.brotli, JSON.stringify(core)).toBeLessThan(370_000);
+  expect(core.gzip, JSON.stringify(core)).toBeLessThan(470_000);
   expect(heights.brotli, JSON.stringify(heights)).toBeLessThan(160_000);
   expect(rest.gzip, JSON.stringify(rest)).toBeLessThan(400_000);
 });

@@ -17,6 +17,7 @@ class Core {
       request: (command) => this.#carryOut(command),
       ground: () => this.field,
       info: () => this.info,
+      mayThink: () => false,
       changed: () => {},
     });
   }

@@ -70,6 +70,12 @@ impl<S: Clone> History<S> {
         self.copies.get(after.saturating_sub(1)).map(|copy| &copy.state)
     }
 
+    /// The latest copies at or before `tick`, as many as `most`, the earliest of them first.
+    pub fn last(&self, most: usize, tick: u64) -> impl Iterator<Item = &S> {
+        let end = self.copies.partition_point(|copy| copy.tick <= tick);
+        self.copies[end.saturating_sub(most)..end].iter().map(|copy| &copy.state)
+    }
+
     fn keep(&mut self, copy: Kept<S>) {
         self.copies.push(copy);
         if self.copies.len() <= self.most {

@@ -1,5 +1,10 @@
 //! One trial: a loop of world, scan, planner and command.
 
+mod equipment;
+mod stance;
+
+pub use stance::Stance;
+
 use core::convert::Infallible;
 use core::time::Duration;
 use std::sync::Arc;

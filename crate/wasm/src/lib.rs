@@ -21,8 +21,9 @@ pub use parameters::{Parameter, ParameterGroup, ParameterKind, PresetValue};
 pub use places::{Goal, Heading, Place, Route};
 pub use returns::SetAside;
 pub use session::{
-    Activity, Frame, FrameBuffers, ImageSize, Mount, Point, Scene, SegmentDemands, SensorPose, Session,
-    Standing, Tick, TiltLimits, Timeline, Velocity,
+    Activity, ClimbStep, Frame, FrameBuffers, HeadingThere, ImageSize, Inside, InsideQuestion, Mount,
+    PlaceReport, Placement, Point, Scene, SegmentDemands, SensorPose, Session, Standing, ThinkingWith,
+    Thought, Tick, TiltLimits, Timeline, Velocity,
 };
 pub use shared::{Metrics, Outcome, OverrideValue, Overrides, Pose};
 pub use stroke::{Stroke, StrokeKind};

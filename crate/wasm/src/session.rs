@@ -1,14 +1,22 @@
 //! One loaded scenario.
 
 mod frame;
+mod inside;
+mod place;
 mod scene;
 mod tick;
+mod what_if;
 
 pub use frame::{Frame, FrameBuffers, Point, SensorPose, Timeline};
+pub use inside::{ClimbStep, Inside, InsideQuestion, Placement};
+pub use place::{HeadingThere, PlaceReport};
 pub use scene::{ImageSize, Mount, Scene, SegmentDemands, TiltLimits};
 pub use tick::{Activity, Standing, Tick, Velocity};
+pub use what_if::{ThinkingWith, Thought};
 
-use glam::DVec2;
+use what_if::Rethought;
+
+use glam::{DMat3, DVec2};
 use mapless::gp::learning::LearningMode;
 use mapless::skyline::scan_filter::ReturnKind;
 use mapless::terrain::mount_misfit::MountMisfit;
@@ -37,6 +45,10 @@ pub struct Session {
     history: Option<History<Moment>>,
     /// Whether the ground has changed since the last scan.
     ground_changed: bool,
+    /// What is shown in place of what the run decided, until that goes on.
+    rethought: Option<Rethought>,
+    /// The true skyline, from where it was last asked for; none on other ground.
+    truth: Option<Truth>,
     seed: u64,
     preset: Preset,
     learning: Option<LearningMode>,
@@ -48,12 +60,21 @@ pub struct Session {
     clock: Option<Performance>,
 }
 
+/// The true skyline in each column, as seen from a sensor along a robot's axes.
+#[derive(Debug)]
+struct Truth {
+    seen_from: (mapless_world::SensorPose, DMat3),
+    elevations: Vec<f32>,
+}
+
 /// All that belongs to one point in time.
 #[derive(Clone, Debug)]
 struct Moment {
     trial: Trial,
     /// Where the last scan was taken: the robot has moved on since.
     scanned_from: mapless_world::SensorPose,
+    /// The robot's axes there.
+    world_from_robot: DMat3,
     /// Whether the planner has seen the last scan.
     is_planned: bool,
     /// What is wrong with the mount of the sensor, by the first scan.
@@ -63,7 +84,9 @@ struct Moment {
 impl Moment {
     fn new(trial: Trial) -> Self {
         let scanned_from = sensor_pose(&trial);
-        let mut moment = Self { trial, scanned_from, is_planned: false, mount_misfit: None };
+        let world_from_robot = trial.pose().world_from_robot();
+        let mut moment =
+            Self { trial, scanned_from, world_from_robot, is_planned: false, mount_misfit: None };
         moment.begin();
         moment
     }
@@ -77,6 +100,7 @@ impl Moment {
 
     fn sense(&mut self) {
         self.scanned_from = sensor_pose(&self.trial);
+        self.world_from_robot = self.trial.pose().world_from_robot();
         self.trial.look_far();
         self.is_planned = false;
     }
@@ -112,6 +136,8 @@ impl Session {
             now: Moment::new(trial),
             history: None,
             ground_changed: false,
+            rethought: None,
+            truth: None,
             seed,
             preset,
             learning,
@@ -134,7 +160,7 @@ impl Session {
         trial.set_start(now.start())?;
         trial.set_route(now.waypoints_m().to_vec(), now.goal_m(), now.goal_heading_rad())?;
         (self.now, self.history, self.ground_changed) = (Moment::new(trial), None, false);
-        (self.running, self.seed) = (running, seed);
+        (self.running, self.seed, self.rethought) = (running, seed, None);
         Ok(())
     }
 
@@ -143,7 +169,8 @@ impl Session {
     /// # Errors
     /// A value that does not fit the preset.
     pub fn parameters(&self) -> Result<Vec<Ts<ParameterGroup>>, JsError> {
-        parameters::groups(&self.file, &self.running, self.preset)?.iter().map(give).collect()
+        let (running, preset) = self.setting();
+        parameters::groups(&self.file, running, preset)?.iter().map(give).collect()
     }
 
     /// The whole ground.
@@ -172,7 +199,7 @@ impl Session {
 
     fn begin_from(&mut self, start: StartPose) -> Result<(), JsError> {
         self.now.trial.set_start(start)?;
-        (self.history, self.ground_changed) = (None, false);
+        (self.history, self.ground_changed, self.rethought) = (None, false, None);
         self.now.begin();
         Ok(())
     }
@@ -194,6 +221,7 @@ impl Session {
     /// Goes back to `tick`, or to the nearest one that can be gone to; gives that. The session may stand
     /// shortly before it: running forward from there repeats what happened.
     pub fn go_back(&mut self, tick: f64) -> f64 {
+        self.rethought = None;
         let now = self.now.trial.ticks();
         let Some(history) = &self.history else { return now as f64 };
         let tick = (tick as u64).clamp(history.first_tick(), history.end_tick());
@@ -218,7 +246,7 @@ impl Session {
             }
         }
         let Some(rect) = changed else { return Ok(None) };
-        (self.history, self.ground_changed) = (None, true);
+        (self.history, self.ground_changed, self.truth) = (None, true, None);
         give(&GroundPatch::of(self.now.trial.field(), rect)).map(Some)
     }
 
@@ -229,7 +257,7 @@ impl Session {
     pub fn replace_ground(&mut self, patch: Ts<GroundPatch>) -> Result<(), JsError> {
         let patch = read(patch)?;
         self.now.trial.replace_ground(patch.rect(), &patch.heights_m())?;
-        (self.history, self.ground_changed) = (None, true);
+        (self.history, self.ground_changed, self.truth) = (None, true, None);
         Ok(())
     }
 

@@ -114,6 +114,8 @@ fn buffers(session: &Session, points: u32) -> JsValue {
         ("occupancy", columns * rows),
         ("variance", columns * rows),
         ("profile", columns),
+        ("former", columns),
+        ("truth", columns),
     ] {
         Reflect::set(&buffers, &name.into(), &Float32Array::new_with_length(length)).unwrap();
     }
@@ -126,7 +128,7 @@ fn buffers(session: &Session, points: u32) -> JsValue {
 /// A frame, and the numbers that an array was filled with.
 fn frame(session: &mut Session) -> (JsValue, impl Fn(&str) -> Vec<f32> + use<>) {
     let buffers = buffers(session, 28_800);
-    let frame = got(session.frame(Ts::new_unchecked(buffers.clone()), true));
+    let frame = got(session.frame(Ts::new_unchecked(buffers.clone()), true, true));
     (frame, move |name: &str| at(&buffers, name).unchecked_into::<Float32Array>().to_vec())
 }
 
@@ -274,7 +276,7 @@ fn returns_lie_on_the_ground() {
     // cm.
     let level: Vec<_> = points.chunks_exact(3).filter(|p| p[1] < 2.0).collect();
     assert!(level.len() > 50 && level.iter().all(|p| p[2].abs() < 0.1));
-    let short = session.frame(Ts::new_unchecked(buffers(&session, 10)), false);
+    let short = session.frame(Ts::new_unchecked(buffers(&session, 10)), false, false);
     assert_eq!(number(&got(short), "returns"), 10.0);
     // Each return leaves the sensor along one of its rings: whole even degrees, but for a little noise of the
     // range.
@@ -307,7 +309,7 @@ fn the_image_has_the_size_that_the_scene_says() {
     let rings = number(&got(session.scene()), "image.rings") as usize;
     let rows = number(&got(session.scene()), "image.rows") as usize;
     let given = buffers(&session, 10);
-    let shown = got(session.frame(Ts::new_unchecked(given.clone()), true));
+    let shown = got(session.frame(Ts::new_unchecked(given.clone()), true, false));
     let array = |name: &str| at(&given, name).unchecked_into::<Float32Array>().to_vec();
     let (occupancy, variance, observed) = (array("occupancy"), array("variance"), array("observed"));
     assert!(variance.iter().all(|v| (0.0..=1.0 + 1e-6).contains(v) && *v > 0.0));
@@ -429,6 +431,80 @@ fn ground_that_changes_before_the_first_tick_is_where_the_trial_begins() {
     assert!(anew.sculpt(given(RAISE)).is_ok() && anew.restart().is_ok());
     tick(&mut anew, 8);
     assert_eq!(early.digest(), anew.digest());
+}
+
+const HIGHER: &str =
+    r#"{ "preset": "default", "overrides": { "planner": { "perception": { "variance_threshold": 0.7 } } } }"#;
+
+/// The numbers that are not NaN.
+fn known(values: &[f32]) -> Vec<f32> {
+    values.iter().copied().filter(|value| !value.is_nan()).collect()
+}
+
+#[wasm_bindgen_test]
+fn what_is_only_tried_is_shown_at_the_pose_and_leaves_the_run_as_it_was() {
+    let (mut tried, mut plain) = (session(), session());
+    tick(&mut tried, 30);
+    tick(&mut plain, 30);
+    let (before, _) = frame(&mut tried);
+    tried.think_again(Some(given(HIGHER))).unwrap_or_else(|error| panic!("{}", message(error)));
+    let (after, filled) = frame(&mut tried);
+    assert_eq!((text(&before, "thought"), text(&after, "thought")), ("run".into(), "what_if".into()));
+    assert_eq!(json(at(&before, "pose")), json(at(&after, "pose")));
+    assert_eq!((number(&before, "tick"), number(&after, "threshold")), (30.0, 0.7));
+    // A higher threshold takes more for ground.
+    let mean = |values: Vec<f32>| values.iter().sum::<f32>() / values.len() as f32;
+    assert!(mean(known(&filled("profile"))) > mean(known(&filled("former"))));
+    assert!(known(&filled("truth")).len() > 100);
+    tried.forget_thought();
+    assert_eq!(text(&frame(&mut tried).0, "thought"), "run");
+    tick(&mut tried, 10);
+    tick(&mut plain, 10);
+    assert_eq!(tried.digest(), plain.digest());
+}
+
+#[wasm_bindgen_test]
+fn going_on_with_what_was_tried_begins_a_timeline_at_the_pose() {
+    let mut session = session();
+    tick(&mut session, 25);
+    session.think_again(Some(given(HIGHER))).unwrap_or_else(|error| panic!("{}", message(error)));
+    session.go_on_so();
+    tick(&mut session, 1);
+    let (frame, _) = frame(&mut session);
+    assert_eq!((number(&frame, "tick"), number(&frame, "timeline.first")), (26.0, 25.0));
+    assert_eq!((text(&frame, "thought"), number(&frame, "threshold")), ("run".into(), 0.7));
+}
+
+#[wasm_bindgen_test]
+fn what_cannot_be_tried_under_way_says_why_and_changes_nothing() {
+    let mut session = session();
+    tick(&mut session, 5);
+    let options = r#"{ "preset": "default", "overrides": { "sensor": { "period_s": 0.2 } } }"#;
+    let error = message(session.think_again(Some(given(options))).unwrap_err());
+    assert!(error.starts_with("sensor.period_s = 0.2: expected 0.1 under way"), "{error}");
+    assert_eq!(text(&frame(&mut session).0, "thought"), "run");
+}
+
+#[wasm_bindgen_test]
+fn a_look_inside_has_the_inducing_inputs_and_less_is_known_without_one() {
+    let mut session = session();
+    tick(&mut session, 5);
+    let look = |json: &str| got(session.look_inside(given(json)));
+    let floats = |value: &JsValue, name: &str| at(value, name).unchecked_into::<Float32Array>().to_vec();
+    let whole = look(r#"{ "without": [] }"#);
+    let less = look(r#"{ "placement": "lattice", "without": [100] }"#);
+    let sum = |value: &JsValue| floats(value, "variance").iter().map(|&v| f64::from(v)).sum::<f64>();
+    assert!(sum(&less) > sum(&whole) + 0.1, "{} {}", sum(&less), sum(&whole));
+    let kernel = session.kernel_from(180, 10).to_vec();
+    assert_eq!(kernel.len(), floats(&whole, "variance").len());
+    assert_eq!(kernel.iter().copied().fold(0.0, f32::max), 1.0);
+    let bounds: Vec<f64> = session
+        .climb()
+        .unwrap_or_else(|error| panic!("{}", message(error)))
+        .into_iter()
+        .map(|step| number(&step.into(), "bound"))
+        .collect();
+    assert!(bounds.len() > 3 && bounds.is_sorted(), "{bounds:?}");
 }
 
 #[wasm_bindgen_test]

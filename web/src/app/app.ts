@@ -10,10 +10,14 @@ import type { Setup } from '../experiment/setting.ts';
 import { HeightField } from '../ground/heightField.ts';
 import type {
   Beginning,
+  ClimbStep,
   Frame,
   GroundPatch,
+  Inside,
+  InsideQuestion,
   Loaded,
   NamedFile,
+  PlaceReport,
   SessionInfo,
   Solid,
   Source,
@@ -49,6 +53,8 @@ export interface Views {
   /** Something that is not wrong, but good to know. */
   news(message: string): void;
   clearNotice(): void;
+  /** Whether to drive on from here with what is only tried, or from the start. */
+  askHow(): void;
   /** Something takes long to open, which can be stopped. */
   slow(stop: () => void): void;
   /** What took long is open, or refused. */
@@ -83,6 +89,7 @@ export class App {
       request: (command) => this.#core.request(command),
       ground: () => this.#field,
       info: () => this.#info,
+      mayThink: () => this.#standsStill,
       changed: (editor) => this.#views.experiment(editor),
     });
     this.#recovery = new Recovery({
@@ -179,8 +186,71 @@ export class App {
     this.#showWarnings();
   }
 
+  /** Whether the run stands still under way: then other settings are tried where it stands. */
+  get #standsStill(): boolean {
+    return !this.#playing && this.#frame?.outcome === 'running';
+  }
+
+  /** Other parameters, planner or learning: tried where the robot stands while it stands still, otherwise the run begins anew with them and drives. */
+  async adjust(part: Partial<Setup>): Promise<void> {
+    this.#autoAdvance.stop();
+    if (this.#standsStill) await this.editor.think(part);
+    else if (part.overrides && Object.keys(part).length === 1) {
+      await this.editor.setOverrides(part.overrides);
+      await this.play();
+    } else await this.#drive(this.editor.change(part));
+    this.#views.clearNotice();
+  }
+
+  /** Shows at once what other parameters would give here; what holds is said by `adjust`. */
+  tryOut(overrides: Overrides): Promise<void> {
+    return this.#core.request({ type: 'think', setup: { ...this.setup, overrides } });
+  }
+
+  /** Gives up what is only tried. */
+  async forgetTried(): Promise<void> {
+    const own = this.#info?.runsWith;
+    if (own) await this.editor.think(own);
+  }
+
+  /** Begins the run anew with what is only tried, and drives. */
+  async runTried(): Promise<void> {
+    await this.restart();
+    await this.play();
+  }
+
+  lookInside(question: InsideQuestion): Promise<Inside> {
+    return this.#core.request({ type: 'inside', question });
+  }
+
+  /** What is true of a place, and what the scan in view saw of it. */
+  reportOn(place: Place): Promise<PlaceReport> {
+    return this.#core.request({ type: 'place', place });
+  }
+
+  /** The climb of the bound on the scan that is shown, with nothing to hold the values. */
+  climb(): Promise<readonly ClimbStep[]> {
+    return this.#core.request({ type: 'climb' });
+  }
+
+  /** The covariance of every direction of the image with this one, as a share of the signal variance. */
+  kernelFrom(column: number, row: number): Promise<Float32Array> {
+    return this.#core.request({ type: 'kernel', column, row });
+  }
+
+  /** Has frames bring the true skyline while nothing drives. */
+  showTruth(shown: boolean): Promise<void> {
+    return this.#core.request({ type: 'truth', shown });
+  }
+
   /** Other settings for the experiment as it is. */
   async change(part: Partial<Omit<Experiment, 'version' | 'strokes'>>): Promise<void> {
+    const { preset, learning, seed, ...other } = part;
+    const sameSeed = seed === undefined || seed === this.#info?.seed;
+    if (this.#standsStill && sameSeed && Object.keys(other).length === 0) {
+      const { preset: before, learning: old } = this.setup;
+      return this.adjust({ preset: preset ?? before, learning: learning ?? old });
+    }
     this.#autoAdvance.stop();
     await this.#drive(this.editor.change(part));
     this.#views.clearNotice();
@@ -266,9 +336,11 @@ export class App {
     await this.#views.still();
   }
 
-  togglePlay(): Promise<void> {
+  async togglePlay(): Promise<void> {
     const ended = this.#frame !== undefined && this.#frame.outcome !== 'running';
-    return this.#playing && !ended ? this.pause() : this.play();
+    if (this.#playing && !ended) await this.pause();
+    else if (this.#info?.runsWith && this.#frame?.tick) this.#views.askHow();
+    else await this.play();
   }
 
   async step(): Promise<void> {

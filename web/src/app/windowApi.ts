@@ -12,7 +12,7 @@ import type { Overrides } from '../experiment/overrides.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
 import { readExperiment, readStroke } from '../experiment/readExperiment.ts';
 import { readObjects } from '../experiment/readObjects.ts';
-import type { Setting } from '../experiment/setting.ts';
+import type { Setting, Setup } from '../experiment/setting.ts';
 import type { Frame, SessionInfo, SetAside } from '../protocol/simulationProtocol.ts';
 import type { App } from './app.ts';
 
@@ -63,6 +63,8 @@ export interface MaplessApi {
   seek(tick: number): Promise<void>;
   /** Begins anew with other parameters, as tables with the names of a scenario file: `{ sensor: { range_noise_m: 0.1 } }`. */
   setOverrides(overrides: Overrides): Promise<void>;
+  /** Planner, learning or parameters: while the run is paused they are tried where the robot stands, otherwise it begins anew with them and drives. */
+  adjust(setup: Partial<Setup>): Promise<void>;
   setStart(start: Heading): Promise<void>;
   sculpt(stroke: Stroke): Promise<void>;
   /** Puts objects on the ground in place of all there are. */
@@ -109,6 +111,7 @@ export function publish(app: App): void {
     }),
     seek: used((tick: number) => app.seek(number(tick, 'tick', 0, Number.MAX_SAFE_INTEGER))),
     setOverrides: used((overrides: Overrides) => app.setOverrides(overrides)),
+    adjust: used((setup: Partial<Setup>) => app.adjust(setup)),
     setStart: used((start: Heading) => app.setStart(start)),
     sculpt: used((stroke: Stroke) => app.sculpt(readStroke(stroke))),
     setObjects: used(async (objects: readonly WorldObject[]) => {

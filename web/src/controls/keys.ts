@@ -19,6 +19,10 @@ export interface KeyActions {
   /** So many jumps along the timeline. */
   jump(times: number): void;
   lab(): void;
+  /** The Gaussian process by hand. */
+  method(): void;
+  /** The weights of the cost. */
+  weigh(): void;
 }
 
 export interface InspectorKeys {
@@ -39,6 +43,8 @@ export function bindKeys(actions: KeyActions, inspector: InspectorKeys): void {
     j: () => actions.jump(-1),
     k: () => actions.jump(1),
     p: () => actions.lab(),
+    m: () => actions.method(),
+    w: () => actions.weigh(),
     n: () => actions.next(),
     f: () => inspector.toggleFollow(),
     e: () => inspector.toggleEye(),

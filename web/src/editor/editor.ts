@@ -12,6 +12,7 @@ import {
 import { tidyObject, type WorldObject } from '../experiment/objects.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Heading, Place } from '../experiment/place.ts';
+import type { Setup } from '../experiment/setting.ts';
 import type {
   Beginning,
   Command,
@@ -39,6 +40,8 @@ interface Core {
   ground(): Ground | undefined;
   /** What runs now; going back in time may have brought an earlier route back. */
   info(): SessionInfo | undefined;
+  /** Whether the run stands still under way, so that other settings can be tried where it stands. */
+  mayThink(): boolean;
   /** The experiment or what can be undone has changed. */
   changed(editor: Editor): void;
 }
@@ -132,9 +135,20 @@ export class Editor {
   /** Begins the run anew. */
   restart(): Promise<void> {
     return this.#next(async () => {
+      const { experiment } = this;
+      if (experiment && this.#core.info()?.runsWith)
+        return this.#core.request({ type: 'load', source: { experiment }, play: false });
       await this.#takeOwnRoute();
       await this.#core.request({ type: 'restart' });
     });
+  }
+
+  /** Settings to try where the robot stands: the planner thinks again with them, and the run stays as it was. */
+  think(part: Partial<Setup>): Promise<void> {
+    return this.#edit(
+      () => part,
+      (experiment) => ({ type: 'think', setup: setupOf(experiment) }),
+    );
   }
 
   /** Settings: the trial begins anew with them and drives, on the ground as it is. */
@@ -245,8 +259,14 @@ export class Editor {
       if (!experiment) throw new Error('No scenario is loaded yet.');
       const changed = { ...experiment, ...part() };
       const first = command(changed);
-      if (first.type === 'parameters') await this.#takeOwnRoute();
-      await this.#core.request(first);
+      // What is tried is no part of the run that these would begin anew.
+      const anew = first.type === 'parameters' || first.type === 'start';
+      if (anew && this.#core.info()?.runsWith) {
+        await this.#core.request({ type: 'load', source: { experiment: changed }, play: false });
+      } else {
+        if (first.type === 'parameters') await this.#takeOwnRoute();
+        await this.#core.request(first);
+      }
       this.#push(changed);
     });
   }
@@ -260,6 +280,8 @@ export class Editor {
   async #become(to: Experiment | undefined): Promise<void> {
     const from = this.experiment;
     if (!to || !from) return;
+    if (this.#core.mayThink() && differInSetup(from, to))
+      return this.#core.request({ type: 'think', setup: setupOf(to) });
     const patches = this.#patchesBetween(from, to);
     const objects = to.objects ?? this.#unsaid;
     if (!patches || !(objects || from.objects === to.objects))
@@ -306,4 +328,14 @@ export class Editor {
 
 function bytes({ before, after }: MadeStroke): number {
   return before.heights_m.byteLength + after.heights_m.byteLength;
+}
+
+function setupOf({ preset, learning, overrides }: Experiment): Setup {
+  return { preset, learning, overrides };
+}
+
+/** Whether they differ in nothing but the settings that can be tried under way. */
+function differInSetup(from: Experiment, to: Experiment): boolean {
+  const keys = Object.keys({ ...from, ...to }) as (keyof Experiment)[];
+  return keys.every((key) => from[key] === to[key] || ['preset', 'learning', 'overrides'].includes(key));
 }

@@ -38,7 +38,18 @@ export function drawColumns(
   });
 }
 
-export function drawProfile(context: Context, plot: Plot, profile: Float32Array, theme: Theme): void {
+/** How a skyline is drawn: that which holds, the one before somebody changed something, and the true one. */
+export type SkylineKind = 'present' | 'former' | 'true';
+
+const DASHES: Record<SkylineKind, number[]> = { present: [], former: [6, 4], true: [1.5, 3] };
+
+export function drawProfile(
+  context: Context,
+  plot: Plot,
+  profile: Float32Array,
+  theme: Theme,
+  kind: SkylineKind = 'present',
+): void {
   const step = (2 * HALF_TURN) / profile.length;
   const line = new Path2D();
   let drawing = false;
@@ -52,10 +63,12 @@ export function drawProfile(context: Context, plot: Plot, profile: Float32Array,
   context.lineJoin = 'round';
   context.strokeStyle = theme.dark ? 'rgb(0 0 0 / 0.5)' : 'rgb(255 255 255 / 0.6)';
   context.lineWidth = 3.5;
+  if (kind === 'present') context.stroke(line);
+  context.strokeStyle = css(kind === 'true' ? theme.ink : theme.goal);
+  context.lineWidth = kind === 'present' ? 1.5 : 2;
+  context.setLineDash(DASHES[kind]);
   context.stroke(line);
-  context.strokeStyle = css(theme.goal);
-  context.lineWidth = 1.5;
-  context.stroke(line);
+  context.setLineDash([]);
 }
 
 /** The level of each segment, with an arrow where it lies beyond the image; where the plot is large enough, also where it begins and ends, and how wide it is. */

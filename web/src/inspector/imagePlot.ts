@@ -66,7 +66,7 @@ export function drawAxes(context: CanvasRenderingContext2D, plot: Plot, theme: T
   context.setLineDash([]);
   context.globalAlpha = 1;
   context.textBaseline = 'top';
-  const step_deg = plot.detailed && plot.width > 860 ? 30 : plot.width < 460 ? 90 : 45;
+  const step_deg = plot.detailed && plot.width > 860 ? 30 : plot.width < 760 ? 90 : 45;
   for (let azimuth_deg = 180; azimuth_deg >= -180; azimuth_deg -= step_deg) {
     const x = plot.x((azimuth_deg * Math.PI) / 180);
     const bottom = plot.top + plot.height;
@@ -110,7 +110,7 @@ export function drawScale(context: CanvasRenderingContext2D, plot: Plot, thresho
   context.fillText('0 seen', left + 14, y(0) - 5);
   context.fillStyle = css(theme.goal);
   context.fillRect(left - 3, y(threshold) - 1, 16, 2);
-  context.fillText(`V_th ${threshold.toFixed(2)}`, left + 15, Math.min(y(threshold), y(0) - 19));
+  context.fillText(`V_th ${threshold.toFixed(2)}`, left + 19, Math.min(y(threshold), y(0) - 19));
 }
 
 /** The plot within a canvas of this size. */

@@ -16,9 +16,18 @@ import { DetailCard } from './detail.ts';
 import { LayersPanel } from './layersPanel.ts';
 import { neighbour, VarianceImage } from './varianceImage.ts';
 import { ViewKey } from './viewKey.ts';
+import { WhatIf } from './whatIf.ts';
 
 const element = (id: string) => byId(id, HTMLElement);
 const button = (id: string) => byId(id, HTMLButtonElement);
+
+/** What is loaded when somebody opens it. */
+export interface Opens {
+  /** The image has become large or small. */
+  enlarged(large: boolean): void;
+  /** Opens the Gaussian process by hand, or closes it. */
+  byHand(open: boolean): Promise<void>;
+}
 
 export class Inspector implements TourHost {
   readonly #app: App;
@@ -46,10 +55,19 @@ export class Inspector implements TourHost {
     this.#watch();
   });
   #imageInSight = false;
+  readonly #whatIf: WhatIf;
 
-  constructor(app: App, stage: Stage | undefined, view: HTMLCanvasElement) {
+  readonly #opens: Opens;
+
+  constructor(app: App, stage: Stage | undefined, view: HTMLCanvasElement, opens: Opens) {
+    this.#opens = opens;
     this.#app = app;
     this.#stage = stage;
+    this.#whatIf = new WhatIf({
+      goOn: () => app.attempt(app.play()),
+      fromStart: () => app.attempt(app.runTried()),
+      forget: () => app.attempt(app.forgetTried()),
+    });
     const cameras: [string, () => void][] = [
       ['follow', () => this.toggleFollow()],
       ['eye', () => this.toggleEye()],
@@ -80,7 +98,18 @@ export class Inspector implements TourHost {
     this.#showCamera();
   }
 
+  /** The image, for whoever looks inside it. */
+  get image(): VarianceImage {
+    return this.#image;
+  }
+
+  /** Play was pressed while something is only tried. */
+  askHow(): void {
+    this.#whatIf.ask();
+  }
+
   frame(frame: Frame): void {
+    this.#whatIf.show(frame);
     this.#image.show(frame);
     this.#key.show(frame);
     this.#decision.show(frame);
@@ -156,6 +185,7 @@ export class Inspector implements TourHost {
   enlargeImage(large: boolean): void {
     this.#page.dataset.image = large ? 'large' : 'small';
     button('enlarge').setAttribute('aria-pressed', String(large));
+    this.#opens.enlarged(large);
     // A phone scrolls the large image sideways: it begins with what is ahead.
     const scroller = element('seen-scroll');
     scroller.scrollLeft = (scroller.scrollWidth - scroller.clientWidth) / 2;
@@ -166,8 +196,19 @@ export class Inspector implements TourHost {
     return this.#app.playing;
   }
 
-  play(playing: boolean): Promise<void> {
-    return playing ? this.#app.play() : this.#app.pause();
+  /** What was only tried on the tour is taken back before the robot drives on. */
+  async play(playing: boolean): Promise<void> {
+    if (!playing) return this.#app.pause();
+    await this.#app.forgetTried();
+    await this.#app.play();
+  }
+
+  get isByHand(): boolean {
+    return this.#page.hasAttribute('data-method');
+  }
+
+  byHand(open: boolean): Promise<void> {
+    return this.#app.attempt(this.#opens.byHand(open));
   }
 
   decided(): Promise<{ frame: Frame; info: SessionInfo }> {

@@ -27,7 +27,8 @@ const ACTIVITY_WORDS: Record<Activity, string> = {
 };
 
 /** How the trial stands, in two or three words. */
-export function standing({ outcome, activity }: Frame, playing: boolean): string {
+export function standing({ outcome, activity, thought }: Frame, playing: boolean): string {
+  if (!playing && thought === 'what_if') return 'What if';
   if (outcome !== 'running') return OUTCOME_WORDS[outcome];
   return playing ? ACTIVITY_WORDS[activity] : 'Paused';
 }

@@ -20,6 +20,17 @@ import {
 } from './imageMarks.ts';
 import { drawAxes, drawScale, hatching, layout, type Plot } from './imagePlot.ts';
 
+/** What somebody looks at in place of what the planner sees. */
+export interface ImageInstead {
+  /** From 0, dark, to 1, light, as `FrameBuffers.variance`. */
+  readonly values: Float32Array;
+  /** The skyline that belongs to it, if one does. */
+  readonly profile: Float32Array | undefined;
+}
+
+/** Draws over the image. */
+export type DrawOver = (context: CanvasRenderingContext2D, plot: Plot, theme: Theme) => void;
+
 /** The variance is kept with this many steps, enough to draw it anew in other colours. */
 const STEPS = 256;
 
@@ -34,6 +45,9 @@ export class VarianceImage {
   #frame: Frame | undefined;
   #target: Target | undefined;
   #hatch: CanvasPattern | null = null;
+  #instead: ImageInstead | undefined;
+  #over: DrawOver | undefined;
+  #drawn: (plot: Plot) => void = () => undefined;
   #waiting = false;
 
   constructor(canvas: HTMLCanvasElement, theme: Theme) {
@@ -65,13 +79,41 @@ export class VarianceImage {
 
   show(frame: Frame): void {
     this.#frame = frame;
-    if (frame.surfaces) {
-      frame.buffers.variance.forEach((value, index) => {
-        this.#steps[index] = Math.min(Math.max(value, 0), 1) * (STEPS - 1);
-      });
-      this.#paintPixels();
-    }
+    if (frame.surfaces && !this.#instead) this.#take(frame.buffers.variance);
     this.#invalidate();
+  }
+
+  /** Shows something else in place of the planner's variance, or that again. */
+  showInstead(instead: ImageInstead | undefined): void {
+    if (!instead && !this.#instead) return;
+    this.#instead = instead;
+    const values = instead?.values ?? this.#frame?.buffers.variance;
+    if (values) this.#take(values);
+    this.#invalidate();
+  }
+
+  /** Draws this over the image from now on. */
+  drawOver(over: DrawOver | undefined): void {
+    this.#over = over;
+    this.#invalidate();
+  }
+
+  /** Is told where things are whenever the image is drawn. */
+  onDrawn(drawn: (plot: Plot) => void): void {
+    this.#drawn = drawn;
+    this.#invalidate();
+  }
+
+  /** Draws again: what is drawn over it has changed. */
+  again(): void {
+    this.#invalidate();
+  }
+
+  #take(values: Float32Array): void {
+    values.forEach((value, index) => {
+      this.#steps[index] = Math.min(Math.max(value, 0), 1) * (STEPS - 1);
+    });
+    this.#paintPixels();
   }
 
   /** Marks what somebody points at. */
@@ -95,6 +137,15 @@ export class VarianceImage {
       });
       return subgoalTarget(frame, best) ?? { subgoal: undefined, segment: segmentAt(frame, plot.azimuth_rad(x)) };
     };
+  }
+
+  /** The direction under a place of the canvas: its azimuth, and its row of the image. */
+  directionAt(x: number, y: number): { azimuth_rad: number; row: number } | undefined {
+    const plot = layout(this.#canvas.clientWidth, this.#canvas.clientHeight);
+    if (x < plot.left || x > plot.left + plot.width || y < plot.top || y > plot.top + plot.height) return undefined;
+    const rows = this.#pixels.height;
+    const row = Math.round((rows - 1) * (1 - (y - plot.top) / plot.height));
+    return { azimuth_rad: plot.azimuth_rad(x), row };
   }
 
   #paintPixels(): void {
@@ -146,7 +197,10 @@ export class VarianceImage {
     context.imageSmoothingQuality = 'high';
     this.#drawPixels(plot);
     drawColumns(context, plot, frame.buffers.kinds, theme, this.#hatch);
-    drawProfile(context, plot, frame.buffers.profile, theme);
+    const { profile, former, truth } = frame.buffers;
+    drawProfile(context, plot, truth, theme, 'true');
+    drawProfile(context, plot, this.#instead?.profile ? profile : former, theme, 'former');
+    drawProfile(context, plot, this.#instead?.profile ?? profile, theme);
     drawSegments(context, plot, frame.segments, theme);
     if (this.#target) drawMarkedSegment(context, plot, frame, this.#target, theme);
     context.restore();
@@ -157,6 +211,8 @@ export class VarianceImage {
     drawGoal(context, plot, Math.atan2(goal.y - pose.y, goal.x - pose.x) - pose.yaw, theme);
     drawSubgoals(context, plot, frame.subgoals, theme);
     if (this.#target) drawMarkedSubgoal(context, plot, frame, this.#target, theme);
+    this.#over?.(context, plot, theme);
+    this.#drawn(plot);
   }
 
   /** Rows and columns are centred on their angles: half of each outermost one lies beyond the plot, or on its other side. */

@@ -1,4 +1,4 @@
-/** Every parameter of sensor, robot and planner, made from the core's own table. A change begins the run anew, same seed. */
+/** Every parameter of sensor, robot and planner, made from the core's own table. A change is tried at the pose, or begins the run anew. */
 
 import type { App } from '../app/app.ts';
 import { html, setText } from '../base/dom.ts';
@@ -84,7 +84,10 @@ export class ParametersTab implements Tab {
     const total = countOverrides(info.overrides);
     this.#resetAll.disabled = total === 0;
     const kept = total === 0 ? 'All values are the defaults.' : `${total} changed.`;
-    setText(this.#summary, `${kept} A change begins the run anew with the same seed.`);
+    setText(
+      this.#summary,
+      `${kept} While the run is paused, a change is tried where the robot stands; while it drives, the run begins anew with the same seed.`,
+    );
     this.#complain(undefined);
   }
 
@@ -172,8 +175,7 @@ export class ParametersTab implements Tab {
   async #apply(overrides: Overrides, path: string | undefined): Promise<void> {
     try {
       this.#app.touch();
-      await this.#app.setOverrides(overrides);
-      await this.#app.play();
+      await this.#app.adjust({ overrides });
     } catch (error) {
       const message = (error instanceof Error ? error.message : String(error)).replace(/^settings: /, '');
       const groups = this.#sections.map(({ group }) => group);

@@ -17,6 +17,7 @@ import type {
   FrameBuffers,
   Ground,
   GroundPatch,
+  InsideQuestion,
   Overrides,
   Scene,
   SetAside,
@@ -27,14 +28,19 @@ import type {
 /** What crosses from the core as it is. */
 export type {
   Activity,
+  ClimbStep,
   Cost,
   FrameBuffers,
   Ground,
   GroundPatch,
+  Inside,
+  InsideQuestion,
   Metrics,
   Mount,
   Outcome,
   PathPoint,
+  Placement,
+  PlaceReport,
   Pose,
   Segment,
   SensorPose,
@@ -42,6 +48,7 @@ export type {
   Solid,
   Subgoal,
   TerrainPreview,
+  Thought,
   Timeline,
   Verdict,
 } from '../wasm/mapless_wasm.js';
@@ -52,6 +59,8 @@ export interface SessionInfo extends Setting, Scene {
   /** Every parameter, with the value that holds unless it is overridden. */
   readonly parameters: readonly ParameterGroup[];
   readonly overrides: Overrides;
+  /** What the run drives with, where something else is only tried at the present pose. */
+  readonly runsWith: Setup | undefined;
   readonly objects: readonly WorldObject[];
   /** The shapes of those that stand; those that walk come with each frame. */
   readonly solids: readonly Solid[];
@@ -145,12 +154,25 @@ export type Command =
   /** With `play`, it drives at once; otherwise it does so if what was there before did. */
   | { type: 'load'; source: Source; play: boolean }
   | { type: 'restart' }
+  /** What is only tried holds from here on, also with `step`. */
   | { type: 'play'; playing: boolean }
   | { type: 'speed'; speed: Speed }
   | { type: 'step' }
   | { type: 'goal'; goal: Goal; waypoints: readonly Place[] }
   /** Begins anew with these overrides in place of all others, on the same ground and route. */
   | { type: 'parameters'; overrides: Overrides; seed: number | undefined }
+  /** Senses and decides again where the robot stands, with this setup; the run itself stays as it was. */
+  | { type: 'think'; setup: Setup }
+  /** Answered with an `Inside`. */
+  | { type: 'inside'; question: InsideQuestion }
+  /** Answered with what is true of a place, as a `PlaceReport`. */
+  | { type: 'place'; place: Place }
+  /** Answered with the steps of learning, as a list of `ClimbStep`. */
+  | { type: 'climb' }
+  /** Answered with the covariances of all directions with this one. */
+  | { type: 'kernel'; column: number; row: number }
+  /** Whether frames bring the true skyline while nothing drives. */
+  | { type: 'truth'; shown: boolean }
   /** Goes to a tick of the timeline and stays there. */
   | { type: 'seek'; tick: number }
   | { type: 'start'; start: Heading }

@@ -5,8 +5,19 @@ import type { Experiment } from '../experiment/experiment.ts';
 import { type WorldObject, walkOf } from '../experiment/objects.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Goal, Heading, Place } from '../experiment/place.ts';
-import type { Setting } from '../experiment/setting.ts';
-import type { Frame, FrameBuffers, Ground, GroundPatch, SessionInfo, Solid } from '../protocol/simulationProtocol.ts';
+import type { Setup } from '../experiment/setting.ts';
+import type {
+  ClimbStep,
+  Frame,
+  FrameBuffers,
+  Ground,
+  GroundPatch,
+  Inside,
+  InsideQuestion,
+  PlaceReport,
+  SessionInfo,
+  Solid,
+} from '../protocol/simulationProtocol.ts';
 import type { Session as CoreSession, Standing, Stroke, Tick } from '../wasm/mapless_wasm.js';
 import { filesOf, readTerrain } from './opening.ts';
 
@@ -16,10 +27,12 @@ const MAX_RETURNS = 28_800;
 export class Session {
   readonly #core: CoreSession;
   readonly #name: string;
-  readonly #setting: Setting;
+  /** What the run drives with. */
+  #setup: Setup;
+  /** What is tried at the present pose instead, if anything is. */
+  #tried: Setup | undefined;
   readonly #pool: FrameBuffers[] = [];
   readonly #warnings: readonly string[];
-  #overrides: Overrides;
   #info: SessionInfo;
   #standing: Standing;
   /** Whether another route may hold than the info says. */
@@ -31,8 +44,7 @@ export class Session {
     this.#core = core;
     this.#warnings = warnings;
     this.#name = name;
-    this.#setting = { preset, learning };
-    this.#overrides = overrides;
+    this.#setup = { preset, learning, overrides };
     this.#info = this.#readInfo(undefined);
     this.#standing = core.standing();
   }
@@ -88,9 +100,53 @@ export class Session {
   /** Begins anew with these overrides, and another seed if given; the ground, the start and the route stay. */
   setOverrides(overrides: Overrides, seed?: number): void {
     this.#core.set_parameters(overrides, seed);
-    this.#overrides = overrides;
+    this.#setup = { ...this.#setup, overrides };
     this.#info = this.#readInfo(undefined);
     this.#began();
+  }
+
+  /** Senses and decides again here with another setup, or again with the run's own where it is that. */
+  think(setup: Setup): void {
+    const own = JSON.stringify(setup) === JSON.stringify(this.#setup);
+    if (own) this.#core.forget_thought();
+    else this.#core.think_again(setup);
+    const same = sameDefaults(this.#tried ?? this.#setup, setup);
+    this.#tried = own ? undefined : setup;
+    this.#info = this.#readInfo(same ? this.#info : undefined);
+  }
+
+  /** Senses and decides again here, after something has changed or the robot stands elsewhere. */
+  thinkAgain(): void {
+    if (this.#tried) this.#core.think_again(this.#tried);
+    else if (this.#standing.tick > 0) this.#core.think_again(undefined);
+  }
+
+  get tries(): boolean {
+    return this.#tried !== undefined;
+  }
+
+  /** Drives on from here with what was tried. */
+  goOn(): void {
+    if (!this.#tried) return;
+    this.#core.go_on_so();
+    [this.#setup, this.#tried] = [this.#tried, undefined];
+    this.#info = this.#readInfo(this.#info);
+  }
+
+  lookInside(question: InsideQuestion): Inside {
+    return this.#core.look_inside(question);
+  }
+
+  reportOn({ x, y }: Place): PlaceReport {
+    return this.#core.place_report({ x, y });
+  }
+
+  climb(): ClimbStep[] {
+    return this.#core.climb();
+  }
+
+  kernelFrom(column: number, row: number): Float32Array {
+    return this.#core.kernel_from(column, row);
   }
 
   /** Going back in time may bring another route back; says whether it did. */
@@ -152,14 +208,21 @@ export class Session {
   }
 
   /** Everything of the present state; the surfaces only on demand, since predicting them takes longer than deciding. */
-  frame(since: Pick<Frame, 'trail' | 'anew' | 'ahead' | 'rows'>, surfaces: boolean): Frame {
+  frame(since: Pick<Frame, 'trail' | 'anew' | 'ahead' | 'rows'>, surfaces: boolean, truth: boolean): Frame {
     const buffers = this.#pool.pop() ?? this.#newBuffers();
-    return { ...this.#core.frame(buffers, surfaces), surfaces, planner_ms: this.#planner_ms, buffers, ...since };
+    return { ...this.#core.frame(buffers, surfaces, truth), surfaces, planner_ms: this.#planner_ms, buffers, ...since };
   }
 
   #began(): void {
+    this.#forgetTried();
     this.#planner_ms = 0;
     this.#standing = this.#core.standing();
+  }
+
+  #forgetTried(): void {
+    if (!this.#tried) return;
+    this.#tried = undefined;
+    this.#info = this.#readInfo(undefined);
   }
 
   /** The parameters stay those of the info `before`, where there is one. */
@@ -168,9 +231,9 @@ export class Session {
     return {
       ...this.#core.scene(),
       scenario: this.#name,
-      ...this.#setting,
+      ...(this.#tried ?? this.#setup),
+      runsWith: this.#tried && this.#setup,
       parameters: before?.parameters ?? this.#core.parameters(),
-      overrides: this.#overrides,
       objects,
       solids: this.solids(objects),
       warnings: this.#warnings,
@@ -186,7 +249,15 @@ export class Session {
       occupancy: new Float32Array(columns * rows),
       variance: new Float32Array(columns * rows),
       profile: new Float32Array(columns),
+      former: new Float32Array(columns),
+      truth: new Float32Array(columns),
       kinds: new Uint8Array(columns),
     };
   }
+}
+
+/** Whether every parameter has the same value unless it is overridden: those of the planner follow sensor and robot. */
+function sameDefaults(a: Setup, b: Setup): boolean {
+  const given = ({ preset, overrides: { planner: _, ...others } }: Setup) => JSON.stringify([preset, others]);
+  return given(a) === given(b);
 }

@@ -42,6 +42,10 @@ let lastFrame_ms = 0;
 let unsent = false;
 /** Whether the page shows the surfaces. */
 let watched = false;
+/** Whether the page shows the true skyline. */
+let truthShown = false;
+/** Whether something has changed since the decision that is shown. */
+let rethink = false;
 /** When the next surfaces may be predicted, and whether those that the page has are older than its frame. */
 let surfacesDue_ms = 0;
 let surfacesOld = false;
@@ -125,6 +129,8 @@ function showAtRest(): void {
 
 function show(): void {
   if (!session) return;
+  if (rethink && !running() && session.running) session.thinkAgain();
+  rethink = false;
   if (session.followRoute()) tellSession();
   const began_ms = performance.now();
   lastFrame_ms = began_ms;
@@ -134,7 +140,11 @@ function show(): void {
   const anew = seen === undefined;
   const newest = trail.part(seen === undefined ? 0 : seen + 1, tick);
   const ahead = rewound ? trail.after(tick) : undefined;
-  const frame: Frame = session.frame({ trail: newest, anew, ahead, rows: new Float64Array(rows) }, surfaces);
+  const frame: Frame = session.frame(
+    { trail: newest, anew, ahead, rows: new Float64Array(rows) },
+    surfaces,
+    truthShown && !running(),
+  );
   surfacesOld = !surfaces;
   if (surfaces) {
     const took_ms = performance.now() - began_ms;
@@ -182,6 +192,7 @@ async function seek(tick: number, id: number): Promise<void> {
     rested_ms = performance.now();
   }
   [seen, rewound] = [undefined, true];
+  rethink = session.tries;
   show();
 }
 
@@ -190,11 +201,20 @@ function showPatch(patch: GroundPatch): void {
   beginOtherFuture();
 }
 
+/** What is only tried at this pose holds for the run from here on. */
+function adoptTried(): void {
+  if (!session?.tries) return;
+  session.goOn();
+  trail.cut(session.standing.tick);
+  notePlace();
+  tellSession();
+}
+
 /** The ground or what stands on it has changed: what came after the present tick happened on another one. */
 function beginOtherFuture(): void {
   trail.cut(session?.standing.tick ?? 0);
   notePlace();
-  unsent = true;
+  [unsent, rethink] = [true, true];
   // The stroke goes on first: a scan of the new ground takes longer than a touch. What drives is shown by the loop.
   if (!running()) setTimeout(loop);
 }
@@ -244,6 +264,7 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
   if (!session) throw new Error('No scenario is loaded yet.');
   switch (command.type) {
     case 'play':
+      if (command.playing) adoptTried();
       playing = command.playing;
       due_ms = performance.now();
       showAtRest();
@@ -254,6 +275,7 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
       break;
     case 'step':
       playing = false;
+      adoptTried();
       advance();
       show();
       break;
@@ -270,9 +292,27 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
       tellSession();
       openFromStart();
       break;
+    case 'think':
+      session.think(command.setup);
+      tellSession();
+      show();
+      break;
+    case 'inside':
+      return session.lookInside(command.question);
+    case 'place':
+      return session.reportOn(command.place);
+    case 'climb':
+      return session.climb();
+    case 'kernel':
+      return session.kernelFrom(command.column, command.row);
+    case 'truth':
+      truthShown = command.shown;
+      if (!running()) show();
+      break;
     case 'goal':
       session.setRoute(command.waypoints, command.goal);
       trail.cut(session.standing.tick);
+      rethink = true;
       tellSession();
       show();
       break;

@@ -14,6 +14,8 @@ export interface Step {
   readonly layers: Partial<Layers>;
   /** Whether the variance image is large. */
   readonly image?: true;
+  /** Whether the Gaussian process is open to be changed by hand. */
+  readonly byHand?: true;
   /** Whether the robot drives meanwhile. */
   readonly drives?: true;
   readonly marks?: Finder;
@@ -62,7 +64,7 @@ export const STEPS: readonly Step[] = [
   {
     title: 'Where it is unsure, space is free',
     text: () =>
-      'The process also says how sure it is. Where beams came back, its variance is low: dark. Where none did, it is high: light, and taken for free space. This outer surface, and not the predicted occupancy, is what the method reads the terrain from.',
+      'The process also says how sure it is. Before any scan its variance is the same everywhere. Each return lowers it around itself, as far as the kernel reaches: dark. Where no beam came back nothing has lowered it: light, and taken for free space. This outer surface, and not the predicted occupancy, is what the method reads the terrain from.',
     camera: 'chase',
     layers: { observed: true, variance: true },
   },
@@ -73,6 +75,24 @@ export const STEPS: readonly Step[] = [
     camera: 'chase',
     layers: { variance: true },
     image: true,
+  },
+  {
+    title: 'One azimuth, cut open',
+    text: ({ threshold }) =>
+      `Beside the image, one azimuth is unrolled: point at another in the image. Dots are its returns; line and band are the mean and its deviation σ; ticks are the inducing inputs, the few directions through which the process sees all returns. On the right is the variance: low among the returns, rising above the last. Where it crosses V_th, ${fixed(threshold, 2)}, the skyline lies. Drag V_th: a higher one takes more for ground and lifts the skyline, the dotted one is true.`,
+    camera: 'chase',
+    layers: {},
+    image: true,
+    byHand: true,
+  },
+  {
+    title: 'Why it is not left to learn',
+    text: (_, { learning, preset }) =>
+      `The paper learns kernel and noise on every scan, by climbing a bound on the likelihood. Press “Learned…” and drag the steps: the bound rises, the kernel widens, and the skyline leaves the ground, because the process assumes a mean of zero and a scan lies metres above it. ${learning === 'fixed' ? `So ${preset === 'paper' ? 'also the literal planner here' : 'this planner'} does not learn unless it is told to.` : 'Learning is on now, and holds the values within bounds.'} “As it was” takes it back.`,
+    camera: 'chase',
+    layers: {},
+    image: true,
+    byHand: true,
   },
   {
     title: 'Level segments',

@@ -12,19 +12,22 @@ export interface TourHost {
   readonly layers: Layers;
   readonly camera: CameraMode;
   readonly imageIsLarge: boolean;
+  readonly isByHand: boolean;
   readonly playing: boolean;
   /** The newest frame of a running trial, with a decision in it. */
   decided(): Promise<{ frame: Frame; info: SessionInfo }>;
   showLayers(layers: Layers): void;
   view(camera: CameraMode): void;
   enlargeImage(large: boolean): void;
+  /** Opens the Gaussian process to be changed by hand, or closes it. */
+  byHand(open: boolean): Promise<void>;
   play(playing: boolean): Promise<void>;
   pin(finder: Finder | undefined): void;
 }
 
 export class Tour {
   readonly #host: TourHost;
-  readonly #before: Pick<TourHost, 'layers' | 'camera' | 'imageIsLarge' | 'playing'>;
+  readonly #before: Pick<TourHost, 'layers' | 'camera' | 'imageIsLarge' | 'isByHand' | 'playing'>;
   readonly #card: HTMLElement;
   readonly #ended: () => void;
   readonly #count = html('p', 'tour-count');
@@ -39,8 +42,8 @@ export class Tour {
     this.#card = card;
     this.#host = host;
     this.#ended = ended;
-    const { layers, camera, imageIsLarge, playing } = host;
-    this.#before = { layers, camera, imageIsLarge, playing };
+    const { layers, camera, imageIsLarge, isByHand, playing } = host;
+    this.#before = { layers, camera, imageIsLarge, isByHand, playing };
     const words = html('div', 'tour-words', [this.#title, this.#text]);
     words.setAttribute('aria-live', 'polite');
     const end = button('End the tour', 'plain', () => this.end());
@@ -58,12 +61,13 @@ export class Tour {
     this.#card.removeEventListener('keydown', this.#key);
     this.#card.hidden = true;
     this.#card.replaceChildren();
-    const { layers, camera, imageIsLarge, playing } = this.#before;
+    const { layers, camera, imageIsLarge, isByHand, playing } = this.#before;
     this.#host.pin(undefined);
     this.#host.showLayers(layers);
     // What the last step leaves running goes on.
     this.#host.view(this.#at === STEPS.length - 1 ? 'chase' : camera);
     this.#host.enlargeImage(imageIsLarge);
+    void this.#host.byHand(isByHand);
     void this.#host.play(playing || this.#at === STEPS.length - 1);
     this.#ended();
   }
@@ -77,6 +81,7 @@ export class Tour {
     const { frame, info } = await this.#host.decided();
     this.#host.showLayers({ ...BARE, ...step.layers });
     this.#host.enlargeImage(step.image ?? false);
+    await this.#host.byHand(step.byHand ?? false);
     this.#host.view(step.camera);
     this.#host.pin(step.marks);
     setText(this.#count, `${to + 1} of ${STEPS.length}`);

@@ -216,6 +216,10 @@ export interface SessionOptions {
 export interface Frame {
     tick: number;
     time_s: number;
+    /**
+     * Whether what is sensed and decided here is the run's.
+     */
+    thought: Thought;
     outcome: Outcome;
     activity: Activity;
     /**
@@ -311,6 +315,20 @@ export interface SetAside {
 }
 
 /**
+ * How the robot would stand with one heading, by the true ground.
+ */
+export interface HeadingThere {
+    heading_rad: number;
+    roll_rad: number;
+    pitch_rad: number;
+    is_too_steep: boolean;
+    /**
+     * What the body would do there, as `run into an object`, if anything.
+     */
+    touches: string | undefined;
+}
+
+/**
  * Lattice of the predicted surfaces; the observed one has a row for each ring of the sensor.
  */
 export interface ImageSize {
@@ -323,6 +341,23 @@ export interface ImageSize {
  * Objects, as in scenario files.
  */
 export type ObjectList = WorldObject[];
+
+/**
+ * One step of learning.
+ */
+export interface ClimbStep {
+    /**
+     * Nats.
+     */
+    bound: number;
+    variance_m2: number;
+    /**
+     * Over azimuth and elevation.
+     */
+    length_scales_rad: [number, number];
+    alpha: number;
+    noise_variance_m2: number;
+}
 
 /**
  * One tick: where the robot was when the scan was taken, what the planner decided on it, and what came of
@@ -449,6 +484,28 @@ export interface Metrics {
 }
 
 /**
+ * The process over the scan, with these inducing inputs.
+ */
+export interface Inside {
+    /**
+     * Column and row of each inducing input, those left out among them.
+     */
+    inducing: Uint16Array<ArrayBuffer>;
+    /**
+     * As in `FrameBuffers`.
+     */
+    occupancy: Float32Array<ArrayBuffer>;
+    /**
+     * As in `FrameBuffers`.
+     */
+    variance: Float32Array<ArrayBuffer>;
+    /**
+     * As in `FrameBuffers`.
+     */
+    profile: Float32Array<ArrayBuffer>;
+}
+
+/**
  * The value of a parameter.
  */
 export type OverrideValue = number | string | boolean | readonly (OverrideValue | Overrides)[];
@@ -509,6 +566,14 @@ export interface FrameBuffers {
      * Elevation of the skyline in each column; NaN where there is none.
      */
     profile: Float32Array<ArrayBuffer>;
+    /**
+     * The skyline before somebody made the planner think again, likewise; NaN throughout where nobody did.
+     */
+    former: Float32Array<ArrayBuffer>;
+    /**
+     * The true skyline where it was asked for, NaN elsewhere: what endlessly many beams would show.
+     */
+    truth: Float32Array<ArrayBuffer>;
     /**
      * What each column shows: 0 ground, 1 unknown, 2 wall.
      */
@@ -604,6 +669,20 @@ export interface SegmentDemands {
 export type StrokeKind = "raise" | "lower" | "smooth" | "level" | "roughen" | "crater" | "boulder" | "ramp" | "ditch";
 
 /**
+ * What is true of a place, and what the scan in view saw of it.
+ */
+export interface PlaceReport {
+    /**
+     * Seen from above, from the place to the nearest return; absent without returns.
+     */
+    nearest_return_m: number | undefined;
+    /**
+     * Evenly around the circle, from east counter-clockwise; empty off the terrain.
+     */
+    headings: HeadingThere[];
+}
+
+/**
  * What people are told of a parameter.
  */
 export interface Parameter {
@@ -670,6 +749,32 @@ export interface Forecast {
 export type Activity = "driving" | "arrived" | "searching" | "stopped" | "backtracking";
 
 /**
+ * What the planner thinks with.
+ */
+export interface ThinkingWith {
+    overrides: Overrides;
+    preset: PresetName;
+    /**
+     * The scenario's own without it.
+     */
+    learning?: Learning;
+}
+
+/**
+ * What to look at.
+ */
+export interface InsideQuestion {
+    /**
+     * The planner's own without it.
+     */
+    placement?: Placement;
+    /**
+     * The inducing inputs to leave out, by their numbers in the answer without this.
+     */
+    without: readonly number[];
+}
+
+/**
  * When the planner learns the hyperparameters of its Gaussian process.
  */
 export type Learning = "fixed" | "once" | "every_scan";
@@ -685,6 +790,11 @@ export interface Timeline {
      */
     changes: readonly number[];
 }
+
+/**
+ * Where the inducing inputs are.
+ */
+export type Placement = "lattice" | "farthest_points" | "strided";
 
 /**
  * Where the robot is: x east, y north, z up; pitch positive nose-up, roll positive with the left side up.
@@ -767,6 +877,11 @@ export interface Route {
 }
 
 /**
+ * Whether a frame shows what the run decided.
+ */
+export type Thought = "run" | "again" | "what_if";
+
+/**
  * Whether subgoals may stand on a segment, and if not, why.
  */
 export type Verdict = "valid" | "too_narrow" | "too_steep" | "unknown" | "wall";
@@ -794,22 +909,38 @@ export class Session {
     free(): void;
     [Symbol.dispose](): void;
     /**
+     * The climb of the bound on this scan with nothing to hold the hyperparameters, the start first.
+     *
+     * # Errors
+     * The bound has no value, as without returns.
+     */
+    climb(): ClimbStep[];
+    /**
      * Digest of the trajectory so far.
      */
     digest(): string;
     /**
+     * Shows what the run decided again.
+     */
+    forget_thought(): void;
+    /**
      * The present state. Fills `buffers`; the surfaces only where `surfaces` is set, since predicting them
-     * takes longer than deciding.
+     * takes longer than deciding, and the true skyline only where `truth` is.
      *
      * # Errors
      * A start whose ground has gone.
      */
-    frame(buffers: FrameBuffers, surfaces: boolean): Frame;
+    frame(buffers: FrameBuffers, surfaces: boolean, truth: boolean): Frame;
     /**
      * Goes back to `tick`, or to the nearest one that can be gone to; gives that. The session may stand
      * shortly before it: running forward from there repeats what happened.
      */
     go_back(tick: number): number;
+    /**
+     * Goes on from here with the parameters that were thought with last; without such, nothing changes. The
+     * timeline begins anew.
+     */
+    go_on_so(): void;
     /**
      * The whole ground.
      *
@@ -817,6 +948,18 @@ export class Session {
      * None, unless JavaScript runs out of memory.
      */
     ground(): Ground;
+    /**
+     * The covariance of every direction of the surfaces with one of them, as a share of the signal variance.
+     */
+    kernel_from(column: number, row: number): Float32Array;
+    /**
+     * Predicts the surfaces of the scan that is shown with inducing inputs of one's own choice. Nothing
+     * changes for the run.
+     *
+     * # Errors
+     * No posterior with these inducing inputs.
+     */
+    look_inside(question: InsideQuestion): Inside;
     /**
      * Loads a scenario.
      *
@@ -838,6 +981,13 @@ export class Session {
      * A value that does not fit the preset.
      */
     parameters(): ParameterGroup[];
+    /**
+     * Tells of a place on the ground.
+     *
+     * # Errors
+     * None, unless JavaScript runs out of memory.
+     */
+    place_report(place: Place): PlaceReport;
     /**
      * Puts other heights in place of those in a rectangle.
      *
@@ -910,6 +1060,15 @@ export class Session {
      */
     standing(): Standing;
     /**
+     * Senses and decides again where the robot stands, with other parameters where they are given; frames
+     * show that until the run goes on. The run itself stays as it was.
+     *
+     * # Errors
+     * A value that makes no sense or cannot change under way, with its place and what was expected; nothing
+     * then changes.
+     */
+    think_again(_with?: ThinkingWith | null): void;
+    /**
      * Runs one tick: senses, plans, acts.
      *
      * # Errors
@@ -972,13 +1131,19 @@ export interface InitOutput {
     readonly import_of: (a: number, b: number, c: number, d: number) => [number, number, number];
     readonly level_places: (a: any) => [number, number, number];
     readonly read_scenario: (a: number, b: number, c: number, d: number) => [number, number, number];
+    readonly session_climb: (a: number) => [number, number, number, number];
     readonly session_digest: (a: number) => [number, number];
-    readonly session_frame: (a: number, b: any, c: number) => [number, number, number];
+    readonly session_forget_thought: (a: number) => void;
+    readonly session_frame: (a: number, b: any, c: number, d: number) => [number, number, number];
     readonly session_go_back: (a: number, b: number) => number;
+    readonly session_go_on_so: (a: number) => void;
     readonly session_ground: (a: number) => [number, number, number];
+    readonly session_kernel_from: (a: number, b: number, c: number) => any;
+    readonly session_look_inside: (a: number, b: any) => [number, number, number];
     readonly session_new: (a: any) => [number, number, number];
     readonly session_objects: (a: number) => [number, number, number];
     readonly session_parameters: (a: number) => [number, number, number, number];
+    readonly session_place_report: (a: number, b: any) => [number, number, number];
     readonly session_replace_ground: (a: number, b: any) => [number, number];
     readonly session_restart: (a: number) => [number, number];
     readonly session_scene: (a: number) => [number, number, number];
@@ -989,6 +1154,7 @@ export interface InitOutput {
     readonly session_set_start: (a: number, b: any) => [number, number];
     readonly session_solids: (a: number) => [number, number, number];
     readonly session_standing: (a: number) => [number, number, number];
+    readonly session_think_again: (a: number, b: number) => [number, number];
     readonly session_tick: (a: number) => [number, number, number];
     readonly start: () => void;
     readonly terrain_preview: (a: any, b: number) => [number, number, number];

@@ -196,8 +196,25 @@ impl Learner {
         inducing: &[DVec2],
         start: &Hyperparameters,
     ) -> Result<Learned, LearningError> {
+        self.learn_watched(inputs, targets, inducing, start, |_, _| {})
+    }
+
+    /// As [`Learner::learn`]; `watch` is told the hyperparameters and the bound (nats) of every evaluation,
+    /// the start among them. Some evaluations are steps too far and lie lower than those before.
+    ///
+    /// # Errors
+    /// As [`Learner::learn`].
+    pub fn learn_watched(
+        &mut self,
+        inputs: &[DVec2],
+        targets: &[f64],
+        inducing: &[DVec2],
+        start: &Hyperparameters,
+        mut watch: impl FnMut(&Hyperparameters, f64),
+    ) -> Result<Learned, LearningError> {
         let space = Space::new(&self.config, start, inducing)?;
         let bound_before = self.bound.evaluate(inputs, targets, inducing, start)?;
+        watch(start, bound_before);
         let mut gradient = vec![0.0; space.start.len()];
         space.write_gradient(&self.bound, &mut gradient);
         let bounds = space.bounds(&self.config, inputs);
@@ -212,6 +229,7 @@ impl Learner {
             |x, gradient| {
                 let hyperparameters = space.read(x, &mut moved);
                 let value = self.bound.evaluate(inputs, targets, &moved, &hyperparameters).ok()?;
+                watch(&hyperparameters, value);
                 space.write_gradient(&self.bound, gradient);
                 Some(value)
             },

@@ -23,7 +23,9 @@ use crate::math::panels::{self, Row, WIDTH};
 use crate::skyline::beam_grid::{BeamGrid, RING_STEP_RAD, ROWS_PER_RING};
 use crate::skyline::columns::{COLUMN_STEP_RAD, COLUMNS};
 use crate::skyline::occupancy::OccupancySurface;
-use crate::skyline::surface::{REACH_LENGTH_SCALES, ROW_STEP_RAD, SECTOR_COLUMNS, SECTORS};
+use crate::skyline::surface::{
+    GpDiagnostics, PredictedSurface, REACH_LENGTH_SCALES, ROW_STEP_RAD, SECTOR_COLUMNS, SECTORS,
+};
 
 /// The cells of one column that the process is to be fitted to, one bit for each ring.
 pub(crate) type RingMask = u64;
@@ -76,6 +78,8 @@ pub(crate) struct BeamGp {
     margin_columns: usize,
     /// The column where the first sector and the lattice begin.
     origin: usize,
+    /// Rows of the inducing inputs in each column, where somebody else has placed them.
+    placed: Option<Vec<Vec<usize>>>,
     /// Row of each inducing input, position by position.
     rows: Vec<usize>,
     /// Where each position's inducing inputs begin; one more than positions.
@@ -124,6 +128,7 @@ impl BeamGp {
             stride_rings,
             margin_columns,
             origin: 0,
+            placed: None,
             rows: Vec::with_capacity(most_inputs),
             starts: Vec::with_capacity(positions + 1),
             positions: Vec::with_capacity(most_inputs),
@@ -140,6 +145,27 @@ impl BeamGp {
             posterior: Vec::new(),
             jitter: 0.0,
         }
+    }
+
+    /// Places the inducing inputs at these columns and rows from now on, instead of every few of both. Rows
+    /// lie where [`BeamGp::directions`] may give them.
+    pub(crate) fn place(&mut self, inputs: impl Iterator<Item = (usize, usize)>) {
+        self.stride_columns = 1;
+        let mut placed = vec![Vec::new(); COLUMNS];
+        for (column, row) in inputs {
+            placed[column].push(row);
+        }
+        for rows in &mut placed {
+            rows.sort_unstable();
+        }
+        self.placed = Some(placed);
+    }
+
+    /// Column and row of each inducing input of the last scan.
+    pub(crate) fn directions(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        (0..self.inducing_inputs()).map(|input| {
+            (self.column_at((self.positions[input] * self.stride_columns) as i64), self.rows[input])
+        })
     }
 
     /// Takes the cells in `masks` (one for each column), and places the inducing inputs among them.
@@ -181,6 +207,12 @@ impl BeamGp {
         let last = (COLUMNS + 2 * self.margin_columns) / self.stride_columns;
         for position in 0..=last {
             self.starts.push(self.rows.len());
+            if let Some(placed) = &self.placed {
+                let rows = &placed[self.column_at(position as i64)];
+                self.rows.extend_from_slice(rows);
+                self.positions.extend(core::iter::repeat_n(position, rows.len()));
+                continue;
+            }
             let middle = position as i64 * stride;
             let near = middle - stride / 2..middle + (stride + 1) / 2;
             let rings = near.fold(0, |rings, unrolled| rings | masks[self.column_at(unrolled)]);
@@ -344,6 +376,37 @@ impl BeamGp {
         }
     }
 
+    /// Both surfaces, from all cells of the observed one.
+    ///
+    /// # Errors
+    /// [`GpError::IllConditioned`].
+    pub(crate) fn predict(
+        &mut self,
+        observed: &OccupancySurface,
+        surface: &mut PredictedSurface,
+    ) -> Result<(), GpError> {
+        self.observe(observed, &all_cells(observed));
+        surface.diagnostics =
+            GpDiagnostics { inducing_inputs: self.inducing_inputs(), ..GpDiagnostics::default() };
+        surface.mean_m.fill(0.0);
+        surface.relative_variance.fill(1.0);
+        let rows = surface.rows();
+        let queries: Vec<Query> =
+            (0..SECTOR_COLUMNS).flat_map(|column| (0..rows).map(move |row| Query { column, row })).collect();
+        let mut values = Vec::new();
+        for sector in 0..SECTORS {
+            if !self.enter(sector)? {
+                continue;
+            }
+            surface.diagnostics.jitter = surface.diagnostics.jitter.max(self.jitter());
+            self.relative_variances(sector, &queries, &mut values);
+            scatter(&values, rows, self.sector_columns(sector), &mut surface.relative_variance);
+            self.means(&mut values);
+            scatter(&values, rows, self.sector_columns(sector), &mut surface.mean_m);
+        }
+        Ok(())
+    }
+
     /// Covariances of the window's inducing inputs with a panel of queries; zero beyond the last.
     fn fill_covariances(&mut self, sector: usize, queries: &[Query]) {
         self.prior.clear();
@@ -357,6 +420,23 @@ impl BeamGp {
             self.prior.push(lanes);
         }
     }
+}
+
+/// Copies whole columns of a sector to their places.
+fn scatter(values: &[f64], rows: usize, columns: impl Iterator<Item = usize>, surface: &mut [f64]) {
+    for (values, column) in values.chunks_exact(rows).zip(columns) {
+        surface[column * rows..(column + 1) * rows].copy_from_slice(values);
+    }
+}
+
+/// Every cell of every column.
+pub(crate) fn all_cells(observed: &OccupancySurface) -> Vec<RingMask> {
+    (0..COLUMNS).map(|column| occupied_rings(observed, column)).collect()
+}
+
+/// The rings with a cell in this column.
+pub(crate) fn occupied_rings(observed: &OccupancySurface, column: usize) -> RingMask {
+    observed.column(column).iter().fold(0, |mask, cell| mask | 1 << cell.ring)
 }
 
 /// The begin of the smallest rotation of a circular sequence.
@@ -387,7 +467,6 @@ mod tests {
     use crate::config::PlannerConfig;
     use crate::gp::sparse::SparseGp;
     use crate::skyline::columns::column_azimuth_rad;
-    use crate::skyline::edge_tracer::all_cells;
     use crate::skyline::surface::row_rad;
     use crate::testing::{undulating_scan, vlp16_surface};
     use glam::DVec2;

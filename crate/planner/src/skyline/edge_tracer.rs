@@ -6,7 +6,7 @@
 
 use crate::config::PerceptionConfig;
 use crate::gp::jitter::GpError;
-use crate::skyline::beam_gp::{BeamGp, Query, RingMask};
+use crate::skyline::beam_gp::{BeamGp, Query, RingMask, occupied_rings};
 use crate::skyline::beam_grid::{BeamGrid, RING_STEP_RAD, ROWS_PER_RING};
 use crate::skyline::columns::{COLUMN_STEP_RAD, COLUMNS};
 use crate::skyline::occupancy::OccupancySurface;
@@ -15,15 +15,6 @@ use crate::skyline::surface::{GpDiagnostics, REACH_LENGTH_SCALES, SECTOR_COLUMNS
 
 /// Rows of a column predicted together.
 const ROWS_AT_ONCE: usize = 4;
-
-/// Every cell of every column.
-pub(crate) fn all_cells(observed: &OccupancySurface) -> Vec<RingMask> {
-    (0..COLUMNS).map(|column| occupied_rings(observed, column)).collect()
-}
-
-fn occupied_rings(observed: &OccupancySurface, column: usize) -> RingMask {
-    observed.column(column).iter().fold(0, |mask, cell| mask | 1 << cell.ring)
-}
 
 /// Follows the edge around the circle.
 #[derive(Clone, Debug)]

@@ -6,6 +6,7 @@ pub mod beam_grid;
 pub mod columns;
 pub(crate) mod edge_tracer;
 pub(crate) mod inducing;
+pub mod inspection;
 pub mod occupancy;
 pub mod perception;
 pub mod profile;

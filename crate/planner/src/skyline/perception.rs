@@ -11,15 +11,13 @@ use crate::config::{InducingInputs, PerceptionConfig};
 use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::jitter::GpError;
 use crate::gp::learning::{Learner, LearningConfig, LearningMode};
-use crate::skyline::beam_gp::{BeamGp, Query};
+use crate::skyline::beam_gp::BeamGp;
 use crate::skyline::beam_grid::BeamGrid;
-use crate::skyline::edge_tracer::{EdgeTracer, all_cells};
+use crate::skyline::edge_tracer::EdgeTracer;
 use crate::skyline::inducing::FarthestPoints;
 use crate::skyline::occupancy::OccupancySurface;
 use crate::skyline::profile::{ElevationProfile, read_profile};
-use crate::skyline::surface::{
-    GpDiagnostics, LearnedHyperparameters, PredictedSurface, SECTOR_COLUMNS, SECTORS,
-};
+use crate::skyline::surface::{GpDiagnostics, LearnedHyperparameters, PredictedSurface};
 use crate::skyline::window_gp::WindowGp;
 
 /// Number of farthest points through which hyperparameters are learned: enough for them, and a bound on the
@@ -44,8 +42,6 @@ pub(crate) struct Perception {
     learner: Learner,
     learned: Option<LearnedHyperparameters>,
     farthest_points: FarthestPoints,
-    queries: Vec<Query>,
-    values: Vec<f64>,
 }
 
 impl Process {
@@ -75,8 +71,6 @@ impl Perception {
             config,
             surface: PredictedSurface::new(grid.rows()),
             diagnostics: GpDiagnostics::default(),
-            queries: Vec::new(),
-            values: Vec::new(),
         }
     }
 
@@ -157,42 +151,10 @@ impl Perception {
     /// Both surfaces, predicted from the observed one.
     pub(crate) fn surface(&mut self, observed: &OccupancySurface) -> Result<&PredictedSurface, GpError> {
         match &mut self.process {
-            Process::Lattice(gp) => {
-                gp.observe(observed, &all_cells(observed));
-                self.surface.diagnostics =
-                    GpDiagnostics { inducing_inputs: gp.inducing_inputs(), ..GpDiagnostics::default() };
-                self.surface.mean_m.fill(0.0);
-                self.surface.relative_variance.fill(1.0);
-                self.queries.clear();
-                let (columns, rows) = (0..SECTOR_COLUMNS, self.surface.rows());
-                self.queries
-                    .extend(columns.flat_map(|column| (0..rows).map(move |row| Query { column, row })));
-                for sector in 0..SECTORS {
-                    if !gp.enter(sector)? {
-                        continue;
-                    }
-                    self.surface.diagnostics.jitter = self.surface.diagnostics.jitter.max(gp.jitter());
-                    gp.relative_variances(sector, &self.queries, &mut self.values);
-                    scatter(
-                        &self.values,
-                        rows,
-                        gp.sector_columns(sector),
-                        &mut self.surface.relative_variance,
-                    );
-                    gp.means(&mut self.values);
-                    scatter(&self.values, rows, gp.sector_columns(sector), &mut self.surface.mean_m);
-                }
-            }
+            Process::Lattice(gp) => gp.predict(observed, &mut self.surface)?,
             Process::FarthestPoints(gp) => gp.predict(observed, &mut self.surface)?,
         }
         Ok(&self.surface)
-    }
-}
-
-/// Copies whole columns of a sector to their places.
-fn scatter(values: &[f64], rows: usize, columns: impl Iterator<Item = usize>, surface: &mut [f64]) {
-    for (values, column) in values.chunks_exact(rows).zip(columns) {
-        surface[column * rows..(column + 1) * rows].copy_from_slice(values);
     }
 }
 

@@ -67,6 +67,11 @@ impl Reality {
         *self = Self::new(self.config.clone(), seed, robot, self.steps, period_s);
     }
 
+    /// Whether the same goes wrong in both.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        self.config == other.config
+    }
+
     /// Takes a scan into `scan`; returns whether the sensor saw anything. Late and lost scans leave `scan` as
     /// it was.
     pub(crate) fn look(&mut self, sensor: &Lidar, view: View<'_>, scan: &mut Scan) -> bool {

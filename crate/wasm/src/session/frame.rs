@@ -2,13 +2,16 @@
 
 use glam::DVec3;
 use js_sys::{Float32Array, Uint8Array};
+use mapless::skyline::columns::{COLUMNS, column_azimuth_rad};
 use mapless_trials::PoseConfig;
+use mapless_world::{Skyline, true_skyline};
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-use super::Session;
 use super::tick::{Activity, Velocity};
+use super::what_if::Thought;
+use super::{Moment, Session, Truth};
 use crate::decision::{self, PathPoint, Segment, Subgoal};
 use crate::objects::Solid;
 use crate::returns::{self, SetAside};
@@ -19,6 +22,8 @@ use crate::shared::{Metrics, Outcome, Pose, give, read};
 pub struct Frame {
     tick: u64,
     time_s: f64,
+    /// Whether what is sensed and decided here is the run's.
+    thought: Thought,
     outcome: Outcome,
     activity: Activity,
     /// Why the planner stopped, or what the body touched, where the trial ended so.
@@ -83,6 +88,14 @@ pub struct FrameBuffers {
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Float32Array<ArrayBuffer>")]
     profile: Float32Array,
+    /// The skyline before somebody made the planner think again, likewise; NaN throughout where nobody did.
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Float32Array<ArrayBuffer>")]
+    former: Float32Array,
+    /// The true skyline where it was asked for, NaN elsewhere: what endlessly many beams would show.
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "Float32Array<ArrayBuffer>")]
+    truth: Float32Array,
     /// What each column shows: 0 ground, 1 unknown, 2 wall.
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Uint8Array<ArrayBuffer>")]
@@ -137,11 +150,16 @@ pub struct Timeline {
 #[wasm_bindgen]
 impl Session {
     /// The present state. Fills `buffers`; the surfaces only where `surfaces` is set, since predicting them
-    /// takes longer than deciding.
+    /// takes longer than deciding, and the true skyline only where `truth` is.
     ///
     /// # Errors
     /// A start whose ground has gone.
-    pub fn frame(&mut self, buffers: Ts<FrameBuffers>, surfaces: bool) -> Result<Ts<Frame>, JsError> {
+    pub fn frame(
+        &mut self,
+        buffers: Ts<FrameBuffers>,
+        surfaces: bool,
+        truth: bool,
+    ) -> Result<Ts<Frame>, JsError> {
         self.look_again()?;
         let buffers = read(buffers)?;
         let returns = self.fill_points(&buffers.points);
@@ -150,12 +168,17 @@ impl Session {
         if surfaces {
             self.fill_surfaces(&buffers);
         }
-        let trial = &self.now.trial;
+        buffers.truth.fill(f32::NAN, 0, buffers.truth.length());
+        if truth {
+            self.fill_truth(&buffers.truth);
+        }
+        let decided = self.has_decided();
+        let trial = &self.shown().trial;
         let (step, robot) = (trial.step(), trial.robot());
-        let decided = trial.ticks() > 0;
         give(&Frame {
             tick: trial.ticks(),
             time_s: trial.time_s(),
+            thought: self.thought(),
             outcome: Outcome::of(trial),
             activity: step.status.into(),
             stop_reason: trial.end_reason(),
@@ -165,9 +188,9 @@ impl Session {
             omega_rad_s: robot.turn_rate_rad_s,
             command: step.command.into(),
             returns,
-            set_aside: SetAside::of(self.now.return_kinds()),
+            set_aside: SetAside::of(self.shown().return_kinds()),
             mount_misfit: self.now.mount_misfit.clone(),
-            sensor: self.now.scanned_from.into(),
+            sensor: self.shown().scanned_from.into(),
             threshold: trial.planner_config().perception.variance_threshold,
             segments: if decided { decision::segments(&step) } else { Vec::new() },
             subgoals: if decided { decision::subgoals(&step) } else { Vec::new() },
@@ -203,40 +226,85 @@ impl Session {
 
     /// Returns how many points fit.
     fn fill_points(&mut self, out: &Float32Array) -> usize {
-        let mapless_world::SensorPose { position, world_from_sensor } = self.now.scanned_from;
+        let mapless_world::SensorPose { position, world_from_sensor } = self.shown().scanned_from;
         let fit = out.length() as usize / 3;
-        self.scratch.clear();
-        for point in self.now.trial.scan().points.iter().take(fit) {
+        let mut scratch = std::mem::take(&mut self.scratch);
+        scratch.clear();
+        for point in self.shown().trial.scan().points.iter().take(fit) {
             let world = position + world_from_sensor * point.as_dvec3();
-            self.scratch.extend(world.as_vec3().to_array());
+            scratch.extend(world.as_vec3().to_array());
         }
+        self.scratch = scratch;
         self.send(out);
         self.scratch.len() / 3
     }
 
     fn fill_return_kinds(&self, out: &Uint8Array) {
-        let kinds = self.now.return_kinds().iter().take(out.length() as usize);
+        let kinds = self.shown().return_kinds().iter().take(out.length() as usize);
         let codes: Vec<u8> = kinds.map(|&kind| returns::code(kind)).collect();
         // What no planner has seen yet counts as a surface.
         out.fill(0, codes.len() as u32, out.length());
         out.subarray(0, codes.len() as u32).copy_from(&codes);
     }
 
+    /// Whether there is a decision to show.
+    fn has_decided(&self) -> bool {
+        self.shown().trial.ticks() > 0 || self.rethought.is_some()
+    }
+
     fn fill_profile(&mut self, buffers: &FrameBuffers) {
         let (profile, kinds) = (&buffers.profile, &buffers.kinds);
-        if self.now.trial.ticks() == 0 {
+        buffers.former.fill(f32::NAN, 0, buffers.former.length());
+        if let Some(rethought) = &self.rethought {
+            let fit = rethought.former.len().min(buffers.former.length() as usize);
+            buffers.former.subarray(0, fit as u32).copy_from(&rethought.former[..fit]);
+        }
+        if !self.has_decided() {
             profile.fill(f32::NAN, 0, profile.length());
             kinds.fill(0, 0, kinds.length());
             return;
         }
-        let columns = self.now.trial.step().profile;
-        self.scratch.clear();
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let columns = self.shown().trial.step().profile;
+        scratch.clear();
         let elevations = columns.iter().take(profile.length() as usize);
-        self.scratch.extend(elevations.map(decision::column_elevation_rad));
+        scratch.extend(elevations.map(decision::column_elevation_rad));
         let codes: Vec<u8> =
             columns.iter().take(kinds.length() as usize).map(decision::column_kind).collect();
+        self.scratch = scratch;
         self.send(profile);
         kinds.subarray(0, codes.len() as u32).copy_from(&codes);
+    }
+
+    /// The true skyline around the place of the last scan, along the robot's axes as the planner sees it.
+    fn fill_truth(&mut self, out: &Float32Array) {
+        let seen_from = (self.shown().scanned_from, self.shown().world_from_robot);
+        if self.truth.as_ref().is_none_or(|truth| truth.seen_from != seen_from) {
+            self.truth = Some(Truth { seen_from, elevations: self.true_elevations() });
+        }
+        let elevations = self.truth.as_ref().map_or(&[][..], |truth| &truth.elevations);
+        let fit = elevations.len().min(out.length() as usize);
+        out.subarray(0, fit as u32).copy_from(&elevations[..fit]);
+    }
+
+    fn true_elevations(&self) -> Vec<f32> {
+        let &Moment { ref trial, scanned_from, world_from_robot, .. } = self.shown();
+        let (pose, config) = (
+            mapless_world::SensorPose { world_from_sensor: world_from_robot, ..scanned_from },
+            trial.planner_config(),
+        );
+        let sensor = &config.sensor;
+        let between_rad = [sensor.lowest_elevation_rad, sensor.highest_elevation_rad];
+        let radius_m = config.perception.surface_radius_m;
+        (0..COLUMNS)
+            .map(|column| {
+                let azimuth_rad = column_azimuth_rad(column);
+                match true_skyline(trial.caster(), &pose, radius_m, azimuth_rad, between_rad) {
+                    Skyline::Ground { elevation_rad } => elevation_rad as f32,
+                    Skyline::Unknown | Skyline::Wall => f32::NAN,
+                }
+            })
+            .collect()
     }
 
     /// Where there is no posterior, nothing was observed: 0 and 1.
@@ -245,25 +313,28 @@ impl Session {
         observed.fill(f32::NAN, 0, observed.length());
         occupancy.fill(0.0, 0, occupancy.length());
         variance.fill(1.0, 0, variance.length());
-        if self.now.trial.ticks() == 0 {
+        if !self.has_decided() {
             return;
         }
-        self.scratch.clear();
-        self.scratch.resize(observed.length() as usize, f32::NAN);
-        let rings = self.now.trial.step().observed.grid().rings();
-        for cell in self.now.trial.step().observed.cells() {
-            if let Some(place) = self.scratch.get_mut(cell.column * rings + cell.ring) {
+        let mut scratch = std::mem::take(&mut self.scratch);
+        scratch.clear();
+        scratch.resize(observed.length() as usize, f32::NAN);
+        let seen = self.shown().trial.step().observed;
+        for cell in seen.cells() {
+            if let Some(place) = scratch.get_mut(cell.column * seen.rings() + cell.ring) {
                 *place = cell.occupancy_m as f32;
             }
         }
-        self.send(observed);
-        let Ok(surface) = self.now.trial.predicted_surface() else { return };
-        for (values, out) in [(&surface.mean_m, occupancy), (&surface.relative_variance, variance)] {
-            let fit = values.iter().take(out.length() as usize);
-            self.scratch.clear();
-            self.scratch.extend(fit.map(|&value| value as f32));
-            out.subarray(0, self.scratch.len() as u32).copy_from(&self.scratch);
+        observed.subarray(0, scratch.len() as u32).copy_from(&scratch);
+        if let Ok(surface) = self.shown_mut().trial.predicted_surface() {
+            for (values, out) in [(&surface.mean_m, occupancy), (&surface.relative_variance, variance)] {
+                let fit = values.iter().take(out.length() as usize);
+                scratch.clear();
+                scratch.extend(fit.map(|&value| value as f32));
+                out.subarray(0, scratch.len() as u32).copy_from(&scratch);
+            }
         }
+        self.scratch = scratch;
     }
 
     fn send(&self, out: &Float32Array) {

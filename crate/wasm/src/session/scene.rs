@@ -95,7 +95,8 @@ impl Session {
     /// # Errors
     /// A seed beyond the whole numbers of JavaScript.
     pub fn scene(&self) -> Result<Ts<Scene>, JsError> {
-        let (trial, config) = (&self.now.trial, self.now.trial.planner_config());
+        let trial = &self.shown().trial;
+        let config = trial.planner_config();
         let grid = trial.step().observed.grid();
         give(&Scene {
             seed: self.seed,
@@ -116,7 +117,7 @@ impl Session {
                 max_slope_rad: config.segments.max_slope_rad,
                 subgoals_on_unknown: config.segments.subgoals_on_unknown,
             },
-            reality: self.running.reality.matching_preset().map_or("own", RealityPreset::word),
+            reality: self.setting().0.reality.matching_preset().map_or("own", RealityPreset::word),
         })
     }
 }

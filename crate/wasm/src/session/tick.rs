@@ -113,6 +113,7 @@ impl Session {
     /// # Errors
     /// A start whose ground has gone.
     pub fn tick(&mut self) -> Result<Ts<Tick>, JsError> {
+        self.rethought = None;
         self.look_again()?;
         let began_ms = self.now_ms();
         self.now.sense();

@@ -1,0 +1,314 @@
+/**
+ * The Gaussian process by hand: its threshold, kernel, noise and inducing inputs are changed where the robot stands, and
+ * the skyline follows. One azimuth is unrolled beside the image; the kernel and the climb of the bound can be seen.
+ */
+
+import '../style/method.css';
+import type { App } from '../app/app.ts';
+import { html, setText } from '../base/dom.ts';
+import { degrees, fixed, wrap } from '../base/format.ts';
+import { readTheme, type Theme } from '../colours/theme.ts';
+import type { Overrides } from '../experiment/overrides.ts';
+import type { Plot } from '../inspector/imagePlot.ts';
+import type { VarianceImage } from '../inspector/varianceImage.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
+import { Climb } from './climb.ts';
+import { InducingInputs } from './inducingInputs.ts';
+import {
+  type Hyperparameters,
+  hyperparametersOf,
+  Knobs,
+  withHyperparameters,
+  withoutHyperparameters,
+  withPaperProcess,
+} from './knobs.ts';
+import { Newest } from './newest.ts';
+import { errorWords, skylineError } from './skylineError.ts';
+import { azimuthOf, columnOf, drawSlice } from './slice.ts';
+import { ThresholdHandle } from './thresholdHandle.ts';
+
+export class Method {
+  readonly #app: App;
+  readonly #image: VarianceImage;
+  readonly #canvas: HTMLCanvasElement;
+  readonly #element = html('section', 'method');
+  readonly #slice = html('canvas', 'slice-canvas');
+  readonly #azimuth = html('input');
+  readonly #azimuthSaid = html('output');
+  readonly #error = html('p', 'method-error');
+  readonly #kernel = html('input');
+  readonly #knobs = new Knobs(
+    (values) => this.#move(values),
+    (values) => this.#set(values),
+  );
+  readonly #handle: ThresholdHandle;
+  readonly #inputs: InducingInputs;
+  readonly #climb: Climb;
+  readonly #newest = new Newest();
+  #theme = readTheme();
+  #info: SessionInfo | undefined;
+  #frame: Frame | undefined;
+  /** The column that the slice goes through, and the row that was pointed at. */
+  #column = 180;
+  #row = 15;
+  #open = false;
+
+  /** `seen` is the section of the image, `canvas` the image in it. */
+  constructor(app: App, image: VarianceImage, seen: HTMLElement, canvas: HTMLCanvasElement) {
+    this.#app = app;
+    this.#image = image;
+    this.#canvas = canvas;
+    this.#handle = new ThresholdHandle(
+      (threshold) => this.#move({ threshold }),
+      (threshold) => this.#set({ threshold }),
+    );
+    canvas.parentElement?.append(this.#handle.element);
+    this.#inputs = new InducingInputs({
+      look: (question) => app.lookInside(question),
+      changed: () => this.#showInside(),
+      pause: () => app.pause(),
+      failed: (error) => app.attempt(Promise.reject(error)),
+    });
+    this.#climb = new Climb({
+      begin: async () => {
+        await app.pause();
+        return app.climb();
+      },
+      move: (values) => this.#move(values),
+      set: (values) => this.#set(values),
+      failed: (error) => app.attempt(Promise.reject(error)),
+    });
+    this.#build();
+    seen.append(this.#element);
+    this.#element.hidden = true;
+    new ResizeObserver(() => this.#drawSlice()).observe(this.#slice);
+    image.onDrawn((plot) => this.#handle.place(plot, this.#frame?.threshold, this.#newest.busy));
+    canvas.addEventListener('pointermove', (event) => {
+      if (event.pointerType === 'mouse' && event.buttons === 0) this.#point(event);
+    });
+    canvas.addEventListener('click', (event) => {
+      this.#point(event);
+      if (this.#open) this.#inputs.toggleAt(this.#column, this.#row);
+    });
+    if (app.info) this.session(app.info);
+    if (app.frame) this.frame(app.frame);
+  }
+
+  get isOpen(): boolean {
+    return this.#open;
+  }
+
+  show(open: boolean): void {
+    this.#open = open;
+    this.#element.hidden = !open;
+    if (!open) {
+      this.#inputs.reset();
+      this.#kernel.checked = false;
+    }
+    this.#image.drawOver(open ? (context, plot, theme) => this.#drawOver(context, plot, theme) : undefined);
+    this.#app.attempt(this.#app.showTruth(open));
+    if (open && this.#frame) this.frame(this.#frame);
+    else this.#showInside();
+  }
+
+  theme(theme: Theme): void {
+    this.#theme = theme;
+    this.#drawSlice();
+  }
+
+  session(info: SessionInfo): void {
+    this.#info = info;
+    this.#azimuth.max = String(info.image.columns / 2 - 1);
+    this.#azimuth.min = String(-info.image.columns / 2);
+    this.#knobs.show(hyperparametersOf(info), this.#newest.busy);
+  }
+
+  frame(frame: Frame): void {
+    this.#frame = frame;
+    if (!this.#open) return;
+    const { tick, thought, returns } = frame;
+    this.#inputs.scanned(this.#app.playing, JSON.stringify([tick, thought, returns, this.#info?.overrides]));
+    this.#showInside();
+  }
+
+  #build(): void {
+    const presets: [string, string, (overrides: Overrides) => Overrides][] = [
+      ['Default', 'The values of this project, chosen on recorded truth', withoutHyperparameters],
+      ['Paper’s', 'V_th 0.70, one length-scale of 2°, little noise, farthest points', withPaperProcess],
+    ];
+    const buttons = presets.map(([name, title, change]) =>
+      button(name, title, () => {
+        const { info } = this.#app;
+        if (info) this.#adjust(change(info.overrides));
+      }),
+    );
+    Object.assign(this.#azimuth, { type: 'range', step: '1', value: '0' });
+    this.#azimuth.setAttribute('aria-label', 'Azimuth of the slice');
+    this.#azimuth.addEventListener('input', () => {
+      // To the left is to the left, as in the image.
+      this.#cut(columnOf((-Number(this.#azimuth.value) * Math.PI) / 180, this.#info?.image.columns ?? 360));
+    });
+    this.#slice.setAttribute('role', 'img');
+    Object.assign(this.#kernel, { type: 'checkbox' });
+    this.#kernel.addEventListener('change', () => this.#showInside());
+    this.#error.setAttribute('role', 'status');
+    const group = html('div', 'method-presets', [...buttons, this.#climb.button]);
+    group.setAttribute('role', 'group');
+    group.setAttribute('aria-label', 'Values to begin with');
+    const kernel = html('label', 'method-check', [this.#kernel, 'kernel k(·, pointer) in the image']);
+    const equations = html('details', 'method-equations', [
+      html('summary', '', ['Equations']),
+      html('p', '', ['k(z, z′) = σ² (1 + r² / 2α)^−α,  r² = Σ ((z − z′) / ℓ)²  over azimuth and elevation']),
+      html('p', '', ['variance v = k** − k*ᵤ Kᵤᵤ⁻¹ kᵤ* + k*ᵤ (Kᵤᵤ + Kᵤf Kfᵤ / σₙ²)⁻¹ kᵤ*']),
+      html('p', '', ['mean = k*ᵤ (Kᵤᵤ + Kᵤf Kfᵤ / σₙ²)⁻¹ Kᵤf y / σₙ²,  y = 7 m − range']),
+      html('p', '', ['Free where v / σ² > V_th: no return is near, so nothing has lowered the prior variance.']),
+    ]);
+    const slice = html('div', 'method-slice', [
+      html('div', 'method-slice-head', [html('h3', '', ['One azimuth']), this.#azimuthSaid]),
+      this.#slice,
+      this.#azimuth,
+    ]);
+    const hand = html('div', 'method-hand', [
+      group,
+      this.#climb.element,
+      this.#knobs.element,
+      this.#inputs.element,
+      kernel,
+      this.#error,
+      equations,
+    ]);
+    this.#element.setAttribute('aria-label', 'The Gaussian process by hand');
+    this.#element.append(slice, hand);
+  }
+
+  /** While a slider is dragged: the answer comes at once, and holds no longer than that. */
+  #move(values: Partial<Hyperparameters>): void {
+    this.#newest.do(async () => {
+      await this.#app.pause();
+      const { info } = this.#app;
+      if (info) await this.#app.tryOut(withHyperparameters(info.overrides, values, info)).catch(() => undefined);
+    });
+  }
+
+  #set(values: Partial<Hyperparameters>): void {
+    const { info } = this.#app;
+    if (info) this.#adjust(withHyperparameters(info.overrides, values, info));
+  }
+
+  #adjust(overrides: Overrides): void {
+    this.#newest.do(async () => {
+      this.#app.touch();
+      await this.#app.pause();
+      await this.#app.attempt(this.#app.adjust({ overrides }));
+    });
+  }
+
+  /** Somebody points at the image: the slice goes through there. */
+  #point({ clientX, clientY }: MouseEvent): void {
+    if (!this.#open || !this.#info) return;
+    const box = this.#canvas.getBoundingClientRect();
+    const at = this.#image.directionAt(clientX - box.left, clientY - box.top);
+    if (!at) return;
+    this.#row = at.row;
+    this.#cut(columnOf(at.azimuth_rad, this.#info.image.columns));
+  }
+
+  #cut(column: number): void {
+    this.#column = column;
+    if (this.#kernel.checked) this.#showInside();
+    this.#drawSlice();
+    this.#image.again();
+  }
+
+  /** What the image shows in place of the planner's own variance. */
+  #showInside(): void {
+    const [info, frame] = [this.#info, this.#frame];
+    if (!info || !frame) return;
+    if (this.#open && this.#kernel.checked) {
+      const [column, row] = [this.#column, this.#row];
+      this.#newest.do(async () => {
+        const covariances = await this.#app.kernelFrom(column, row);
+        if (!this.#kernel.checked) return;
+        this.#image.showInstead({ values: covariances.map((value) => 1 - value), profile: undefined });
+      });
+    } else {
+      const { inside } = this.#inputs;
+      this.#image.showInstead(
+        this.#open && inside && this.#inputs.isOwn === false
+          ? { values: inside.variance, profile: inside.profile }
+          : undefined,
+      );
+    }
+    this.#sayError(frame);
+    this.#drawSlice();
+    this.#image.again();
+  }
+
+  #sayError({ buffers, thought }: Frame): void {
+    const profile = (this.#inputs.isOwn === false && this.#inputs.inside?.profile) || buffers.profile;
+    const now = skylineError(profile, buffers.truth);
+    const before = thought === 'what_if' ? skylineError(buffers.former, buffers.truth) : undefined;
+    const words = now ? `Off the true skyline by ${errorWords(now)}` : '';
+    setText(
+      this.#error,
+      !now
+        ? 'Pause to compare with the true skyline.'
+        : before
+          ? `${words}; the run’s: ${errorWords(before)}.`
+          : `${words}.`,
+    );
+  }
+
+  #drawSlice(): void {
+    const [info, frame] = [this.#info, this.#frame];
+    if (!this.#open || !info || !frame) return;
+    const columns = info.image.columns;
+    const azimuth_rad = wrap(azimuthOf(this.#column, columns));
+    const deg = Math.round((azimuth_rad * 180) / Math.PI);
+    this.#azimuth.value = String(-deg);
+    const where = deg === 0 ? 'ahead' : `${Math.abs(deg)}° ${deg > 0 ? 'left' : 'right'}`;
+    setText(this.#azimuthSaid, where);
+    this.#azimuth.setAttribute('aria-valuetext', where);
+    const inside = this.#inputs.isOwn === false ? this.#inputs.inside : undefined;
+    const { occupancy, variance, profile } = inside ?? frame.buffers;
+    const surfaces = { occupancy, variance, profile, inducing: this.#inputs.list };
+    drawSlice(
+      this.#slice,
+      info,
+      frame,
+      surfaces,
+      this.#column,
+      Math.sqrt(hyperparametersOf(info).variance_m2),
+      this.#theme,
+    );
+    const skyline = profile[this.#column] ?? Number.NaN;
+    const rows = info.image.rows - 1;
+    const share = Number.isNaN(skyline) ? 0.5 : (skyline * 180) / Math.PI / 30 + 0.5;
+    this.#inputs.lookAt(this.#column, Math.round(rows * Math.min(Math.max(share, 0), 1)));
+    this.#slice.setAttribute(
+      'aria-label',
+      `Slice ${where}: ${Number.isNaN(skyline) ? 'no skyline' : `skyline at ${degrees(skyline, 1)}`}, V_th ${fixed(frame.threshold, 2)}`,
+    );
+  }
+
+  #drawOver(context: CanvasRenderingContext2D, plot: Plot, theme: Theme): void {
+    const { info } = this.#app;
+    if (!info) return;
+    this.#inputs.draw(context, plot, info.image, theme);
+    const x = plot.x(wrap(azimuthOf(this.#column, info.image.columns)));
+    context.strokeStyle = `rgb(${theme.accent.join(' ')})`;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    context.moveTo(x, plot.top);
+    context.lineTo(x, plot.top + plot.height);
+    context.stroke();
+  }
+}
+
+export function button(text: string, title: string, act: () => void): HTMLButtonElement {
+  const made = html('button', 'plain', [text]);
+  made.type = 'button';
+  made.title = title;
+  made.addEventListener('click', act);
+  return made;
+}
