@@ -11,7 +11,6 @@ use crate::decision::forecast_policy::ForecastPolicy;
 use crate::decision::goal_progress::GoalProgress;
 use crate::decision::paper_policy::PaperPolicy;
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
-use crate::decision::receding_horizon_policy::RecedingHorizonPolicy;
 use crate::decision::step::{PerceptionOverride, Status, Step, StopReason};
 use crate::goal::Goal;
 use crate::gp::GpError;
@@ -63,7 +62,6 @@ pub struct Planner {
 enum Policy {
     Paper(PaperPolicy),
     Forecast(Box<ForecastPolicy>),
-    RecedingHorizon(Box<RecedingHorizonPolicy>),
 }
 
 impl Policy {
@@ -71,7 +69,6 @@ impl Policy {
         match config.decision.cost_model {
             CostModel::Paper => Self::Paper(PaperPolicy),
             CostModel::Forecast => Self::Forecast(Box::new(ForecastPolicy::new(config))),
-            CostModel::RecedingHorizon => Self::RecedingHorizon(Box::new(RecedingHorizonPolicy::new(config))),
         }
     }
 
@@ -79,7 +76,6 @@ impl Policy {
         match self {
             Self::Paper(paper) => paper,
             Self::Forecast(forecast) => &**forecast,
-            Self::RecedingHorizon(policy) => &**policy,
         }
     }
 
@@ -87,7 +83,6 @@ impl Policy {
         match self {
             Self::Paper(paper) => paper,
             Self::Forecast(forecast) => &mut **forecast,
-            Self::RecedingHorizon(policy) => &mut **policy,
         }
     }
 }
@@ -180,7 +175,6 @@ impl Planner {
                 // The paper's choice remembers nothing.
                 Policy::Paper(_) => {}
                 Policy::Forecast(policy) => policy.relocalise(&change),
-                Policy::RecedingHorizon(policy) => policy.relocalise(&change),
             }
         }
     }

@@ -9,7 +9,7 @@ use std::cell::Cell;
 use core::time::Duration;
 
 use glam::DVec2;
-use mapless::config::CostModel;
+use mapless::config::FollowingLaw;
 use mapless::{Goal, Planner, PlannerConfig, Pose, RobotModel, SensorModel, Status};
 use mapless_world::{Caster, DriveCommand, HeightField, Lidar, Robot, RobotConfig, Scan, SensorConfig};
 
@@ -100,9 +100,9 @@ fn assert_frugal(allocations: &[usize]) {
 
 #[test]
 fn a_step_allocates_nothing_after_the_first_ones() {
-    for cost_model in [CostModel::Forecast, CostModel::RecedingHorizon] {
+    for following in [FollowingLaw::Pid, FollowingLaw::RecedingHorizon] {
         let mut config = PlannerConfig::for_robot(SensorModel::default(), RobotModel::husky());
-        config.decision.cost_model = cost_model;
+        config.controller.following = following;
         assert_frugal(&drive(120, SensorConfig::default(), config));
     }
 }

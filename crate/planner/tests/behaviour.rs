@@ -7,7 +7,7 @@ use core::time::Duration;
 
 use glam::{DVec2, DVec3, Vec3};
 use mapless::Pose;
-use mapless::config::{CostModel, InducingInputs};
+use mapless::config::{FollowingLaw, InducingInputs};
 use mapless::decision::PerceptionOverride;
 use mapless::decision::subgoals::Subgoal;
 use mapless::skyline::profile::Column;
@@ -56,10 +56,10 @@ fn walled(radius_m: f64) -> impl Fn(DVec3) -> Option<f64> {
     }
 }
 
-/// Every policy, with a short spin recovery: a scan full of walls is the most expensive one.
+/// Every policy and law of following, with a short spin recovery: a scan full of walls is the most expensive one.
 fn every_policy() -> [Planner; 3] {
     let mut receding_horizon = PlannerConfig::default();
-    receding_horizon.decision.cost_model = CostModel::RecedingHorizon;
+    receding_horizon.controller.following = FollowingLaw::RecedingHorizon;
     [PlannerConfig::default(), PlannerConfig::paper(), receding_horizon].map(|mut config| {
         config.decision.spin_recovery_s = 0.3;
         Planner::new(config).unwrap()

@@ -159,8 +159,6 @@ choices! {
         Paper = "paper",
         /// Steepness from the predicted tilt of the path; every term on a fixed physical scale.
         Forecast = "forecast",
-        /// One price and one cost-to-go for search and learning, and an optimised trajectory down it.
-        RecedingHorizon = "receding_horizon",
     }
 }
 
@@ -200,10 +198,45 @@ parameters! {
     }
 }
 
+choices! {
+    /// How the robot follows the path to the chosen subgoal.
+    pub enum FollowingLaw {
+        /// The paper's PID loops, towards a lookahead point of the path.
+        Pid = "pid",
+        /// The best trajectory of the next two seconds, by its tilt, its smoothness and its progress along
+        /// the path.
+        RecedingHorizon = "receding_horizon",
+    }
+}
+
+parameters! {
+    /// What `receding_horizon` optimises. Prices are in metres of level ground.
+    #[derive(Copy)]
+    pub struct TrajectoryConfig {
+        /// Largest acceleration along the body.
+        acceleration_m_s2: f64 = 0.8, unit "m/s²", range [0.1, 3.0], check Positive;
+        /// Largest acceleration of the turn rate.
+        turn_acceleration_rad_s2: f64 = 1.5, unit "rad/s²", range [0.2, 10.0], check Positive;
+        /// Largest speed in reverse, as a share of that forward.
+        reverse_share: f64 = 0.5, range [0.1, 1.0], check UpTo(1.0);
+        /// Price of a second at 1 (rad/s²)².
+        turn_smoothness: f64 = 0.8, range [0.0, 5.0], check NotNegative;
+        /// Price of a second at 1 (m/s²)².
+        speed_smoothness: f64 = 0.28, range [0.0, 5.0], check NotNegative;
+        /// What a metre of the path is worth, as a multiple of its cost. Above the price of a metre at the
+        /// tilt limit, so that progress along a path that was found safe always pays.
+        progress_weight: f64 = 5.5, range [1.0, 20.0], check AtLeast(1.0);
+        /// Price of a square metre of (distance from the path)².
+        aside_price: f64 = 0.6, range [0.0, 5.0], check NotNegative;
+    }
+}
+
 parameters! {
     /// The controller.
     #[derive(Copy)]
     pub struct ControllerConfig {
+        /// How the path to the chosen subgoal is followed.
+        following: FollowingLaw = FollowingLaw::Pid, paper FollowingLaw::Pid;
         /// Speed limit.
         max_speed_m_s: f64 = 0.8, paper 0.8, unit "m/s", range [0.1, 3.0], check Positive;
         /// Turn-rate limit.
@@ -223,6 +256,8 @@ parameters! {
         distance: PidGains = PidGains { proportional: 0.8, ..PidGains::default() };
         /// Yaw loop: radians to radians a second.
         yaw: PidGains = PidGains { proportional: 1.5, ..PidGains::default() };
+        /// The optimised trajectory.
+        trajectory: TrajectoryConfig;
     }
 }
 

@@ -1,14 +1,15 @@
-//! The optimising controller: the best short trajectory from the present motion, by its price along the way
-//! and the cost-to-go at its end.
+//! The optimising controller: the best trajectory of the next two seconds, by the price of what it meets, its
+//! smoothness, and what is left of the path at its end.
 //!
 //! A trajectory is a speed and two turn rates, one early and one at the end of the horizon, with a straight
 //! line through time between them. A deterministic pattern search finds the best. Beside it stands the one
-//! that follows the path of the cost-to-go from place to place.
+//! that drives from point to point of the path and turns on the spot to what is aside.
 
 use core::f64::consts::TAU;
 
 use glam::DVec2;
 
+use crate::config::{ControllerConfig, PlannerConfig, TrajectoryConfig};
 use crate::control::controller::Command;
 
 /// Horizon, its steps, and the time of the first turn rate.
@@ -24,27 +25,31 @@ const TURN_FIRST_RAD: f64 = 0.5;
 /// Rounds of the pattern search; each halves its reach.
 const ROUNDS: usize = 4;
 
-/// Limits and weights of the trajectories.
+/// Limits and prices of the trajectories.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
-    pub(crate) speed_m_s: f64,
-    pub(crate) reverse_m_s: f64,
-    pub(crate) turn_rate_rad_s: f64,
-    pub(crate) acceleration_m_s2: f64,
-    pub(crate) turn_acceleration_rad_s2: f64,
-    /// Cost of (rad/s²)² for a second, metres.
-    pub(crate) smoothness: f64,
-    /// Cost of (m/s²)² for a second, metres.
-    pub(crate) speed_smoothness: f64,
+    trajectory: TrajectoryConfig,
+    controller: ControllerConfig,
     /// Cost of a radian, metres.
-    pub(crate) turn_m_rad: f64,
-    /// Weight of the cost-to-go at the end; more than 1, so that progress pays.
-    pub(crate) progress: f64,
-    pub(crate) tilt_price: f64,
-    pub(crate) reverse_price: f64,
-    /// Utilisation from which on the speed is reduced, and the least share that is kept.
-    pub(crate) regulate_from: f64,
-    pub(crate) least_share: f64,
+    turn_m_rad: f64,
+    tilt_price: f64,
+    reverse_price: f64,
+}
+
+impl Limits {
+    pub(crate) fn of(config: &PlannerConfig) -> Self {
+        Self {
+            trajectory: config.controller.trajectory,
+            controller: config.controller,
+            turn_m_rad: config.state_lattice.turn_m_rad(),
+            tilt_price: config.state_lattice.tilt_price,
+            reverse_price: config.state_lattice.reverse_price,
+        }
+    }
+
+    fn reverse_m_s(&self) -> f64 {
+        self.trajectory.reverse_share * self.controller.max_speed_m_s
+    }
 }
 
 /// A pose in the plane.
@@ -54,6 +59,15 @@ pub(crate) struct PlanPose {
     pub(crate) yaw_rad: f64,
 }
 
+impl PlanPose {
+    /// Drives for a short time with a command.
+    fn advance(&mut self, command: &Command, time_s: f64) {
+        let (sin, cos) = libm::sincos(self.yaw_rad + 0.5 * command.angular_rad_s * time_s);
+        self.position_m += DVec2::new(cos, sin) * (command.linear_m_s * time_s);
+        self.yaw_rad += command.angular_rad_s * time_s;
+    }
+}
+
 /// Where a trajectory begins, and the last command, from which it accelerates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start {
@@ -61,7 +75,8 @@ pub(crate) struct Start {
     pub(crate) command: Command,
 }
 
-/// What a trajectory meets at a pose.
+/// What a trajectory meets at a pose: (slope / limit)², with what makes a place dear, and the share of the
+/// limits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Met {
     pub(crate) risk: f64,
@@ -70,10 +85,10 @@ pub(crate) struct Met {
 
 /// Where trajectories are judged.
 pub(crate) trait Course {
-    /// What the ground does to the robot at a pose; `None` if it must not be there.
+    /// What the ground does to the robot at a pose; `None` if it may not be there.
     fn met(&self, pose: &PlanPose) -> Option<Met>;
-    /// Cost-to-go from a pose.
-    fn cost_to_go_m(&self, pose: &PlanPose) -> Option<f64>;
+    /// Cost of what is left of the path from a pose.
+    fn cost_to_go_m(&self, pose: &PlanPose) -> f64;
     /// A path to follow, as points and whether each is driven to in reverse.
     fn path(&self) -> impl Iterator<Item = (DVec2, bool)>;
 }
@@ -123,16 +138,12 @@ impl TrajectoryOptimiser {
         self.last = STAND;
     }
 
-    /// The command that begins the best trajectory from a pose and the last command; `None` if there is none.
-    /// Writes the trajectory to `path`.
-    pub(crate) fn drive(
-        &mut self,
-        course: &impl Course,
-        from: Start,
-        path: &mut Vec<PlanPose>,
-    ) -> Option<Command> {
-        let Limits { speed_m_s, reverse_m_s, turn_rate_rad_s, .. } = self.limits;
-        let cost = |plan: &Plan| self.roll_out(course, from, Law::Plan(plan), None).0;
+    /// The command that begins the best trajectory from a pose and the last command. If every trajectory meets
+    /// what it must not, it begins the drive along the path, which was found safe.
+    pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Command {
+        let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
+        let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
+        let cost = |plan: &Plan| self.roll_out(course, from, Law::Plan(plan)).0;
         let mut best = (self.last, cost(&self.last));
         let try_plan = |best: &mut (Plan, f64), plan: Plan| {
             let plan = Plan {
@@ -167,24 +178,25 @@ impl TrajectoryOptimiser {
             reach *= 0.5;
         }
         // What no such trajectory can do, as to turn first and then to drive, following the path can.
-        let law = if self.roll_out(course, from, Law::Follow, None).0 < best.1 {
+        let law = if self.roll_out(course, from, Law::Follow).0 < best.1 {
             Law::Follow
         } else {
             Law::Plan(&best.0)
         };
-        path.clear();
-        let (cost, command) = self.roll_out(course, from, law, Some(path));
+        let (cost, command) = self.roll_out(course, from, law);
         if !cost.is_finite() {
+            // The robot stands beside what was found safe: the path leads off it.
             self.reset();
-            return None;
+            return self.roll_out(course, from, Law::Follow).1;
         }
         self.last = best.0;
-        Some(command)
+        command
     }
 
     /// Speed and turn rate towards a point.
     fn towards(&self, pose: &PlanPose, point_m: DVec2, reverse: bool) -> (f64, f64) {
-        let Limits { speed_m_s, reverse_m_s, turn_rate_rad_s, .. } = self.limits;
+        let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
+        let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
         let path_m = point_m - pose.position_m;
         let path_m = if reverse { -path_m } else { path_m };
         let aside_rad = libm::remainder(libm::atan2(path_m.y, path_m.x) - pose.yaw_rad, TAU);
@@ -197,13 +209,8 @@ impl TrajectoryOptimiser {
     }
 
     /// Cost of a trajectory, and its first command.
-    fn roll_out(
-        &self,
-        course: &impl Course,
-        from: Start,
-        law: Law<'_>,
-        mut path: Option<&mut Vec<PlanPose>>,
-    ) -> (f64, Command) {
+    fn roll_out(&self, course: &impl Course, from: Start, law: Law<'_>) -> (f64, Command) {
+        let Limits { trajectory, controller, .. } = &self.limits;
         let limits = &self.limits;
         let Start { mut pose, command: last } = from;
         let (mut speed, mut turn) = (last.linear_m_s, last.angular_rad_s);
@@ -221,25 +228,23 @@ impl TrajectoryOptimiser {
                     way.peek().map_or((0.0, 0.0), |&(point_m, reverse)| self.towards(&pose, point_m, reverse))
                 }
             };
-            let most = limits.turn_acceleration_rad_s2 * STEP_S;
+            let most = trajectory.turn_acceleration_rad_s2 * STEP_S;
             let next_turn = turn + (wanted - turn).clamp(-most, most);
-            let kept =
-                ((1.0 - met.utilisation) / (1.0 - limits.regulate_from)).clamp(limits.least_share, 1.0);
-            let most_speed = limits.speed_m_s * kept;
+            let kept = ((1.0 - met.utilisation) / (1.0 - controller.regulate_from_utilisation))
+                .clamp(controller.min_speed_share, 1.0);
+            let most_speed = controller.max_speed_m_s * kept;
             let wanted = wanted_speed.clamp(-most_speed, most_speed);
-            let most = limits.acceleration_m_s2 * STEP_S;
+            let most = trajectory.acceleration_m_s2 * STEP_S;
             let next_speed = speed + (wanted - speed).clamp(-most, most);
             let bend = (next_turn - turn) / STEP_S;
             let push = (next_speed - speed) / STEP_S;
-            cost += STEP_S * (limits.smoothness * bend * bend + limits.speed_smoothness * push * push);
+            cost += STEP_S
+                * (trajectory.turn_smoothness * bend * bend + trajectory.speed_smoothness * push * push);
             (speed, turn) = (next_speed, next_turn);
             if step == 0 {
                 first = Command { linear_m_s: speed, angular_rad_s: turn };
             }
-            let middle = pose.yaw_rad + 0.5 * turn * STEP_S;
-            let (sin, cos) = libm::sincos(middle);
-            pose.position_m += DVec2::new(cos, sin) * (speed * STEP_S);
-            pose.yaw_rad += turn * STEP_S;
+            pose.advance(&Command { linear_m_s: speed, angular_rad_s: turn }, STEP_S);
             let price = if speed < 0.0 { limits.reverse_price } else { 1.0 };
             let way_m = speed.abs() * STEP_S;
             // What is turned while driving costs nothing beyond the way, as on the lattice.
@@ -250,13 +255,9 @@ impl TrajectoryOptimiser {
                     None => return (f64::INFINITY, first),
                 }
             }
-            cost += price * way_m * (1.0 + limits.tilt_price * met.risk) + turned_m;
-            if let Some(path) = path.as_deref_mut() {
-                path.push(pose);
-            }
+            cost += price * way_m * (1.0 + limits.tilt_price * met.risk.min(1.0)) + turned_m;
         }
-        let left = course.cost_to_go_m(&pose).unwrap_or(f64::INFINITY);
-        (cost + limits.progress * left, first)
+        (cost + trajectory.progress_weight * course.cost_to_go_m(&pose), first)
     }
 }
 
@@ -264,21 +265,6 @@ impl TrajectoryOptimiser {
 mod tests {
     use super::*;
 
-    const LIMITS: Limits = Limits {
-        speed_m_s: 0.8,
-        reverse_m_s: 0.4,
-        turn_rate_rad_s: 1.0,
-        acceleration_m_s2: 0.8,
-        turn_acceleration_rad_s2: 1.5,
-        smoothness: 0.45,
-        speed_smoothness: 0.15,
-        turn_m_rad: 0.38,
-        progress: 3.0,
-        tilt_price: 4.0,
-        reverse_price: 2.0,
-        regulate_from: 0.3,
-        least_share: 0.2,
-    };
     const FROM: Start =
         Start { pose: PlanPose { position_m: DVec2::ZERO, yaw_rad: 0.0 }, command: Command::STOP };
 
@@ -293,11 +279,11 @@ mod tests {
             (pose.position_m.x < self.closed_from_x_m).then_some(Met { risk: 0.0, utilisation: 0.0 })
         }
 
-        fn cost_to_go_m(&self, pose: &PlanPose) -> Option<f64> {
+        fn cost_to_go_m(&self, pose: &PlanPose) -> f64 {
             let path_m = self.target_m - pose.position_m;
             let bearing_rad = libm::atan2(path_m.y, path_m.x) - pose.yaw_rad;
             let turn_rad = libm::remainder(bearing_rad, core::f64::consts::TAU).abs();
-            Some(path_m.length() + LIMITS.turn_m_rad * turn_rad)
+            path_m.length() + 0.38 * turn_rad
         }
 
         fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
@@ -307,13 +293,15 @@ mod tests {
 
     /// Drives for some seconds; the poses and commands.
     fn drive(course: &Level, seconds: f64) -> Vec<(PlanPose, Command)> {
-        let mut optimiser = TrajectoryOptimiser::new(LIMITS);
-        let (mut start, mut path) = (FROM, Vec::new());
+        let mut optimiser = TrajectoryOptimiser::new(Limits::of(&PlannerConfig::default()));
+        let mut start = FROM;
         (0..(seconds / STEP_S) as usize)
-            .map_while(|_| {
-                let command = optimiser.drive(course, start, &mut path)?;
-                start = Start { pose: path[0], command };
-                Some((start.pose, command))
+            .map(|_| {
+                let command = optimiser.drive(course, start);
+                let mut pose = start.pose;
+                pose.advance(&command, STEP_S);
+                start = Start { pose, command };
+                (pose, command)
             })
             .collect()
     }
@@ -335,21 +323,18 @@ mod tests {
         assert!(nearest_m < 0.4, "{nearest_m}");
         for pair in driven.windows(2) {
             let (before, after) = (pair[0].1, pair[1].1);
-            assert!((after.linear_m_s - before.linear_m_s).abs() <= LIMITS.acceleration_m_s2 * STEP_S + 1e-9);
-            assert!(
-                (after.angular_rad_s - before.angular_rad_s).abs()
-                    <= LIMITS.turn_acceleration_rad_s2 * STEP_S + 1e-9
-            );
+            assert!((after.linear_m_s - before.linear_m_s).abs() <= 0.8 * STEP_S + 1e-9);
+            assert!((after.angular_rad_s - before.angular_rad_s).abs() <= 1.5 * STEP_S + 1e-9);
         }
     }
 
     #[test]
-    fn it_stops_before_closed_ground_and_has_no_command_on_it() {
+    fn it_stops_before_closed_ground_and_follows_the_path_off_it() {
         let driven = drive(&Level { target_m: DVec2::new(20.0, 0.0), closed_from_x_m: 3.0 }, 15.0);
         assert_eq!(driven.len(), 150);
         assert!(driven.iter().all(|(pose, _)| pose.position_m.x < 3.0));
-        let mut path = Vec::new();
-        let closed = Level { target_m: DVec2::new(20.0, 0.0), closed_from_x_m: -5.0 };
-        assert_eq!(TrajectoryOptimiser::new(LIMITS).drive(&closed, FROM, &mut path), None);
+        let target_m = DVec2::new(-4.0, 0.0);
+        let driven = drive(&Level { target_m, closed_from_x_m: -3.0 }, 40.0);
+        assert!(driven.iter().any(|(pose, _)| pose.position_m.x < -3.0), "{:?}", driven.last());
     }
 }

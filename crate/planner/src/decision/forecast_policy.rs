@@ -10,14 +10,16 @@ use core::time::Duration;
 
 use glam::DVec2;
 
-use crate::config::{DecisionConfig, PlannerConfig, StateLatticeConfig};
+use crate::config::{DecisionConfig, FollowingLaw, PlannerConfig, StateLatticeConfig};
 use crate::control::backtrack::{Backtrack, BacktrackCommand};
 use crate::control::controller::{Command, Controller};
+use crate::control::trajectory_optimiser::{Limits, PlanPose, Start, TrajectoryOptimiser};
 use crate::decision::candidates::Candidates;
 use crate::decision::committed_target::CommittedTarget;
 use crate::decision::cost::choose_cheapest;
 use crate::decision::detour_budget::DetourBudget;
 use crate::decision::observation::take_up;
+use crate::decision::path_following::PathCourse;
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::subgoals::{Cost, Subgoal, bearing_rad, on_segments};
 use crate::math::angle::{difference_rad, wrap_rad};
@@ -50,6 +52,7 @@ pub(crate) struct ForecastPolicy {
     detour_budget: Option<DetourBudget>,
     committed: CommittedTarget,
     backtrack: Backtrack,
+    optimiser: TrajectoryOptimiser,
     learned_at_m: Option<DVec2>,
     ends: Vec<(ReachedState, f64)>,
     /// World bearing of the last choice.
@@ -70,6 +73,7 @@ impl ForecastPolicy {
             detour_budget: None,
             committed: CommittedTarget::default(),
             backtrack: Backtrack::new(),
+            optimiser: TrajectoryOptimiser::new(Limits::of(config)),
             learned_at_m: None,
             ends: Vec::with_capacity(lattice.count() + 1),
             lattice,
@@ -96,6 +100,7 @@ impl ForecastPolicy {
         self.last_bearing_rad = None;
         self.lattice.release();
         self.committed.release();
+        self.optimiser.reset();
     }
 
     /// Searches paths over the terrain and chooses a subgoal; `None` if there is no candidate.
@@ -236,6 +241,20 @@ impl ForecastPolicy {
             // The subgoal lies up to half a step from the last place.
             last.position_m = end_m;
         }
+        match situation.config.controller.following {
+            FollowingLaw::Pid => self.follow_by_pid(subgoal, situation, controller, path),
+            FollowingLaw::RecedingHorizon => self.follow_by_trajectory(situation, path),
+        }
+    }
+
+    /// Drives to the lookahead point of the path.
+    fn follow_by_pid(
+        &mut self,
+        subgoal: &Subgoal,
+        situation: &Situation<'_>,
+        controller: &mut Controller,
+        path: &[PathPoint],
+    ) -> Command {
         let next = self.lattice.lookahead(path);
         let ahead = self.lattice.drive(&next);
         let bearing = bearing_rad(situation.pose, ahead.position_m);
@@ -247,6 +266,19 @@ impl ForecastPolicy {
             command.linear_m_s = -command.linear_m_s;
         }
         controller.regulated(command, utilisation)
+    }
+
+    /// Drives the best short trajectory along the path.
+    fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Command {
+        if let Some(next) = path.get(1) {
+            self.lattice.commit(next);
+        }
+        let Situation { config, pose, last_command, .. } = *situation;
+        let from = Start {
+            pose: PlanPose { position_m: pose.plan_m(), yaw_rad: pose.yaw_rad },
+            command: last_command,
+        };
+        self.optimiser.drive(&PathCourse::new(&self.lattice, path, config), from)
     }
 
     /// Learns the cost-to-go of the places around by a backward search from the goal, if it is reached, or

@@ -1,5 +1,4 @@
-//! The choice of a subgoal and the drive to it: one interface, three policies (`paper`, `forecast`
-//! and, in the making, `receding_horizon`), their cost terms and their commitments.
+//! The choice of a subgoal and the drive to it: one interface, two policies (`paper`, `forecast`), their cost terms and their commitments.
 
 mod candidates;
 mod committed_target;
@@ -9,8 +8,8 @@ pub(crate) mod forecast_policy;
 pub(crate) mod goal_progress;
 mod observation;
 pub(crate) mod paper_policy;
+mod path_following;
 pub(crate) mod policy;
-pub(crate) mod receding_horizon_policy;
 pub(crate) mod step;
 pub mod subgoals;
 

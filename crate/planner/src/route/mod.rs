@@ -4,6 +4,5 @@ pub mod forecast;
 pub(crate) mod heuristic_table;
 mod queue;
 pub(crate) mod state_lattice;
-pub(crate) mod value_function;
 
 pub use state_lattice::PathPoint;

@@ -240,16 +240,29 @@ impl StateLattice {
     /// Commits to the next point of a path and returns the point to drive to.
     ///
     /// If the point needs a change of direction, the robot first finishes its current leg, as long as that is
-    /// ahead and safe: it changes direction at most once a metre. A reversal on steep ground inflates the
-    /// slope variance ahead.
+    /// ahead and safe: it changes direction at most once a metre.
     pub(crate) fn drive(&mut self, point: &PathPoint) -> PathPoint {
+        if !self.continues(&self.first_to(point))
+            && let Some(leg) = self.current_leg()
+        {
+            return leg;
+        }
+        self.commit(point);
+        *point
+    }
+
+    /// The first direction of a path that begins straight to a point.
+    fn first_to(&self, point: &PathPoint) -> First {
         let path = point.position_m - self.here_m;
         let facing = if point.reverse { -path } else { path };
-        let next = First { facing: facing.normalize_or_zero(), reverse: point.reverse };
+        First { facing: facing.normalize_or_zero(), reverse: point.reverse }
+    }
+
+    /// Commits to the next point of a path. A reversal on steep ground inflates the slope variance ahead.
+    pub(crate) fn commit(&mut self, point: &PathPoint) {
+        let path = point.position_m - self.here_m;
+        let next = self.first_to(point);
         if !self.continues(&next) {
-            if let Some(leg) = self.current_leg() {
-                return leg;
-            }
             if self.changes == 0 {
                 self.changed_at_m = self.here_m;
             }
@@ -266,7 +279,6 @@ impl StateLattice {
         self.recovers = recovers;
         self.last = Some(next);
         self.leg = Some(PathPoint { position_m: self.here_m + path.clamp_length_max(LEG_M), ..*point });
-        *point
     }
 
     /// The target of the current leg, if it is still ahead and the straight line to it safe.

@@ -5,7 +5,6 @@ pub(crate) mod elevation_window;
 pub mod headings;
 pub mod mount_misfit;
 mod place_lattice;
-pub(crate) mod place_map;
 pub mod plane;
 pub(crate) mod rolling_grid;
 pub(crate) mod slopes;

@@ -6,7 +6,7 @@ use glam::{DVec2, IVec2};
 use crate::config::StateLatticeConfig;
 use crate::pose::FrameChange;
 use crate::robot_model::RobotModel;
-use crate::terrain::headings::{DIRECTIONS, STEPS, passed};
+use crate::terrain::headings::{DIRECTIONS, STEPS, heading_below, passed};
 use crate::terrain::place_lattice::{AXES, PlaceLattice, around};
 use crate::terrain::plane::Plane;
 use crate::terrain::slopes::Slopes;
@@ -18,6 +18,15 @@ pub(crate) enum Caution {
     Usual,
     /// Recovery: near the robot, the smallest margin suffices.
     Recovery,
+}
+
+/// The risk at a pose between places: the mean of those around it that are safe, weighted by nearness.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RiskBetween {
+    /// (slope / limit)², the worse of roll and pitch, with the penalties of the places.
+    pub(crate) price: f64,
+    /// Utilisation of the tilt limits, in slope.
+    pub(crate) utilisation: f64,
 }
 
 /// One place of the lattice.
@@ -217,6 +226,37 @@ impl TraversabilityMap {
         } else {
             f64::INFINITY
         }
+    }
+
+    /// The risk at a pose in the plane, between the places around it.
+    pub(crate) fn risk_at(&self, place_m: DVec2, yaw_rad: f64) -> RiskBetween {
+        let steps = self.places.steps_from_centre(place_m);
+        let low = steps.floor();
+        let part = steps - low;
+        let low = low.as_ivec2();
+        let (heading, turn) = heading_below(yaw_rad);
+        let mut risk = RiskBetween { price: 0.0, utilisation: 0.0 };
+        let mut weights = 0.0;
+        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let wx = if dx == 1 { part.x } else { 1.0 - part.x };
+            let wy = if dy == 1 { part.y } else { 1.0 - part.y };
+            let offset = low + IVec2::new(dx, dy);
+            for (heading, wh) in [(heading, 1.0 - turn), (heading + 1, turn)] {
+                let weight = wx * wy * wh;
+                let price =
+                    if self.places.holds(offset) { self.risk(offset, heading) } else { f64::INFINITY };
+                if price.is_finite() {
+                    risk.price += weight * price;
+                    risk.utilisation += weight * price.sqrt().min(1.0);
+                    weights += weight;
+                }
+            }
+        }
+        if weights > 0.0 {
+            risk.price /= weights;
+            risk.utilisation /= weights;
+        }
+        risk
     }
 
     /// The tilt limits as slopes.

@@ -8,6 +8,7 @@ use super::{BEGIN, FIRST_STEP_M, MILLIMETRES, PathPoint, ReachedState, StateLatt
 use crate::route::forecast::{Forecast, ReachEnd};
 use crate::terrain::headings::{DIRECTIONS, HEADINGS, STEPS, nearest};
 use crate::terrain::slopes::Slopes;
+use crate::terrain::traversability::RiskBetween;
 
 /// Tilt utilisation is predicted this far ahead. Ground that is unseen or unsafe counts as this utilisation.
 const AHEAD_M: f64 = 1.0;
@@ -168,6 +169,20 @@ impl StateLattice {
         }
         let price = if point.reverse { self.prices.reverse } else { 1.0 };
         price * length_m * (1.0 + self.prices.tilt * risk / count) + self.prices.climb * climb_m
+    }
+
+    /// The risk at a pose in the plane, between the places around it.
+    pub(crate) fn risk_at(&self, place_m: DVec2, yaw_rad: f64) -> RiskBetween {
+        self.traversability.risk_at(place_m, yaw_rad)
+    }
+
+    /// Whether the place nearest to a pose in the plane is safe at its heading, or hidden.
+    pub(crate) fn is_safe(&self, place_m: DVec2, yaw_rad: f64) -> bool {
+        let heading = nearest(DVec2::from_angle(yaw_rad));
+        self.traversability.places.nearest(place_m).is_some_and(|offset| {
+            self.traversability.risk(offset, heading).is_finite()
+                || self.traversability.is_hidden(offset, heading)
+        })
     }
 
     /// Tilt utilisation here, in slope: the larger of the attitude's and of the attitude extrapolated at its
