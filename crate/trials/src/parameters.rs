@@ -44,7 +44,7 @@ pub fn groups(
 ) -> Vec<Group> {
     use mapless::config::{
         ControllerConfig, DecisionConfig, ElevationWindowConfig, PerceptionConfig, PidGains, SegmentConfig,
-        StateLatticeConfig,
+        StateLatticeConfig, TrajectoryConfig,
     };
     use mapless::gp::kernel::RationalQuadratic;
     use mapless::gp::learning::{HyperparameterBounds, LearningConfig};
@@ -65,6 +65,7 @@ pub fn groups(
         "planner.controller" "Controller" ControllerConfig = controller;
         "planner.controller.distance" "Distance loop: metres to metres a second" PidGains = controller.distance;
         "planner.controller.yaw" "Heading loop: radians to radians a second" PidGains = controller.yaw;
+        "planner.controller.trajectory" "Optimised trajectory" TrajectoryConfig = controller.trajectory;
         "planner.robot" "Robot as the planner knows it; follows the robot unless set" RobotModel = planner.robot;
         "planner.sensor" "Sensor as the planner knows it; follows the sensor unless set" SensorModel = planner.sensor;
         "sensor" "Sensor" SensorConfig = sensor;
