@@ -87,6 +87,8 @@ pub(crate) struct Met {
 pub(crate) trait Course {
     /// What the ground does to the robot at a pose; `None` if it may not be there.
     fn met(&self, pose: &PlanPose) -> Option<Met>;
+    /// Share of the limits now, by the robot's attitude and its rate of change.
+    fn utilisation_here(&self) -> f64;
     /// Cost of what is left of the path from a pose.
     fn cost_to_go_m(&self, pose: &PlanPose) -> f64;
     /// A path to follow, as points and whether each is driven to in reverse.
@@ -217,6 +219,7 @@ impl TrajectoryOptimiser {
         let mut cost = 0.0;
         let mut first = last;
         let mut met = course.met(&pose).unwrap_or(Met { risk: 1.0, utilisation: 1.0 });
+        met.utilisation = met.utilisation.max(course.utilisation_here());
         let mut way = course.path().peekable();
         for step in 0..STEPS {
             let time_s = STEP_S * (step + 1) as f64;
@@ -277,6 +280,10 @@ mod tests {
     impl Course for Level {
         fn met(&self, pose: &PlanPose) -> Option<Met> {
             (pose.position_m.x < self.closed_from_x_m).then_some(Met { risk: 0.0, utilisation: 0.0 })
+        }
+
+        fn utilisation_here(&self) -> f64 {
+            0.0
         }
 
         fn cost_to_go_m(&self, pose: &PlanPose) -> f64 {

@@ -268,10 +268,13 @@ impl ForecastPolicy {
         controller.regulated(command, utilisation)
     }
 
-    /// Drives the best short trajectory along the path.
-    fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Command {
-        if let Some(next) = path.get(1) {
-            self.lattice.commit(next);
+    /// Drives the best short trajectory along the path, or along the leg that is to be finished first.
+    fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &mut Vec<PathPoint>) -> Command {
+        let next = self.lattice.lookahead(path);
+        let leg = self.lattice.drive(&next);
+        if leg != next {
+            path.truncate(1);
+            path.push(PathPoint { cost_m: length_m(&[path[0], leg]), ..leg });
         }
         let Situation { config, pose, last_command, .. } = *situation;
         let from = Start {
