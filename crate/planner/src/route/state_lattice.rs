@@ -259,7 +259,7 @@ impl StateLattice {
     }
 
     /// Commits to the next point of a path. A reversal on steep ground inflates the slope variance ahead.
-    pub(crate) fn commit(&mut self, point: &PathPoint) {
+    fn commit(&mut self, point: &PathPoint) {
         let path = point.position_m - self.here_m;
         let next = self.first_to(point);
         if !self.continues(&next) {
