@@ -56,7 +56,8 @@ fn walled(radius_m: f64) -> impl Fn(DVec3) -> Option<f64> {
     }
 }
 
-/// Every policy and law of following, with a short spin recovery: a scan full of walls is the most expensive one.
+/// Every policy and law of following, with a short spin recovery: a scan full of walls is the most expensive
+/// one.
 fn every_policy() -> [Planner; 3] {
     let mut receding_horizon = PlannerConfig::default();
     receding_horizon.controller.following = FollowingLaw::RecedingHorizon;

@@ -140,8 +140,8 @@ impl TrajectoryOptimiser {
         self.last = STAND;
     }
 
-    /// The command that begins the best trajectory from a pose and the last command. If every trajectory meets
-    /// what it must not, it begins the drive along the path, which was found safe.
+    /// The command that begins the best trajectory from a pose and the last command. If every trajectory
+    /// meets what it must not, it begins the drive along the path, which was found safe.
     pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Command {
         let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;

@@ -1,4 +1,5 @@
-//! The choice of a subgoal and the drive to it: one interface, two policies (`paper`, `forecast`), their cost terms and their commitments.
+//! The choice of a subgoal and the drive to it: one interface, two policies (`paper`, `forecast`), their cost
+//! terms and their commitments.
 
 mod candidates;
 mod committed_target;

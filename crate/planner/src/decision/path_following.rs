@@ -1,5 +1,5 @@
-//! A path as the course of the trajectory optimiser: the price of what a trajectory meets, and what is left of
-//! the path at its end.
+//! A path as the course of the trajectory optimiser: the price of what a trajectory meets, and what is left
+//! of the path at its end.
 
 use core::f64::consts::{PI, TAU};
 
