@@ -96,13 +96,15 @@ impl Session {
     /// A seed beyond the whole numbers of JavaScript.
     pub fn scene(&self) -> Result<Ts<Scene>, JsError> {
         let trial = &self.shown().trial;
+        // A new route holds before it is thought about.
+        let route = &self.now.trial;
         let config = trial.planner_config();
         let grid = trial.step().observed.grid();
         give(&Scene {
             seed: self.seed,
-            start: trial.start().into(),
-            waypoints: trial.waypoints_m().iter().copied().map(Place::from).collect(),
-            goal: Goal::new(trial.goal_m(), trial.goal_heading_rad()),
+            start: route.start().into(),
+            waypoints: route.waypoints_m().iter().copied().map(Place::from).collect(),
+            goal: Goal::new(route.goal_m(), route.goal_heading_rad()),
             period_s: trial.period_s(),
             limits: TiltLimits {
                 roll_rad: config.robot.roll_limit_rad,
