@@ -149,7 +149,7 @@ test('many seeds, cancelled half-way: what they found stays, and one is shown', 
   await press(button(page, 'Cancel'));
   await expect(page.getByRole('status').filter({ hasText: /^Cancelled after \d+ of 200/ })).toBeVisible();
   await expect(page.locator('.seeds-summary')).toContainText('Goal reached');
-  await fits(page.locator('.seeds-summary, .seeds-table'));
+  await fits(page.locator('.seeds-summary:visible, .seeds-table:visible'));
   const show = rows.first().getByRole('button');
   const seed = (await show.textContent()) ?? '';
   await press(show);
