@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 use glam::DVec2;
 use mapless_baselines::{KnownWorld, NavigatorKind, OracleConfig, PlanPose, shortest_path};
 use mapless_tests::scenarios_text;
-use mapless_trials::{LoadedScenario, Outcome, Scenario, Trial};
+use mapless_trials::{LoadedScenario, Outcome, Preset, Scenario, Trial};
 use mapless_world::{RobotConfig, attitude_on};
 
 fn terrains() -> PathBuf {
@@ -99,4 +99,21 @@ fn start_and_goal_are_nearly_level() {
             }
         }
     }
+}
+
+#[test]
+fn the_optimised_trajectory_is_as_long_as_under_pid_and_much_smoother() {
+    let text = std::fs::read_to_string(terrains().join("scenarios/ht.toml")).unwrap();
+    let metrics = |law: &str| {
+        let text = format!("{text}\n[planner.controller]\nfollowing = \"{law}\"\n");
+        let scenario = Scenario::parse("ht", &text).unwrap();
+        let mut trial =
+            Trial::new(LOADED["ht"].terrain.field.clone(), &scenario, Preset::Default, 1).unwrap();
+        while trial.tick().is_none() {}
+        assert_eq!(trial.outcome(), Some(Outcome::Reached), "{law}");
+        trial.metrics()
+    };
+    let (pid, optimised) = (metrics("pid"), metrics("receding_horizon"));
+    assert!(optimised.distance_m < 1.05 * pid.distance_m, "{optimised:?}, {pid:?}");
+    assert!(3.0 * optimised.curvature_change_rad_m < pid.curvature_change_rad_m, "{optimised:?}, {pid:?}");
 }

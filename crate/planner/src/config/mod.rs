@@ -235,7 +235,7 @@ parameters! {
     /// The controller.
     #[derive(Copy)]
     pub struct ControllerConfig {
-        /// How the path to the chosen subgoal is followed.
+        /// How the path to the chosen subgoal is followed, where `forecast` chooses it.
         following: FollowingLaw = FollowingLaw::Pid, paper FollowingLaw::Pid;
         /// Speed limit.
         max_speed_m_s: f64 = 0.8, paper 0.8, unit "m/s", range [0.1, 3.0], check Positive;
@@ -286,6 +286,13 @@ impl StateLatticeConfig {
     /// Cost of a radian turned, in metres driven.
     pub(crate) fn turn_m_rad(&self) -> f64 {
         self.turn_cost_m * HEADINGS_OF_TURN_COST / TAU
+    }
+}
+
+impl ControllerConfig {
+    /// Share of the speed that is kept at a tilt utilisation.
+    pub(crate) fn speed_share(&self, utilisation: f64) -> f64 {
+        ((1.0 - utilisation) / (1.0 - self.regulate_from_utilisation)).clamp(self.min_speed_share, 1.0)
     }
 }
 

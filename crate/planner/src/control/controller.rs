@@ -94,11 +94,9 @@ impl Controller {
     /// The command with its speed regulated by the tilt utilisation `share`. A turn on the spot hardly moves
     /// the wheels' contact points, so it is slowed less.
     pub(crate) fn regulated(&self, command: Command, share: f64) -> Command {
-        let ControllerConfig { regulate_from_utilisation, min_speed_share, .. } = self.config;
-        let left = (1.0 - share) / (1.0 - regulate_from_utilisation);
+        let kept = self.config.speed_share(share);
         let in_place = command.linear_m_s == 0.0;
-        let least = if in_place { min_speed_share.max(LEAST_TURN_SHARE) } else { min_speed_share };
-        let speed = left.clamp(least, 1.0);
+        let speed = if in_place { kept.max(LEAST_TURN_SHARE) } else { kept };
         Command { linear_m_s: speed * command.linear_m_s, angular_rad_s: speed * command.angular_rad_s }
     }
 

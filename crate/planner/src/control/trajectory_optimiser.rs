@@ -9,7 +9,7 @@ use core::f64::consts::TAU;
 
 use glam::DVec2;
 
-use crate::config::{ControllerConfig, PlannerConfig, TrajectoryConfig};
+use crate::config::{ControllerConfig, PlannerConfig};
 use crate::control::controller::Command;
 
 /// Horizon, its steps, and the time of the first turn rate.
@@ -28,7 +28,6 @@ const ROUNDS: usize = 4;
 /// Limits and prices of the trajectories.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
-    trajectory: TrajectoryConfig,
     controller: ControllerConfig,
     /// Cost of a radian, metres.
     turn_m_rad: f64,
@@ -39,7 +38,6 @@ pub(crate) struct Limits {
 impl Limits {
     pub(crate) fn of(config: &PlannerConfig) -> Self {
         Self {
-            trajectory: config.controller.trajectory,
             controller: config.controller,
             turn_m_rad: config.state_lattice.turn_m_rad(),
             tilt_price: config.state_lattice.tilt_price,
@@ -48,7 +46,7 @@ impl Limits {
     }
 
     fn reverse_m_s(&self) -> f64 {
-        self.trajectory.reverse_share * self.controller.max_speed_m_s
+        self.controller.trajectory.reverse_share * self.controller.max_speed_m_s
     }
 }
 
@@ -68,11 +66,13 @@ impl PlanPose {
     }
 }
 
-/// Where a trajectory begins, and the last command, from which it accelerates.
+/// Where a trajectory begins, the last command, from which it accelerates, and the share of the tilt limits that
+/// the robot's attitude has or is about to have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start {
     pub(crate) pose: PlanPose,
     pub(crate) command: Command,
+    pub(crate) utilisation: f64,
 }
 
 /// What a trajectory meets at a pose: (slope / limit)², with what makes a place dear, and the share of the
@@ -87,8 +87,6 @@ pub(crate) struct Met {
 pub(crate) trait Course {
     /// What the ground does to the robot at a pose; `None` if it may not be there.
     fn met(&self, pose: &PlanPose) -> Option<Met>;
-    /// Share of the limits now, by the robot's attitude and its rate of change.
-    fn utilisation_here(&self) -> f64;
     /// Cost of what is left of the path from a pose.
     fn cost_to_go_m(&self, pose: &PlanPose) -> f64;
     /// A path to follow, as points and whether each is driven to in reverse.
@@ -124,6 +122,19 @@ enum Law<'a> {
     Follow,
 }
 
+/// A trajectory's cost, infinite if it meets what it must not, and its first command.
+#[derive(Clone, Copy, Debug)]
+struct RolledOut {
+    cost: f64,
+    first: Command,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    plan: Plan,
+    rolled: RolledOut,
+}
+
 /// Keeps the last trajectory, from which the next search begins.
 #[derive(Clone, Debug)]
 pub(crate) struct TrajectoryOptimiser {
@@ -145,17 +156,17 @@ impl TrajectoryOptimiser {
     pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Command {
         let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
-        let cost = |plan: &Plan| self.roll_out(course, from, Law::Plan(plan)).0;
-        let mut best = (self.last, cost(&self.last));
-        let try_plan = |best: &mut (Plan, f64), plan: Plan| {
+        let roll_out = |plan: Plan| Candidate { plan, rolled: self.roll_out(course, from, Law::Plan(&plan)) };
+        let mut best = roll_out(self.last);
+        let try_plan = |best: &mut Candidate, plan: Plan| {
             let plan = Plan {
                 speed_m_s: plan.speed_m_s.clamp(-reverse_m_s, speed_m_s),
                 early_rad_s: plan.early_rad_s.clamp(-turn_rate_rad_s, turn_rate_rad_s),
                 late_rad_s: plan.late_rad_s.clamp(-turn_rate_rad_s, turn_rate_rad_s),
             };
-            let cost = cost(&plan);
-            if cost < best.1 {
-                *best = (plan, cost);
+            let candidate = roll_out(plan);
+            if candidate.rolled.cost < best.rolled.cost {
+                *best = candidate;
             }
         };
         for speed in [speed_m_s, -reverse_m_s] {
@@ -170,29 +181,24 @@ impl TrajectoryOptimiser {
         for _ in 0..ROUNDS {
             for sign in [1.0, -1.0] {
                 let by = sign * reach;
-                let plan = best.0;
+                let plan = best.plan;
                 try_plan(&mut best, Plan { early_rad_s: plan.early_rad_s + 0.3 * by, ..plan });
-                let plan = best.0;
+                let plan = best.plan;
                 try_plan(&mut best, Plan { late_rad_s: plan.late_rad_s + 0.4 * by, ..plan });
-                let plan = best.0;
+                let plan = best.plan;
                 try_plan(&mut best, Plan { speed_m_s: plan.speed_m_s + 0.3 * by, ..plan });
             }
             reach *= 0.5;
         }
         // What no such trajectory can do, as to turn first and then to drive, following the path can.
-        let law = if self.roll_out(course, from, Law::Follow).0 < best.1 {
-            Law::Follow
-        } else {
-            Law::Plan(&best.0)
-        };
-        let (cost, command) = self.roll_out(course, from, law);
-        if !cost.is_finite() {
+        let following = self.roll_out(course, from, Law::Follow);
+        if !best.rolled.cost.is_finite() {
             // The robot stands beside what was found safe: the path leads off it.
             self.reset();
-            return self.roll_out(course, from, Law::Follow).1;
+            return following.first;
         }
-        self.last = best.0;
-        command
+        self.last = best.plan;
+        if following.cost < best.rolled.cost { following.first } else { best.rolled.first }
     }
 
     /// Speed and turn rate towards a point.
@@ -210,16 +216,15 @@ impl TrajectoryOptimiser {
         (speed * libm::cos(aside_rad), turn)
     }
 
-    /// Cost of a trajectory, and its first command.
-    fn roll_out(&self, course: &impl Course, from: Start, law: Law<'_>) -> (f64, Command) {
-        let Limits { trajectory, controller, .. } = &self.limits;
+    fn roll_out(&self, course: &impl Course, from: Start, law: Law<'_>) -> RolledOut {
         let limits = &self.limits;
-        let Start { mut pose, command: last } = from;
+        let (controller, trajectory) = (&limits.controller, &limits.controller.trajectory);
+        let Start { mut pose, command: last, utilisation } = from;
         let (mut speed, mut turn) = (last.linear_m_s, last.angular_rad_s);
         let mut cost = 0.0;
         let mut first = last;
         let mut met = course.met(&pose).unwrap_or(Met { risk: 1.0, utilisation: 1.0 });
-        met.utilisation = met.utilisation.max(course.utilisation_here());
+        met.utilisation = met.utilisation.max(utilisation);
         let mut way = course.path().peekable();
         for step in 0..STEPS {
             let time_s = STEP_S * (step + 1) as f64;
@@ -233,9 +238,7 @@ impl TrajectoryOptimiser {
             };
             let most = trajectory.turn_acceleration_rad_s2 * STEP_S;
             let next_turn = turn + (wanted - turn).clamp(-most, most);
-            let kept = ((1.0 - met.utilisation) / (1.0 - controller.regulate_from_utilisation))
-                .clamp(controller.min_speed_share, 1.0);
-            let most_speed = controller.max_speed_m_s * kept;
+            let most_speed = controller.max_speed_m_s * controller.speed_share(met.utilisation);
             let wanted = wanted_speed.clamp(-most_speed, most_speed);
             let most = trajectory.acceleration_m_s2 * STEP_S;
             let next_speed = speed + (wanted - speed).clamp(-most, most);
@@ -255,12 +258,12 @@ impl TrajectoryOptimiser {
             if step % 2 == 1 {
                 match course.met(&pose) {
                     Some(now) => met = now,
-                    None => return (f64::INFINITY, first),
+                    None => return RolledOut { cost: f64::INFINITY, first },
                 }
             }
             cost += price * way_m * (1.0 + limits.tilt_price * met.risk.min(1.0)) + turned_m;
         }
-        (cost + trajectory.progress_weight * course.cost_to_go_m(&pose), first)
+        RolledOut { cost: cost + trajectory.progress_weight * course.cost_to_go_m(&pose), first }
     }
 }
 
@@ -268,8 +271,11 @@ impl TrajectoryOptimiser {
 mod tests {
     use super::*;
 
-    const FROM: Start =
-        Start { pose: PlanPose { position_m: DVec2::ZERO, yaw_rad: 0.0 }, command: Command::STOP };
+    const FROM: Start = Start {
+        pose: PlanPose { position_m: DVec2::ZERO, yaw_rad: 0.0 },
+        command: Command::STOP,
+        utilisation: 0.0,
+    };
 
     /// Level ground with a target, and a half plane where the robot must not be.
     struct Level {
@@ -280,10 +286,6 @@ mod tests {
     impl Course for Level {
         fn met(&self, pose: &PlanPose) -> Option<Met> {
             (pose.position_m.x < self.closed_from_x_m).then_some(Met { risk: 0.0, utilisation: 0.0 })
-        }
-
-        fn utilisation_here(&self) -> f64 {
-            0.0
         }
 
         fn cost_to_go_m(&self, pose: &PlanPose) -> f64 {
@@ -307,7 +309,7 @@ mod tests {
                 let command = optimiser.drive(course, start);
                 let mut pose = start.pose;
                 pose.advance(&command, STEP_S);
-                start = Start { pose, command };
+                start = Start { pose, command, ..FROM };
                 (pose, command)
             })
             .collect()

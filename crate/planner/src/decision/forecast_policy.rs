@@ -269,17 +269,18 @@ impl ForecastPolicy {
     }
 
     /// Drives the best short trajectory along the path, or along the leg that is to be finished first.
-    fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &mut Vec<PathPoint>) -> Command {
-        let next = self.lattice.lookahead(path);
-        let leg = self.lattice.drive(&next);
-        if leg != next {
-            path.truncate(1);
-            path.push(PathPoint { cost_m: length_m(&[path[0], leg]), ..leg });
-        }
+    fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Command {
         let Situation { config, pose, last_command, .. } = *situation;
+        let here_m = pose.plan_m();
+        let next = self.lattice.lookahead(path);
+        let ahead = self.lattice.drive(&next);
+        let here = PathPoint { position_m: here_m, cost_m: 0.0, reverse: false };
+        let leg = [here, PathPoint { cost_m: here_m.distance(ahead.position_m), ..ahead }];
+        let path = if ahead == next { path } else { &leg };
         let from = Start {
-            pose: PlanPose { position_m: pose.plan_m(), yaw_rad: pose.yaw_rad },
+            pose: PlanPose { position_m: here_m, yaw_rad: pose.yaw_rad },
             command: last_command,
+            utilisation: self.lattice.utilisation_here(),
         };
         self.optimiser.drive(&PathCourse::new(&self.lattice, path, config), from)
     }

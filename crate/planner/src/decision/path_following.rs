@@ -86,10 +86,6 @@ impl Course for PathCourse<'_> {
         })
     }
 
-    fn utilisation_here(&self) -> f64 {
-        self.lattice.utilisation_here()
-    }
-
     fn cost_to_go_m(&self, pose: &PlanPose) -> f64 {
         if self.leg.len() < 2 {
             return 0.0;
