@@ -66,8 +66,8 @@ impl PlanPose {
     }
 }
 
-/// Where a trajectory begins, the last command, from which it accelerates, and the share of the tilt limits that
-/// the robot's attitude has or is about to have.
+/// Where a trajectory begins, the last command, from which it accelerates, and the share of the tilt limits
+/// that the robot's attitude has or is about to have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start {
     pub(crate) pose: PlanPose,
