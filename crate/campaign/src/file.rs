@@ -418,7 +418,7 @@ mod tests {
         }
         for entry in std::fs::read_dir(&folder).unwrap() {
             let path = entry.unwrap().path();
-            // Generated and imported tasks are not part of the repository; all else of a file is checked before.
+            // Generated and imported tasks are not part of the repository; all else is checked before.
             if let Err(error) = Campaign::read(&path) {
                 assert!(error.to_string().contains("expected at least one scenario file"), "{error}");
             }
