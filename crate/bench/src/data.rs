@@ -146,12 +146,6 @@ pub(crate) fn level_field(samples: usize) -> Result<HeightField, BenchError> {
     Ok(HeightField::new(samples, samples, CELL_M, vec![0.0; samples * samples])?)
 }
 
-/// Unit vector of an azimuth.
-fn from_angle(azimuth_rad: f64) -> DVec2 {
-    let (sin, cos) = libm::sincos(azimuth_rad);
-    DVec2::new(cos, sin)
-}
-
 /// Objects on the ground.
 const OBJECTS: u64 = 100;
 /// They stand so far from the sensor, metres: out of its own place, and where a robot meets them.
@@ -164,7 +158,7 @@ pub(crate) fn objects(caster: &Caster) -> Objects {
         let share = |purpose| random::uniform(random::key(index, purpose));
         let [near, far] = OBJECTS_FROM_M.map(|from_m| from_m * from_m);
         // As many on every square metre.
-        let away = from_angle(TAU * share(0));
+        let away = beam(TAU * share(0), 0.0).truncate();
         let place = middle + away * (near + share(1) * (far - near)).sqrt();
         let (at, yaw_rad, size) = (place.to_array(), TAU * share(2), 0.5 + share(3));
         match index % 5 {

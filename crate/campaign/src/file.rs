@@ -176,13 +176,14 @@ impl Campaign {
                 return Err(place.error(count.span().start, &reason));
             }
         }
+        let parameters = place.parameters(&file.parameters)?;
+        let realities = place.realities(file.realities, file.planners.as_ref())?;
+        // Last, for they may have to be generated first, and all else should be right by then.
         let routes = place.routes("routes", &file.routes, &[])?;
         let single_seed_routes = file.single_seed_routes.as_ref();
         let single_seed_routes = single_seed_routes
             .map(|patterns| place.routes("single_seed_routes", patterns, &routes))
             .transpose()?;
-        let parameters = place.parameters(&file.parameters)?;
-        let realities = place.realities(file.realities, file.planners.as_ref())?;
         Ok(Self {
             name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
             routes,
@@ -415,26 +416,12 @@ mod tests {
             let counts = (campaign.routes.len(), campaign.seeds.len(), campaign.variations.len());
             assert_eq!(counts, (routes, seeds, variations), "{name}");
         }
-        // Generated tasks are not part of the repository.
-        for name in [
-            "generated",
-            "quick-generated",
-            "thousand",
-            "failures",
-            "faults",
-            "reality",
-            "reality-effects",
-            "reality-full",
-            "verti-bench",
-            "verti-bench-maps",
-            "verti-bench-full-size",
-        ] {
-            let error =
-                Campaign::read(&folder.join(name).with_extension("toml")).map_err(|error| error.to_string());
-            assert!(
-                error.is_ok() || error.unwrap_err().contains("expected at least one scenario file"),
-                "{name}"
-            );
+        for entry in std::fs::read_dir(&folder).unwrap() {
+            let path = entry.unwrap().path();
+            // Generated and imported tasks are not part of the repository; all else is checked before.
+            if let Err(error) = Campaign::read(&path) {
+                assert!(error.to_string().contains("expected at least one scenario file"), "{error}");
+            }
         }
     }
 

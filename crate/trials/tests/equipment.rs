@@ -1,8 +1,9 @@
 //! A trial that goes on with other equipment: what stays, what changes, and what is refused.
 #![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
+use glam::DVec2;
 use mapless_trials::{Preset, Scenario, Trial};
-use mapless_world::HeightField;
+use mapless_world::{Brush, BrushKind, ContactKind, HeightField};
 
 const SCENARIO: &str = "terrain = \"a.toml\"\nstart = [4.0, 4.0, 0.2]\ngoal = [15.0, 14.0]\nseed = 3\n";
 
@@ -63,8 +64,6 @@ fn another_period_is_refused() {
 
 #[test]
 fn a_stance_tells_tilt_and_contact_of_a_place_and_none_off_the_terrain() {
-    use glam::DVec2;
-    use mapless_world::{Brush, BrushKind};
     let mut trial = driven(1);
     let level = trial.stance_at(DVec2::new(10.0, 10.0), 1.0).unwrap();
     assert!(!level.is_too_steep && level.contact.is_none() && level.attitude.pitch_rad.abs() < 1e-9);
@@ -73,4 +72,19 @@ fn a_stance_tells_tilt_and_contact_of_a_place_and_none_off_the_terrain() {
     trial.sculpt(&Brush { centre: DVec2::new(10.0, 10.0), radius_m: 3.0, strength_m: 4.0, kind }).unwrap();
     let steep = trial.stance_at(DVec2::new(11.5, 10.0), 0.0).unwrap();
     assert!(steep.is_too_steep && steep.attitude.pitch_rad < -0.5, "{steep:?}");
+}
+
+#[test]
+fn a_stance_rests_on_the_highest_wheels_as_the_trial_does() {
+    // A saddle, on which the plane of the four contacts lies below two of them: under a body on that plane
+    // the front left corner of a bumper would be in the ground.
+    let contact_on = |warp_per_m: f64| {
+        let along = |index: u32| (f64::from(index) * 0.25 - 10.0).clamp(-1.0, 1.0);
+        let heights = (0..81 * 81).map(|i| (warp_per_m * along(i % 81) * along(i / 81)) as f32).collect();
+        let field = HeightField::new(81, 81, 0.25, heights).unwrap();
+        let trial = Trial::new(field, &Scenario::parse("it", SCENARIO).unwrap(), Preset::Default, 3).unwrap();
+        trial.stance_at(DVec2::new(10.0, 10.0), 0.0).unwrap().contact.map(|contact| contact.kind)
+    };
+    assert_eq!(contact_on(1.5), None);
+    assert_eq!(contact_on(2.3), Some(ContactKind::HighCentred));
 }

@@ -65,7 +65,7 @@ enum Command {
         #[arg(long, conflicts_with = "campaigns")]
         quick: bool,
     },
-    /// Time mapless beside gpflow and Embree, natively and as wasm, and write docs/BENCHMARKS.md.
+    /// Time mapless beside gpflow, Embree and Jolt, natively and as wasm, and write docs/BENCHMARKS.md.
     Bench {
         /// Rounds in which every side is asked in turn.
         #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]

@@ -10,7 +10,7 @@ use crate::setup;
 const FOLDER: &str = "terrains/campaigns";
 /// The short form.
 pub(crate) const QUICK: [&str; 2] = ["quick", "quick-generated"];
-/// The full form: everything in `docs/RESULTS.md`.
+/// The full form. `docs/RESULTS.md` shows every page in `docs/results`, those of other commands too.
 pub(crate) const ALL: [&str; 7] =
     ["paper", "generated", "thousand", "faults", "ablation", "reality", "reality-effects"];
 /// Generated tasks: their folder under `target/`, as campaign files name it, their seed, and their number for

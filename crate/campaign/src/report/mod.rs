@@ -49,7 +49,9 @@ fn introduction() -> String {
          Seeds draw the noise of the sensor, not the ground: the interval of many seeds on few routes says \
          nothing of other ground. `timeout` and `stuck` come from the progress checker of the trial; a stop of \
          the planner has its reason. For each campaign, this page says how many trials reached and where its \
-         first planner wins and loses; the campaign's own page has the rest.",
+         first planner wins and loses; the campaign's own page has the rest. A page is of the day on which its \
+         campaign was driven: where the simulated world has changed since, docs/design says so (trials.md, \
+         physics.md, verti-bench.md).",
         100.0 * EVEN
     )
 }

@@ -16,7 +16,7 @@ use crate::skyline::occupancy::{Cell, OccupancySurface};
 use crate::skyline::profile::{ElevationProfile, read_profile};
 use crate::skyline::surface::{PredictedSurface, ROW_STEP_RAD};
 
-/// A climb takes every so manieth column, so many inducing inputs and so many evaluations at most.
+/// What a climb takes: every third column, and at most so many inducing inputs and evaluations.
 const CLIMB_COLUMNS: usize = 3;
 const CLIMB_INDUCING_INPUTS: usize = 80;
 const CLIMB_EVALUATIONS: u32 = 30;
@@ -39,7 +39,7 @@ pub enum Placement {
     Lattice,
     /// Among the returns, each the farthest from those before it.
     FarthestPoints,
-    /// Every so manieth return, in the order of azimuth and elevation, as many as the lattice has.
+    /// Returns at even steps, in the order of azimuth and elevation, about as many as the lattice has.
     Strided,
 }
 

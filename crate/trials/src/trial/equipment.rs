@@ -1,6 +1,6 @@
 //! A trial that goes on with other equipment.
 
-use mapless_world::{Footing, Robot};
+use mapless_world::{Footing, Robot, RobotState};
 
 use super::{Trial, TrialError};
 use crate::navigator::Navigator;
@@ -33,8 +33,7 @@ impl<N: Navigator> Trial<N> {
             let mut robot = Robot::new(config, &footing, here.position, here.yaw_rad)
                 .map_err(off_terrain)?
                 .with_motion(motion);
-            let attitude = robot.state().attitude;
-            let state = mapless_world::RobotState { attitude, ..here };
+            let state = RobotState { attitude: robot.state().attitude, ..here };
             robot.move_to(state, self.husky.wheels(), &footing).map_err(off_terrain)?;
             self.husky = robot;
         }

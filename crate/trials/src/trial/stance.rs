@@ -26,7 +26,8 @@ impl<N: Navigator> Trial<N> {
         let limits = self.husky.config();
         let attitude = attitude_on(&footing, position_m, heading_rad, limits)?;
         let here = *self.husky.state();
-        let state = RobotState { position: position_m, yaw_rad: heading_rad, attitude, ..here };
+        let there = RobotState { position: position_m, yaw_rad: heading_rad, attitude, ..here };
+        let state = self.body.on_wheels(&there, &footing);
         let on_ground = || self.body.contact_with_ground(field, &footing, &state);
         Some(Stance {
             attitude,
