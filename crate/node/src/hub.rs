@@ -141,6 +141,7 @@ impl Hub {
         let taken = *inputs;
         *inputs = Inputs {
             attitude_rad: taken.attitude_rad,
+            wheels_disagree: taken.wheels_disagree,
             has_peer: taken.has_peer,
             other_publishers: taken.other_publishers,
             goal: taken.goal,
@@ -230,12 +231,14 @@ mod tests {
             (inputs.has_jumped, inputs.reset, inputs.publish_failed) = (true, true, true);
             (inputs.has_peer, inputs.other_publishers, inputs.attitude_rad) = (true, 2, Some([0.1, 0.2]));
             inputs.emergency_stop = Some(true);
+            inputs.wheels_disagree = true;
         });
         let told = hub.take_inputs();
         assert!(told.has_jumped && told.reset && told.publish_failed && told.emergency_stop == Some(true));
         let later = hub.take_inputs();
         assert!(!later.has_jumped && !later.reset && !later.publish_failed && later.emergency_stop.is_none());
         assert!(later.has_peer && later.other_publishers == 2 && later.attitude_rad == Some([0.1, 0.2]));
+        assert!(later.wheels_disagree, "the estimator finds so until its next word");
     }
 
     #[test]
