@@ -1,6 +1,6 @@
 """Runs `mapless-node` with a robot of rclpy, and checks what it does; prints the number that passed.
 
-    check.py PROGRAM CONFIG
+    check.py PROGRAM CONFIG [CHECK ...]
 """
 
 import math
@@ -8,7 +8,9 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+from pathlib import Path
 
 # Both processes alone in a domain of their own; Fast DDS over UDP, as between two computers.
 DOMAIN = 64 + os.getpid() % 64
@@ -16,7 +18,9 @@ os.environ["ROS_DOMAIN_ID"] = str(DOMAIN)
 os.environ["FASTDDS_BUILTIN_TRANSPORTS"] = "UDPv4"
 
 import rclpy  # noqa: E402
+from geometry_msgs.msg import TwistStamped  # noqa: E402
 from rclpy.qos import ReliabilityPolicy  # noqa: E402
+from std_msgs.msg import Bool  # noqa: E402
 
 from robot import Robot, spinning, until  # noqa: E402
 
@@ -28,15 +32,18 @@ SLACK_S = 0.15
 
 
 class Node:
-    """The node under test."""
+    """The node under test, with a copy of the configuration in `folder`."""
 
-    def __init__(self, program, config):
-        text = open(config, encoding="utf-8").read().replace("domain_id: 0", f"domain_id: {DOMAIN}")
-        self.config = f"/tmp/mapless-node-{os.getpid()}.yaml"
-        with open(self.config, "w", encoding="utf-8") as file:
-            file.write(text)
-        self.program = program
+    def __init__(self, program, config, folder):
+        self.program, self.config = program, Path(folder) / "robot.yaml"
+        self.config.write_text(Path(config).read_text(encoding="utf-8"), encoding="utf-8")
+        self.configure("domain_id: 0", f"domain_id: {DOMAIN}")
         self.start()
+
+    def configure(self, line, instead):
+        text = self.config.read_text(encoding="utf-8")
+        assert line in text, f"{self.config}: expected {line!r}"
+        self.config.write_text(text.replace(line, instead), encoding="utf-8")
 
     def start(self):
         self.process = subprocess.Popen([self.program, self.config])
@@ -173,13 +180,12 @@ def a_release_moves_nothing(robot, _node):
 
 
 def another_publisher_is_noticed(robot, _node):
-    from geometry_msgs.msg import TwistStamped
-
     other = []
     checked = stops(
         robot, lambda: other.append(robot.create_publisher(TwistStamped, "cmd_vel", 10)), 3.0, "another publisher"
     )
-    robot.destroy_publisher(other[0])
+    for publisher in other:
+        robot.destroy_publisher(publisher)
     return checked
 
 
@@ -236,9 +242,7 @@ def stamps_ahead_of_the_simulated_clock_stop_it(robot, node):
     """After all others: the node is begun anew with `use_sim_time`. The clock stands, and stamps go on."""
     if node.process.poll() is None:
         node.end()
-    text = open(node.config, encoding="utf-8").read()
-    with open(node.config, "w", encoding="utf-8") as file:
-        file.write(text.replace("node_name: mapless", "node_name: mapless\n    use_sim_time: true"))
+    node.configure("node_name: mapless", "node_name: mapless\n    use_sim_time: true")
     robot.is_simulated, robot.diagnosis = True, None
     node.start()
     checked = stops(robot, lambda: setattr(robot, "is_simulated", False), 0.5, "Future")
@@ -253,8 +257,6 @@ def in_order(robot):
     time.sleep(0.3)
 
     def is_well():
-        from std_msgs.msg import Bool
-
         if "Latched" in state(robot):
             robot.reset.publish(Bool(data=True))
         return state(robot).startswith(("Standby", "Driving"))
@@ -290,7 +292,8 @@ def main():
     rclpy.init()
     robot = Robot()
     spinning(robot)
-    node = Node(program, config)
+    folder = tempfile.TemporaryDirectory()
+    node = Node(program, config, folder.name)
     failed = passed = 0
     try:
         for check in CHECKS:
@@ -304,7 +307,7 @@ def main():
     finally:
         if node.process.poll() is None:
             node.kill()
-        os.remove(node.config)
+        folder.cleanup()
     print(f"{failed} failed\n{passed} passed", flush=True)
     # Threads of rclpy abort an orderly end now and then.
     os._exit(failed > 0)

@@ -56,7 +56,7 @@ const COMPLAIN_EVERY: Duration = Duration::from_secs(5);
 pub(crate) struct Hub {
     began: Instant,
     is_ending: AtomicBool,
-    has_torn: AtomicBool,
+    has_jumped: AtomicBool,
     /// The simulation's clock, if time is simulated.
     clock: Option<Mutex<Time>>,
     /// From the middleware to the planner.
@@ -78,7 +78,7 @@ impl Hub {
         Self {
             began: Instant::now(),
             is_ending: AtomicBool::new(false),
-            has_torn: AtomicBool::new(false),
+            has_jumped: AtomicBool::new(false),
             clock: use_sim_time.then(Mutex::default),
             scan: Slot::default(),
             proposal: Slot::default(),
@@ -111,13 +111,13 @@ impl Hub {
 
     /// The localisation jumped: what the planner remembers of the ground lies elsewhere now.
     pub(crate) fn jump(&self) {
-        self.has_torn.store(true, Ordering::Relaxed);
+        self.has_jumped.store(true, Ordering::Relaxed);
         self.tell(|inputs| inputs.has_jumped = true);
     }
 
     /// Whether the localisation jumped since this was last asked.
-    pub(crate) fn take_forget(&self) -> bool {
-        self.has_torn.swap(false, Ordering::Relaxed)
+    pub(crate) fn take_jump(&self) -> bool {
+        self.has_jumped.swap(false, Ordering::Relaxed)
     }
 
     /// Asks every thread to end.
@@ -141,6 +141,7 @@ impl Hub {
         let taken = *inputs;
         *inputs = Inputs {
             attitude_rad: taken.attitude_rad,
+            wheels_disagree: taken.wheels_disagree,
             has_peer: taken.has_peer,
             other_publishers: taken.other_publishers,
             goal: taken.goal,
@@ -162,6 +163,11 @@ impl Hub {
     /// The planner's last answer.
     pub(crate) fn planned(&self) -> Option<Planned> {
         *lock(&self.planned)
+    }
+
+    /// The planner's last answer, if it was for this goal.
+    pub(crate) fn planned_for(&self, task: Task) -> Option<Planned> {
+        self.planned().filter(|planned| planned.goal == task.number)
     }
 
     /// Publishes an answer of the planner to the other threads.
@@ -215,6 +221,8 @@ impl Hub {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use mapless::Goal;
+    use mapless::glam::DVec2;
 
     #[test]
     fn events_are_told_once_and_what_is_so_stays() {
@@ -223,11 +231,22 @@ mod tests {
             (inputs.has_jumped, inputs.reset, inputs.publish_failed) = (true, true, true);
             (inputs.has_peer, inputs.other_publishers, inputs.attitude_rad) = (true, 2, Some([0.1, 0.2]));
             inputs.emergency_stop = Some(true);
+            inputs.wheels_disagree = true;
         });
         let told = hub.take_inputs();
         assert!(told.has_jumped && told.reset && told.publish_failed && told.emergency_stop == Some(true));
         let later = hub.take_inputs();
         assert!(!later.has_jumped && !later.reset && !later.publish_failed && later.emergency_stop.is_none());
         assert!(later.has_peer && later.other_publishers == 2 && later.attitude_rad == Some([0.1, 0.2]));
+        assert!(later.wheels_disagree, "the estimator finds so until its next word");
+    }
+
+    #[test]
+    fn an_answer_for_one_goal_is_none_for_the_next() {
+        let hub = Hub::new(false);
+        let task = |number| Task { number, goal: Goal::at(DVec2::X) };
+        hub.plan(Planned { goal: 1, status: Status::Searching, recoveries: 3, took: Duration::ZERO });
+        assert_eq!(hub.planned_for(task(1)).map(|planned| planned.recoveries), Some(3));
+        assert!(hub.planned_for(task(2)).is_none());
     }
 }

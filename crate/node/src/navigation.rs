@@ -8,7 +8,7 @@ use ros2_client::action::GoalId;
 
 use crate::messages::Outcome;
 
-/// Codes of an aborted goal. The first three are Nav2's.
+/// Codes of an aborted goal. The first two are Nav2's.
 pub mod code {
     /// The supervisor stopped the robot for good; the text names the reason.
     pub const STOPPED: u16 = 9000;

@@ -72,7 +72,7 @@ impl Planning {
     }
 
     fn step(&mut self, hub: &Hub, scan: &Scan, task: Task) -> Outcome {
-        if hub.take_forget() {
+        if hub.take_jump() {
             self.planner.reset();
             self.task = None;
         }

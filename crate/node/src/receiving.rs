@@ -81,7 +81,6 @@ impl Receiving<'_> {
                     self.end(before);
                 }
                 Err(reason) => {
-                    log::warn!("a goal is refused: {reason}");
                     self.hub.complain("goal", &reason);
                     self.actions.refuse(request);
                 }
@@ -105,11 +104,7 @@ impl Receiving<'_> {
             }
         }
         if let (Some(decision), Some(task)) = (self.hub.decision(), self.navigation.task()) {
-            let status = self
-                .hub
-                .planned()
-                .filter(|planned| planned.goal == task.number)
-                .map(|planned| planned.status);
+            let status = self.hub.planned_for(task).map(|planned| planned.status);
             let ended = self.navigation.check(&decision, status, self.hub.now());
             self.end(ended);
         }
@@ -188,7 +183,7 @@ impl Receiving<'_> {
                 current_pose,
                 navigation_time: self.navigation.pursued_for(now).into(),
                 estimated_time_remaining: Duration::from_secs_f64((distance_m / speed_m_s).min(1e6)).into(),
-                number_of_recoveries: self.hub.planned().map_or(0, |planned| planned.recoveries),
+                number_of_recoveries: self.hub.planned_for(task).map_or(0, |planned| planned.recoveries),
                 distance_remaining: distance_m as f32,
             },
         );

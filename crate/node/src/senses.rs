@@ -174,12 +174,7 @@ fn returns(cloud: &PointCloud2, sensor: &SensorModel) -> Result<Returns, Unusabl
     let fields: Vec<Field> = cloud
         .fields
         .iter()
-        .map(|field| Field {
-            name: field.name.clone(),
-            offset: field.offset,
-            datatype: field.datatype,
-            count: field.count,
-        })
+        .map(|field| Field { name: field.name.clone(), offset: field.offset, datatype: field.datatype })
         .collect();
     let returns = cloud::read(&PointCloud {
         height: cloud.height,

@@ -110,7 +110,7 @@ fn control(distro: &str, version: &str, arch: Arch) -> String {
     let arch = arch.name();
     format!(
         "Package: mapless-node-{distro}\nVersion: {version}\nArchitecture: {arch}\nSection: misc\nPriority: optional\n\
-         Maintainer: mapless maintainers <maintainers@mapless.invalid>\nConflicts: mapless-node-{other}\n\
+         Maintainer: mapless maintainers\nConflicts: mapless-node-{other}\n\
          Description: mapless navigation on uneven terrain as a ROS 2 node\n \
          Takes a LiDAR, odometry and an IMU and drives a robot to goals, without a map and without a ROS\n \
          installation. Built for the messages of ROS 2 {distro}.\n"

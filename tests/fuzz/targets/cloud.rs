@@ -13,7 +13,7 @@ const NAMES: [&str; 8] = ["x", "y", "z", "time", "t", "timestamp", "ring", "inte
 struct Cloud {
     height: u32,
     width: u32,
-    fields: Vec<(u8, u32, u8, u32)>,
+    fields: Vec<(u8, u32, u8)>,
     /// Sizes that fit together, so that points are read.
     is_sound: bool,
     is_big_endian: bool,
@@ -26,9 +26,9 @@ struct Cloud {
 fuzz_target!(|cloud: Cloud| {
     let Cloud { mut height, mut width, mut point_step, mut row_step, stamp_ns, is_big_endian, ref data, .. } = cloud;
     let mut fields: Vec<Field> = Vec::new();
-    for &(name, offset, datatype, count) in &cloud.fields {
+    for &(name, offset, datatype) in &cloud.fields {
         let name = NAMES[usize::from(name) % NAMES.len()].to_owned();
-        fields.push(Field { name, offset, datatype, count });
+        fields.push(Field { name, offset, datatype });
     }
     if cloud.is_sound {
         point_step = 12 + point_step % 40;
@@ -39,7 +39,7 @@ fuzz_target!(|cloud: Cloud| {
             (field.offset, field.datatype) = (field.offset % (point_step - 8), 1 + field.datatype % 8);
         }
         for (index, name) in ["x", "y", "z"].into_iter().enumerate() {
-            fields.push(Field { name: name.to_owned(), offset: 4 * index as u32, datatype: 7, count: 1 });
+            fields.push(Field { name: name.to_owned(), offset: 4 * index as u32, datatype: 7 });
         }
     }
     let cloud = PointCloud { height, width, fields: &fields, is_big_endian, point_step, row_step, data, stamp_ns };

@@ -34,8 +34,6 @@ const LAST_DOMAIN: u16 = 232;
 /// Everything that the node is told.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodeConfig {
-    /// The distribution whose layouts are spoken.
-    pub distro: Distro,
     /// Such as `/a200_0000`.
     pub namespace: String,
     /// The node's name within it.
@@ -193,7 +191,6 @@ impl NodeConfig {
             Distro::Jazzy => CommandType::TwistStamped,
         };
         Ok(Self {
-            distro: given.distro,
             namespace: given.namespace,
             node_name: given.node_name,
             domain_id: given.domain_id,

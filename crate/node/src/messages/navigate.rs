@@ -22,9 +22,9 @@ pub struct Feedback {
     pub current_pose: PoseStamped,
     /// Since the goal was accepted.
     pub navigation_time: Duration,
-    /// As the crow flies, at the speed so far.
+    /// As the crow flies, at the largest speed that is allowed.
     pub estimated_time_remaining: Duration,
-    /// Times it turned back or on the spot.
+    /// Times it began to drive back or to search since the goal was accepted.
     pub number_of_recoveries: i16,
     /// As the crow flies, metres.
     pub distance_remaining: f32,

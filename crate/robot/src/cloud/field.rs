@@ -9,10 +9,8 @@ pub struct Field {
     pub name: String,
     /// Where it begins in a point, bytes.
     pub offset: u32,
-    /// How its numbers are written: 1 to 8 for i8, u8, i16, u16, i32, u32, f32 and f64.
+    /// How its number is written, of several the first: 1 to 8 for i8, u8, i16, u16, i32, u32, f32 and f64.
     pub datatype: u8,
-    /// How many numbers it has; the first counts.
-    pub count: u32,
 }
 
 /// How to read a field of any point.

@@ -11,7 +11,8 @@ parameters! {
         /// Odometry whose variances of z, in m², and of roll and pitch, in rad², are above 0 and at most this
         /// is three-dimensional.
         most_variance: f64 = 0.1, range [0.001, 1.0], check Positive;
-        /// The robot stands when its wheels moved less than this for `standstill_s`.
+        /// The robot stands when its wheels move it by less than this, and turn it by less than as many
+        /// radians a second.
         standstill_m_s: f64 = 0.005, unit "m/s", range [0.0, 0.05], check NotNegative;
         /// How long the wheels must rest before the gyro's bias is learned.
         standstill_s: f64 = 0.5, unit "s", range [0.1, 5.0], check Positive;

@@ -14,11 +14,11 @@ mod reading;
 mod slip;
 mod trajectory;
 
-use core::f64::consts::{PI, TAU};
 use core::time::Duration;
 
 use glam::{DQuat, DVec2, DVec3};
 use mapless::Pose;
+use mapless::math::angle::{difference_rad, wrap_rad};
 use mapless_parameters::ConfigError;
 
 pub use config::EstimatorConfig;
@@ -236,7 +236,7 @@ impl Estimator {
         let moved_m = last.orientation * speed_m_s * elapsed_s;
         let missed_m = (odometry.position_m - last.position_m - moved_m).length();
         let yaw_rad = |odometry: &Odometry| Pose::from_quaternion(DVec3::ZERO, odometry.orientation).yaw_rad;
-        let missed_rad = wrap_rad(yaw_rad(odometry) - yaw_rad(last) - self.turned_rad).abs();
+        let missed_rad = difference_rad(yaw_rad(odometry) - yaw_rad(last), self.turned_rad).abs();
         missed_m > self.config.jump_m * tolerance || missed_rad > self.config.jump_rad * tolerance
     }
 
@@ -260,8 +260,4 @@ impl Estimator {
 fn turned(turn_rad: f64, vector: DVec3) -> DVec3 {
     let (sin, cos) = libm::sincos(turn_rad);
     DVec2::new(cos, sin).rotate(vector.truncate()).extend(vector.z)
-}
-
-fn wrap_rad(angle_rad: f64) -> f64 {
-    (angle_rad + PI).rem_euclid(TAU) - PI
 }

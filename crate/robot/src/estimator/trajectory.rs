@@ -1,10 +1,10 @@
 //! The poses of the last seconds.
 
-use core::f64::consts::{PI, TAU};
 use core::time::Duration;
 use std::collections::VecDeque;
 
 use mapless::Pose;
+use mapless::math::angle::difference_rad;
 
 /// Longer ago, no scan is corrected.
 const KEPT: Duration = Duration::from_secs(2);
@@ -34,11 +34,6 @@ impl Trajectory {
         self.poses.clear();
     }
 
-    /// The newest time.
-    pub fn newest(&self) -> Option<Duration> {
-        self.poses.back().map(|(at, _)| *at)
-    }
-
     /// The pose at a time: between two poses, or up to 50 ms after the last by the motion before it. `None`
     /// outside.
     pub fn pose_at(&self, at: Duration) -> Option<Pose> {
@@ -60,7 +55,7 @@ impl Trajectory {
 
 /// The pose at a share of the way from one pose to another near it.
 fn between(from: &Pose, to: &Pose, share: f64) -> Pose {
-    let turned = |from: f64, to: f64| from + share * ((to - from + PI).rem_euclid(TAU) - PI);
+    let turned = |from: f64, to: f64| from + share * difference_rad(to, from);
     Pose::from_roll_pitch_yaw(
         from.position_m + share * (to.position_m - from.position_m),
         turned(from.roll_rad, to.roll_rad),
@@ -72,6 +67,7 @@ fn between(from: &Pose, to: &Pose, share: f64) -> Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use core::f64::consts::PI;
     use mapless::glam::DVec3;
 
     fn pose(x_m: f64, yaw_rad: f64) -> Pose {

@@ -19,8 +19,9 @@ pub(crate) struct Point {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     pub(crate) name: &'static str,
-    /// Name, offset and datatype of each field.
-    fields: &'static [(&'static str, u32, u8)],
+    /// Name, offset and datatype of each coordinate, and of the other fields.
+    axes: [(&'static str, u32, u8); 3],
+    more: &'static [(&'static str, u32, u8)],
     pub(crate) step: usize,
     is_big_endian: bool,
     /// Rows with padding, and NaN for missing returns.
@@ -32,7 +33,8 @@ pub(crate) struct Layout {
 
 const PLAIN: Layout = Layout {
     name: "",
-    fields: &[],
+    axes: [("x", 0, 7), ("y", 4, 7), ("z", 8, 7)],
+    more: &[],
     step: 0,
     is_big_endian: false,
     is_organised: false,
@@ -43,40 +45,26 @@ const PLAIN: Layout = Layout {
 pub(crate) const LAYOUTS: [Layout; 10] = [
     Layout {
         name: "velodyne, 22 bytes",
-        fields: &[
-            ("x", 0, 7),
-            ("y", 4, 7),
-            ("z", 8, 7),
-            ("intensity", 12, 7),
-            ("ring", 16, 4),
-            ("time", 18, 7),
-        ],
+        more: &[("intensity", 12, 7), ("ring", 16, 4), ("time", 18, 7)],
         step: 22,
         ..PLAIN
     },
     Layout {
         name: "velodyne, 18 bytes, no time",
-        fields: &[("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("intensity", 12, 7), ("ring", 16, 4)],
+        more: &[("intensity", 12, 7), ("ring", 16, 4)],
         step: 18,
         ..PLAIN
     },
     Layout {
         name: "velodyne, 32 bytes",
-        fields: &[
-            ("x", 0, 7),
-            ("y", 4, 7),
-            ("z", 8, 7),
-            ("intensity", 16, 7),
-            ("ring", 20, 4),
-            ("time", 24, 7),
-        ],
+        more: &[("intensity", 16, 7), ("ring", 20, 4), ("time", 24, 7)],
         step: 32,
         ..PLAIN
     },
-    Layout { name: "x y z alone", fields: &[("x", 0, 7), ("y", 4, 7), ("z", 8, 7)], step: 12, ..PLAIN },
+    Layout { name: "x y z alone", step: 12, ..PLAIN },
     Layout {
         name: "ouster, organised",
-        fields: &[("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("intensity", 16, 7), ("t", 20, 6), ("ring", 26, 4)],
+        more: &[("intensity", 16, 7), ("t", 20, 6), ("ring", 26, 4)],
         step: 48,
         is_organised: true,
         unit_s: 1e-9,
@@ -84,21 +72,14 @@ pub(crate) const LAYOUTS: [Layout; 10] = [
     },
     Layout {
         name: "hesai, seconds since 1970",
-        fields: &[("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("timestamp", 16, 8), ("ring", 24, 4)],
+        more: &[("timestamp", 16, 8), ("ring", 24, 4)],
         step: 26,
         is_absolute: true,
         ..PLAIN
     },
     Layout {
         name: "robosense, organised, seconds since 1970",
-        fields: &[
-            ("x", 0, 7),
-            ("y", 4, 7),
-            ("z", 8, 7),
-            ("intensity", 12, 7),
-            ("ring", 16, 4),
-            ("timestamp", 18, 8),
-        ],
+        more: &[("intensity", 12, 7), ("ring", 16, 4), ("timestamp", 18, 8)],
         step: 26,
         is_organised: true,
         is_absolute: true,
@@ -106,14 +87,7 @@ pub(crate) const LAYOUTS: [Layout; 10] = [
     },
     Layout {
         name: "livox, nanoseconds since 1970",
-        fields: &[
-            ("x", 0, 7),
-            ("y", 4, 7),
-            ("z", 8, 7),
-            ("tag", 16, 2),
-            ("line", 17, 2),
-            ("timestamp", 18, 8),
-        ],
+        more: &[("tag", 16, 2), ("line", 17, 2), ("timestamp", 18, 8)],
         step: 26,
         unit_s: 1e-9,
         is_absolute: true,
@@ -121,34 +95,25 @@ pub(crate) const LAYOUTS: [Layout; 10] = [
     },
     Layout {
         name: "big-endian f64 in another order, milliseconds",
-        fields: &[("time", 0, 7), ("z", 8, 8), ("Y", 16, 8), ("x", 24, 8)],
+        axes: [("x", 24, 8), ("Y", 16, 8), ("z", 8, 8)],
+        more: &[("time", 0, 7)],
         step: 40,
         is_big_endian: true,
         unit_s: 1e-3,
         ..PLAIN
     },
-    Layout {
-        name: "microseconds, i32",
-        fields: &[("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("offset_time", 12, 5)],
-        step: 16,
-        unit_s: 1e-6,
-        ..PLAIN
-    },
+    Layout { name: "microseconds, i32", more: &[("offset_time", 12, 5)], step: 16, unit_s: 1e-6, ..PLAIN },
 ];
 
 impl Layout {
     pub(crate) fn has_times(&self) -> bool {
-        self.fields.iter().any(|(name, ..)| name.contains("time") || *name == "t")
+        self.more.iter().any(|(name, ..)| name.contains("time") || *name == "t")
     }
 
     pub(crate) fn fields(&self) -> Vec<Field> {
-        let field = |&(name, offset, datatype): &(&str, u32, u8)| Field {
-            name: name.to_owned(),
-            offset,
-            datatype,
-            count: 1,
-        };
-        self.fields.iter().map(field).collect()
+        let field =
+            |&(name, offset, datatype): &(&str, u32, u8)| Field { name: name.to_owned(), offset, datatype };
+        self.axes.iter().chain(self.more).map(field).collect()
     }
 
     /// The bytes of points in columns of `rings`; with their height, width and row step.
@@ -172,7 +137,7 @@ impl Layout {
     fn bytes(&self, point: &Point) -> Vec<u8> {
         // What belongs to no field may be anything.
         let mut bytes = vec![0xcd; self.step];
-        for &(name, offset, datatype) in self.fields {
+        for &(name, offset, datatype) in self.axes.iter().chain(self.more) {
             let begin_s = if self.is_absolute { STAMP_NS as f64 * 1e-9 } else { 0.0 };
             let value = match name.to_ascii_lowercase().as_str() {
                 "x" => f64::from(point.point_m.x),

@@ -27,7 +27,7 @@ fn fault(damage: impl Fn(&mut PointCloud<'_>)) -> String {
 }
 
 fn field(name: &str, offset: u32, datatype: u8) -> Field {
-    Field { name: name.to_owned(), offset, datatype, count: 1 }
+    Field { name: name.to_owned(), offset, datatype }
 }
 
 #[test]

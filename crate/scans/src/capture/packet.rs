@@ -16,7 +16,9 @@ pub(crate) const TURN: f64 = 36_000.0;
 
 /// The first bytes of each block.
 const BLOCK_FLAG: [u8; 2] = [0xff, 0xee];
-const BLOCKS: usize = 12;
+pub(crate) const BLOCKS: usize = 12;
+/// With fewer flagged blocks it is no data packet.
+pub(crate) const LEAST_FLAGGED: usize = BLOCKS / 2 + 1;
 const BLOCK_BYTES: usize = 100;
 const RETURN_BYTES: usize = 3;
 const RETURNS: usize = 32;
@@ -29,14 +31,18 @@ const DUAL: u8 = 0x39;
 const FIRING_US: f64 = 2.304;
 const SEQUENCE_US: f64 = 55.296;
 
-type Packet = [u8; PACKET_BYTES];
+pub(crate) type Packet = [u8; PACKET_BYTES];
 
 /// Whether a UDP payload is a data packet of any model. A damaged packet is still one: most of its blocks
 /// have their flag.
 pub(crate) fn data_packet(payload: &[u8]) -> Option<&Packet> {
     let packet: &Packet = payload.try_into().ok()?;
-    let flagged = (0..BLOCKS).filter(|block| packet[block * BLOCK_BYTES..].starts_with(&BLOCK_FLAG));
-    (flagged.count() > BLOCKS / 2).then_some(packet)
+    (flagged_blocks(packet) >= LEAST_FLAGGED).then_some(packet)
+}
+
+/// Blocks of a packet that have their flag.
+pub(crate) fn flagged_blocks(packet: &Packet) -> usize {
+    (0..BLOCKS).filter(|block| packet[block * BLOCK_BYTES..].starts_with(&BLOCK_FLAG)).count()
 }
 
 /// The number of the model that sent a packet.

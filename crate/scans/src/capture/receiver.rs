@@ -4,7 +4,9 @@ use glam::Vec3;
 
 use crate::capture::POSITION_BYTES;
 use crate::capture::model::{self, MODELS};
-use crate::capture::packet::{self, Firing, Sweep, data_packet, sweep};
+use crate::capture::packet::{
+    self, BLOCKS, Firing, LEAST_FLAGGED, PACKET_BYTES, Packet, Sweep, flagged_blocks, sweep,
+};
 use crate::capture::revolutions::{Turns, lost_between};
 use crate::error::ScanFault;
 
@@ -91,10 +93,15 @@ impl PacketReceiver {
 
     fn read(&self, payload: &[u8]) -> Result<(u32, Sweep), ScanFault> {
         let place = |what: &str| format!("packet {}, {what}", self.packets);
-        let packet = data_packet(payload).ok_or_else(|| {
-            let expected = "a data packet of a Velodyne sensor, 1206 bytes with their flags";
+        let packet: &Packet = payload.try_into().map_err(|_| {
+            let expected = format!("{PACKET_BYTES} bytes, a data packet of a Velodyne sensor");
             ScanFault::value(place("length"), payload.len(), expected)
         })?;
+        let flagged = flagged_blocks(packet);
+        if flagged < LEAST_FLAGGED {
+            let expected = format!("at least {LEAST_FLAGGED} of {BLOCKS}");
+            return Err(ScanFault::value(place("blocks with the flag 0xffee"), flagged, expected));
+        }
         let product = packet::product(packet);
         let model = MODELS.iter().find(|model| model.product == product);
         let model = model.ok_or_else(|| {
@@ -125,7 +132,6 @@ fn revolution(firings: &[Firing]) -> Option<Revolution> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::capture::packet::PACKET_BYTES;
     use crate::capture::packet::tests::packet;
     use proptest::prelude::*;
 
@@ -176,13 +182,12 @@ mod tests {
         let packets = packets(37 + 3 * 75 + 2);
         assert!(revolutions(&mut receiver, &packets[..60]).is_empty());
         let fault = receiver.take(&[1, 2, 3]).unwrap_err().to_string();
-        assert_eq!(
-            fault,
-            "packet 61, length = 3: expected a data packet of a Velodyne sensor, 1206 bytes with their flags"
-        );
+        assert_eq!(fault, "packet 61, length = 3: expected 1206 bytes, a data packet of a Velodyne sensor");
+        let fault = receiver.take(&[0; PACKET_BYTES]).unwrap_err().to_string();
+        assert_eq!(fault, "packet 62, blocks with the flag 0xffee = 0: expected at least 7 of 12");
         let mut other = packets[60];
         other[PACKET_BYTES - 1] = 0x99;
-        assert!(receiver.take(&other).unwrap_err().to_string().starts_with("packet 62, product = 0x99"));
+        assert!(receiver.take(&other).unwrap_err().to_string().starts_with("packet 63, product = 0x99"));
         assert_eq!(revolutions(&mut receiver, &packets[60..]).len(), 2);
     }
 
