@@ -167,6 +167,22 @@ test('the paper’s process is what the paper’s planner has', async ({ mapless
   expect(await values()).toEqual(process);
 });
 
+test('closing the process leaves the image as it was before', async ({ mapless: page }) => {
+  const image = page.locator('#app');
+  await openByHand(page);
+  await expect(image).toHaveAttribute('data-image', 'large');
+  await page.keyboard.press('m');
+  await expect(method(page)).toBeHidden();
+  await expect(image).toHaveAttribute('data-image', 'small');
+  // Who enlarged it before, keeps it so.
+  await page.keyboard.press('v');
+  await page.keyboard.press('m');
+  await expect(method(page)).toBeVisible();
+  await page.keyboard.press('m');
+  await expect(method(page)).toBeHidden();
+  await expect(image).toHaveAttribute('data-image', 'large');
+});
+
 test('the threshold is a handle on the scale of the image, by mouse and by keys', async ({ mapless: page }) => {
   await pausedAt(page, 40);
   await page.keyboard.press('v');
