@@ -1,5 +1,6 @@
 /** The page's state and its actions: what buttons, keys, tools and `window.mapless` call. */
 
+import { messageOf } from '../base/messageOf.ts';
 import { Editor } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { type Experiment, FIRST_SETUP, type Holes, type Stroke } from '../experiment/experiment.ts';
@@ -533,7 +534,7 @@ export class App {
 
   /** Shows what went wrong instead of leaving a promise unhandled. */
   attempt(action: Promise<void>): Promise<void> {
-    return action.catch((error: unknown) => this.#views.notice(error instanceof Error ? error.message : String(error)));
+    return action.catch((error: unknown) => this.#views.notice(messageOf(error)));
   }
 
   #onFailure(message: string, panicked: boolean): void {

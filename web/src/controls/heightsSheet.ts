@@ -1,5 +1,6 @@
 /** The sheet that asks how an image is to be read as heights, which it does not say itself. Loaded when such a file is opened. */
 
+import { messageOf } from '../base/messageOf.ts';
 import '../style/heights.css';
 import { base64 } from '../base/base64.ts';
 import { html, setText } from '../base/dom.ts';
@@ -121,7 +122,7 @@ export class HeightsSheet {
     } catch (error) {
       if (asked !== this.#asked) return;
       setText(this.#note, '');
-      setText(this.#warning, error instanceof Error ? error.message : String(error));
+      setText(this.#warning, messageOf(error));
       this.#open.disabled = true;
     }
   }

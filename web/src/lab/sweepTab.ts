@@ -3,6 +3,7 @@
 import type { App } from '../app/app.ts';
 import { html, setText } from '../base/dom.ts';
 import { clock, fixed } from '../base/format.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { withOverride } from '../experiment/overrides.ts';
 import { label, type Parameter } from '../experiment/parameters.ts';
 import { zip } from '../files/archive.ts';
@@ -130,7 +131,7 @@ export class SweepTab implements Tab {
       const route = name === 'terrain' ? 'scenario' : name;
       this.#sweep = { course: courseOf(info, field), planner: info.preset, route, path, whole, values, seeds };
     } catch (error) {
-      setText(this.#fault, error instanceof Error ? error.message : String(error));
+      setText(this.#fault, messageOf(error));
       this.#values.focus();
       return;
     }
@@ -237,7 +238,7 @@ export class SweepTab implements Tab {
       const campaign = { name: 'campaign.toml', bytes: new TextEncoder().encode(campaignFile(sweep)) };
       download(`mapless-${sweep.route}-sweep.zip`, zip([campaign, ...files]));
     } catch (error) {
-      setText(this.#fault, error instanceof Error ? error.message : String(error));
+      setText(this.#fault, messageOf(error));
     }
   }
 }
