@@ -3,7 +3,7 @@
 import { messageOf } from '../base/messageOf.ts';
 import '../style/heights.css';
 import { base64 } from '../base/base64.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
 import { readTheme } from '../colours/theme.ts';
 import { HOLES, type Holes, type Terrain } from '../experiment/experiment.ts';
@@ -59,9 +59,7 @@ export class HeightsSheet {
     this.#picture.setAttribute('role', 'img');
     this.#note.setAttribute('role', 'status');
     this.#warning.setAttribute('role', 'alert');
-    const cancel = html('button', 'plain', ['Cancel']);
-    cancel.type = 'button';
-    cancel.addEventListener('click', () => this.#sheet.close());
+    const cancel = button('plain', 'Cancel', () => this.#sheet.close());
     this.#form.method = 'dialog';
     this.#form.append(
       field('Cell size', this.#cell, 'm'),

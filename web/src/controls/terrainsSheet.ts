@@ -1,6 +1,6 @@
 /** The sheet of terrains: those of the scenarios, generated ones, and files of one's own. */
 
-import { byId, html, setText } from '../base/dom.ts';
+import { button, byId, html, setText } from '../base/dom.ts';
 import { messageOf } from '../base/messageOf.ts';
 import { readTheme } from '../colours/theme.ts';
 import { kept, works } from '../experiment/autosave.ts';
@@ -77,13 +77,11 @@ export class TerrainsSheet {
   async #listWork(): Promise<void> {
     this.#showWork(
       (await works()).map(({ id, name, saved }) => {
-        const button = html('button', 'plain', [`${entry(name).title}, ${saved.toLocaleString()}`]);
-        button.type = 'button';
-        button.addEventListener('click', () => {
+        const work = button('plain', `${entry(name).title}, ${saved.toLocaleString()}`, () => {
           this.#sheet.close();
           this.#actions.attempt(this.#reopen(id));
         });
-        return html('li', '', [button]);
+        return html('li', '', [work]);
       }),
     );
   }

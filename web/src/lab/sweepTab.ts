@@ -1,7 +1,7 @@
 /** One parameter over values and seeds, in the background: what it buys, as a plot, a table to replay from, and files. */
 
 import type { App } from '../app/app.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { clock, fixed } from '../base/format.ts';
 import { messageOf } from '../base/messageOf.ts';
 import { withOverride } from '../experiment/overrides.ts';
@@ -30,10 +30,10 @@ export class SweepTab implements Tab {
   readonly #values = named('input', 'Values');
   readonly #count = numberInput('sweep', 'Seeds', 1, MOST_SEEDS, 5);
   readonly #metric = named('select', 'Metric');
-  readonly #start = action('lab-action', 'Run', () => this.#begin());
-  readonly #cancel = action('plain', 'Cancel', () => this.#end(`Cancelled after ${this.#trials.length} trials.`));
-  readonly #csv = action('plain', 'Save as CSV', () => this.#saveCsv());
-  readonly #campaign = action('plain', 'Save as campaign', () => this.#saveCampaign());
+  readonly #start = button('lab-action', 'Run', () => this.#begin());
+  readonly #cancel = button('plain', 'Cancel', () => this.#end(`Cancelled after ${this.#trials.length} trials.`));
+  readonly #csv = button('plain', 'Save as CSV', () => this.#saveCsv());
+  readonly #campaign = button('plain', 'Save as campaign', () => this.#saveCampaign());
   readonly #note = html('p', 'lab-note');
   readonly #fault = html('p', 'parameter-fault');
   readonly #plot = html('div');
@@ -84,7 +84,7 @@ export class SweepTab implements Tab {
   sculpted(): void {
     if (this.#course === undefined) return;
     this.#course = undefined;
-    for (const button of this.#rows.querySelectorAll('button')) button.disabled = true;
+    for (const replay of this.#rows.querySelectorAll('button')) replay.disabled = true;
   }
 
   #fill({ parameters }: SessionInfo): void {
@@ -159,7 +159,7 @@ export class SweepTab implements Tab {
   #enter(trial: SweptTrial): void {
     this.#trials.push(trial);
     const { value, result } = trial;
-    const replay = action('plain', String(value), () => this.#app.attempt(this.#replay(trial)));
+    const replay = button('plain', String(value), () => this.#app.attempt(this.#replay(trial)));
     replay.setAttribute('aria-label', `Show ${value} with seed ${result.seed}`);
     const end = html('td', '', [OUTCOME_WORDS[result.outcome]]);
     end.dataset.outcome = result.outcome;
@@ -205,7 +205,7 @@ export class SweepTab implements Tab {
     this.#cancel.hidden = this.#run === undefined;
     this.#start.disabled = this.#run !== undefined;
     for (const part of [this.#table, this.#saves, this.#shown]) part.hidden = this.#trials.length === 0;
-    for (const button of [this.#csv, this.#campaign]) button.disabled = this.#run !== undefined;
+    for (const save of [this.#csv, this.#campaign]) save.disabled = this.#run !== undefined;
   }
 
   #draw(): void {
@@ -253,11 +253,4 @@ function named<K extends 'select' | 'input'>(kind: K, name: string): HTMLElement
   control.id = `sweep-${name.toLowerCase()}`;
   control.setAttribute('aria-label', name);
   return control;
-}
-
-function action(look: string, words: string, act: () => void): HTMLButtonElement {
-  const button = html('button', look, [words]);
-  button.type = 'button';
-  button.addEventListener('click', act);
-  return button;
 }

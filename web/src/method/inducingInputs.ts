@@ -1,6 +1,6 @@
 /** The inducing inputs over the image: shown, placed otherwise, and taken away one by one. */
 
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { css } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
 import type { Plot } from '../inspector/imagePlot.ts';
@@ -31,8 +31,8 @@ export class InducingInputs {
   readonly #host: Host;
   readonly #choice = html('select');
   readonly #said = html('span', 'method-count');
-  readonly #take = html('button', 'plain', ['Take one away']);
-  readonly #back = html('button', 'plain', ['Put back']);
+  readonly #take = button('plain', 'Take one away', () => this.#takeNearest());
+  readonly #back = button('plain', 'Put back', () => this.#putBack());
   readonly #newest = new Newest();
   #without: readonly number[] = [];
   #inside: Inside | undefined;
@@ -50,13 +50,6 @@ export class InducingInputs {
     });
     this.#take.title = 'The one nearest to the slice: a false hole may open there. Or press any in the image.';
     this.#back.disabled = true;
-    for (const [one, act] of [
-      [this.#take, () => this.#takeNearest()],
-      [this.#back, () => this.#putBack()],
-    ] as const) {
-      one.type = 'button';
-      one.addEventListener('click', act);
-    }
     this.element = html('div', 'method-inputs', [
       html('label', 'method-choice', [html('span', '', ['Inducing inputs']), this.#choice]),
       html('div', 'method-row', [this.#said, this.#take, this.#back]),

@@ -5,7 +5,7 @@
 
 import '../style/method.css';
 import type { App } from '../app/app.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { degrees, fixed, wrap } from '../base/format.ts';
 import { readTheme, type Theme } from '../colours/theme.ts';
 import type { Overrides } from '../experiment/overrides.ts';
@@ -136,12 +136,14 @@ export class Method {
       ['Default', 'The values of this project, chosen on recorded truth', withoutHyperparameters],
       ['Paper’s', 'V_th 0.70, one length-scale of 2°, little noise, farthest points', withPaperProcess],
     ];
-    const buttons = presets.map(([name, title, change]) =>
-      button(name, title, () => {
+    const buttons = presets.map(([name, title, change]) => {
+      const made = button('plain', name, () => {
         const { info } = this.#app;
         if (info) this.#adjust(change(info.overrides));
-      }),
-    );
+      });
+      made.title = title;
+      return made;
+    });
     Object.assign(this.#azimuth, { type: 'range', step: '1', value: '0' });
     this.#azimuth.setAttribute('aria-label', 'Azimuth of the slice');
     this.#azimuth.addEventListener('input', () => {
@@ -303,12 +305,4 @@ export class Method {
     context.lineTo(x, plot.top + plot.height);
     context.stroke();
   }
-}
-
-export function button(text: string, title: string, act: () => void): HTMLButtonElement {
-  const made = html('button', 'plain', [text]);
-  made.type = 'button';
-  made.title = title;
-  made.addEventListener('click', act);
-  return made;
 }

@@ -2,7 +2,7 @@
 
 import '../style/method.css';
 import type { App } from '../app/app.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
 import { type Overrides, override, withOverride } from '../experiment/overrides.ts';
 import type { Place } from '../experiment/place.ts';
@@ -60,10 +60,8 @@ export class Weighing {
     });
     this.#said.setAttribute('role', 'status');
     const step = (text: string, title: string, by: 1 | -1) => {
-      const made = html('button', 'plain', [text]);
-      made.type = 'button';
+      const made = button('plain', text, () => this.#step(by));
       made.title = title;
-      made.addEventListener('click', () => this.#step(by));
       return made;
     };
     this.element.append(
