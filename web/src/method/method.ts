@@ -10,6 +10,7 @@ import { degrees, fixed, wrap } from '../base/format.ts';
 import { readTheme, type Theme } from '../colours/theme.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Plot } from '../inspector/imagePlot.ts';
+import { azimuthOf, columnOf, rowOf } from '../inspector/lattice.ts';
 import type { VarianceImage } from '../inspector/varianceImage.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { Climb } from './climb.ts';
@@ -24,7 +25,7 @@ import {
 } from './knobs.ts';
 import { Newest } from './newest.ts';
 import { errorWords, skylineError } from './skylineError.ts';
-import { azimuthOf, columnOf, drawSlice } from './slice.ts';
+import { drawSlice } from './slice.ts';
 import { ThresholdHandle } from './thresholdHandle.ts';
 
 export class Method {
@@ -162,7 +163,7 @@ export class Method {
       html('summary', '', ['Equations']),
       html('p', '', ['k(z, z′) = σ² (1 + r² / 2α)^−α,  r² = Σ ((z − z′) / ℓ)²  over azimuth and elevation']),
       html('p', '', ['variance v = k** − k*ᵤ Kᵤᵤ⁻¹ kᵤ* + k*ᵤ (Kᵤᵤ + Kᵤf Kfᵤ / σₙ²)⁻¹ kᵤ*']),
-      html('p', '', ['mean = k*ᵤ (Kᵤᵤ + Kᵤf Kfᵤ / σₙ²)⁻¹ Kᵤf y / σₙ²,  y = 7 m − range']),
+      html('p', '', ['mean = k*ᵤ (Kᵤᵤ + Kᵤf Kfᵤ / σₙ²)⁻¹ Kᵤf y / σₙ²,  y = r − range,  r the radius of the occupancy']),
       html('p', '', ['Free where v / σ² > V_th: no return is near, so nothing has lowered the prior variance.']),
     ]);
     const slice = html('div', 'method-slice', [
@@ -241,22 +242,22 @@ export class Method {
           : undefined,
       );
     }
-    this.#sayError(frame);
+    this.#sayError(info, frame);
     this.#drawSlice();
     this.#image.again();
   }
 
-  #sayError({ buffers, thought }: Frame): void {
+  #sayError({ occupancy_radius_m }: SessionInfo, { buffers, thought }: Frame): void {
     const profile = (this.#inputs.isOwn === false && this.#inputs.inside?.profile) || buffers.profile;
     const now = skylineError(profile, buffers.truth);
     const before = thought === 'what_if' ? skylineError(buffers.former, buffers.truth) : undefined;
-    const words = now ? `Off the true skyline by ${errorWords(now)}` : '';
+    const words = now ? `Off the true skyline by ${errorWords(now, occupancy_radius_m)}` : '';
     setText(
       this.#error,
       !now
         ? 'Pause to compare with the true skyline.'
         : before
-          ? `${words}; the run’s: ${errorWords(before)}.`
+          ? `${words}; the run’s: ${errorWords(before, occupancy_radius_m)}.`
           : `${words}.`,
     );
   }
@@ -284,9 +285,7 @@ export class Method {
       this.#theme,
     );
     const skyline = profile[this.#column] ?? Number.NaN;
-    const rows = info.image.rows - 1;
-    const share = Number.isNaN(skyline) ? 0.5 : (skyline * 180) / Math.PI / 30 + 0.5;
-    this.#inputs.lookAt(this.#column, Math.round(rows * Math.min(Math.max(share, 0), 1)));
+    this.#inputs.lookAt(this.#column, rowOf(Number.isNaN(skyline) ? 0 : skyline, info.image.rows));
     this.#slice.setAttribute(
       'aria-label',
       `Slice ${where}: ${Number.isNaN(skyline) ? 'no skyline' : `skyline at ${degrees(skyline, 1)}`}, V_th ${fixed(frame.threshold, 2)}`,
