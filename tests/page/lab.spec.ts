@@ -171,7 +171,7 @@ async function batch(page: Page): Promise<{ rows: string[]; summary: string | nu
   await page.getByLabel('From seed').fill('41');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await expect(page.getByText('6 trials. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
-  const rows = await page.locator('.seeds-table tbody tr').allInnerTexts();
+  const rows = await page.locator('.trials-table tbody tr').allInnerTexts();
   return { rows, summary: await page.locator('.seeds-summary').textContent(), most };
 }
 
@@ -188,9 +188,9 @@ test('many seeds run beside the page, are summed up, replayed and cancelled', as
   await page.getByLabel('How many').fill('3');
   await page.getByLabel('From seed').fill('41');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await expect(page.locator('.seeds-table tbody tr')).toHaveCount(3);
+  await expect(page.locator('.trials-table tbody tr')).toHaveCount(3);
   await expect(page.locator('.seeds-summary')).toContainText('3 of 3 (95 %: 44 % to 100 %)');
-  const time = await page.locator('.seeds-table tbody tr').nth(1).getByRole('cell').nth(1).textContent();
+  const time = await page.locator('.trials-table tbody tr').nth(1).getByRole('cell').nth(1).textContent();
   await page.getByRole('button', { name: 'Show seed 42' }).click();
   await until(page, (now) => now.seed === 42 && now.outcome === 'reached');
   await expect(page.locator('#time')).toHaveText(time ?? '');
@@ -233,7 +233,7 @@ test.describe(() => {
     await page.getByRole('button', { name: 'Run', exact: true }).click();
     await expect(page.getByRole('alert').filter({ hasText: /^Seed \d: unreachable$/ })).toBeVisible();
     await expect(page.getByText('5 of 6 trials. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
-    await expect(page.locator('.seeds-table tbody tr')).toHaveCount(5);
+    await expect(page.locator('.trials-table tbody tr')).toHaveCount(5);
     await expect(page.locator('.seeds-summary')).toContainText('5 of 5');
   });
 });

@@ -30,7 +30,7 @@ export class SeedsTab implements Tab {
   readonly #fault = html('p', 'parameter-fault');
   readonly #summary = html('table', 'comparison seeds-summary');
   readonly #rows = html('tbody');
-  readonly #table = html('table', 'comparison seeds-table');
+  readonly #table = html('table', 'comparison trials-table');
   #batch: Batch | undefined;
   /** The course that the table stands for. */
   #course: { key: string; overrides: Overrides } | undefined;

@@ -38,7 +38,7 @@ export class SweepTab implements Tab {
   readonly #fault = html('p', 'parameter-fault');
   readonly #plot = html('div');
   readonly #rows = html('tbody');
-  readonly #table = html('table', 'comparison seeds-table');
+  readonly #table = html('table', 'comparison trials-table');
   readonly #shown = html('div', '', [html('div', 'sweep-form', labelled(this.#metric)), this.#plot]);
   readonly #saves = html('div', 'lab-row', [this.#csv, this.#campaign]);
   #run: SweepRun | undefined;
