@@ -169,6 +169,7 @@ test('the paper’s process is what the paper’s planner has', async ({ mapless
 
 test('closing the process leaves the image as it was before', async ({ mapless: page }) => {
   const image = page.locator('#app');
+  await pausedAt(page, 10);
   await openByHand(page);
   await expect(image).toHaveAttribute('data-image', 'large');
   await page.keyboard.press('m');
