@@ -65,7 +65,7 @@ export class Method {
     );
     canvas.parentElement?.append(this.#handle.element);
     this.#inputs = new InducingInputs({
-      look: (question) => app.lookInside(question),
+      look: (question) => app.insight.lookInside(question),
       changed: () => this.#showInside(),
       pause: () => app.pause(),
       failed: (error) => app.attempt(Promise.reject(error)),
@@ -73,7 +73,7 @@ export class Method {
     this.#climb = new Climb({
       begin: async () => {
         await app.pause();
-        return app.climb();
+        return app.insight.climb();
       },
       move: (values) => this.#move(values),
       set: (values) => this.#set(values),
@@ -107,7 +107,7 @@ export class Method {
       this.#kernel.checked = false;
     }
     this.#image.drawOver(open ? (context, plot, theme) => this.#drawOver(context, plot, theme) : undefined);
-    this.#app.attempt(this.#app.showTruth(open));
+    this.#app.attempt(this.#app.insight.showTruth(open));
     if (open && this.#frame) this.frame(this.#frame);
     else this.#showInside();
   }
@@ -230,7 +230,7 @@ export class Method {
     if (this.#open && this.#kernel.checked) {
       const [column, row] = [this.#column, this.#row];
       this.#newest.do(async () => {
-        const covariances = await this.#app.kernelFrom(column, row);
+        const covariances = await this.#app.insight.kernelFrom(column, row);
         if (!this.#kernel.checked) return;
         this.#image.showInstead({ values: covariances.map((value) => 1 - value), profile: undefined });
       });

@@ -120,7 +120,7 @@ export class Weighing {
     const place = { x, y };
     this.#newest.do(async () => {
       await this.#app.pause();
-      const report = await this.#app.reportOn(place);
+      const report = await this.#app.insight.reportOn(place);
       const { frame, info } = this.#app;
       if (!frame || !info) return;
       this.#stage?.brush(place, place, MARK_M);
