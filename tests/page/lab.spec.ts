@@ -201,6 +201,24 @@ test('many seeds run beside the page, are summed up, replayed and cancelled', as
   await expect(page.getByRole('status').filter({ hasText: /^Cancelled after \d+ of 200/ })).toBeVisible();
 });
 
+test('an object put on the course leaves the seeds as they were found, with none to replay', async ({
+  mapless: page,
+}) => {
+  await shortCourse(page, 3);
+  await openLab(page, 'Seeds');
+  await page.getByLabel('How many').fill('1');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  const replay = page.getByRole('button', { name: 'Show seed 1' });
+  await expect(replay).toBeEnabled();
+  const { goal } = await state(page);
+  await page.evaluate(
+    ({ x, y }) => window.mapless?.setObjects([{ kind: 'post', at: [x, y + 2], radius_m: 0.2, height_m: 1 }]),
+    goal,
+  );
+  await expect(replay).toBeDisabled();
+  await expect(page.getByText('The course has changed since')).toBeVisible();
+});
+
 test('one worker and several give the same table and the same summary', async ({ mapless: page }) => {
   await processors(page, 2);
   await page.reload();

@@ -3,18 +3,18 @@
 import type { App } from '../app/app.ts';
 import { button, html, setText } from '../base/dom.ts';
 import { clock, fixed } from '../base/format.ts';
+import { MAX_SEED } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import { OUTCOME_WORDS } from '../inspector/status.ts';
 import { METRIC_ROWS } from '../measurements/metrics.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import { Batch, type FromBatch, workersFor } from '../trials/batch.ts';
-import { courseOf } from '../trials/course.ts';
+import { courseKey, courseOf } from '../trials/course.ts';
 import type { Summary, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
 
 const MOST_SEEDS = 500;
-const MAX_SEED = 0xffff_ffff;
 
 export class SeedsTab implements Tab {
   readonly title = 'Seeds';
@@ -184,9 +184,4 @@ function spreadWords(mean: number, deviation: number, decimals: number, trials: 
   const needed =
     deviation > 0 ? Math.max(decimals, Math.min(Math.ceil(-Math.log10(deviation)), decimals + 3)) : decimals;
   return `${fixed(mean, needed)} ± ${fixed(deviation, needed)}`;
-}
-
-/** All that trials with other seeds have in common. */
-function courseKey({ scenario, preset, learning, overrides, start, waypoints, goal }: SessionInfo): string {
-  return JSON.stringify([scenario, preset, learning, overrides, start, waypoints, goal]);
 }

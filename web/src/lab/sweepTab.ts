@@ -11,7 +11,7 @@ import { download, plainName } from '../files/download.ts';
 import { OUTCOME_WORDS } from '../inspector/status.ts';
 import { METRIC_ROWS } from '../measurements/metrics.ts';
 import type { NamedFile, SessionInfo } from '../protocol/simulationProtocol.ts';
-import { courseOf } from '../trials/course.ts';
+import { courseKey, courseOf } from '../trials/course.ts';
 import { overridesWith, type Sweep, SweepRun, type SweptTrial, valuesIn } from '../trials/sweep.ts';
 import { campaignFile, trialsCsv } from '../trials/sweepFiles.ts';
 import type { Summary } from '../trials/trialsProtocol.ts';
@@ -78,7 +78,7 @@ export class SweepTab implements Tab {
 
   session(info: SessionInfo): void {
     if (this.#parameter.options.length === 0) this.#fill(info);
-    if (this.#course !== undefined && courseKey(info) !== this.#course) this.sculpted();
+    if (this.#course !== undefined && sweepKey(info) !== this.#course) this.sculpted();
   }
 
   sculpted(): void {
@@ -136,7 +136,7 @@ export class SweepTab implements Tab {
       return;
     }
     this.#app.touch();
-    [this.#trials, this.#summaries, this.#course] = [[], new Map(), courseKey(info)];
+    [this.#trials, this.#summaries, this.#course] = [[], new Map(), sweepKey(info)];
     // A campaign knows no learning but that of its scenario.
     const overrides = withOverride(info.overrides, 'planner.perception.learning', 'mode', info.learning);
     this.#files = this.#app.files({ ...experiment, overrides });
@@ -243,9 +243,9 @@ export class SweepTab implements Tab {
   }
 }
 
-/** All that the trials of a sweep have in common but for parameters. */
-function courseKey({ scenario, preset, learning, start, waypoints, goal, objects }: SessionInfo): string {
-  return JSON.stringify([scenario, preset, learning, start, waypoints, goal, objects]);
+/** A sweep sets parameters itself. */
+function sweepKey(info: SessionInfo): string {
+  return courseKey({ ...info, overrides: {} });
 }
 
 function named<K extends 'select' | 'input'>(kind: K, name: string): HTMLElementTagNameMap[K] {

@@ -1,12 +1,12 @@
 /** The inducing inputs over the image: shown, placed otherwise, and taken away one by one. */
 
 import { button, html, setText } from '../base/dom.ts';
+import { Newest } from '../base/newest.ts';
 import { css } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
 import type { Plot } from '../inspector/imagePlot.ts';
 import { azimuthOf, columnsApart, elevationOf } from '../inspector/lattice.ts';
 import type { Inside, InsideQuestion, Placement, SessionInfo } from '../protocol/simulationProtocol.ts';
-import { Newest } from './newest.ts';
 import type { InducingInput } from './slice.ts';
 
 /** What is pressed this near, in columns and rows, is meant. */

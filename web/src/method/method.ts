@@ -7,6 +7,7 @@ import '../style/method.css';
 import type { App } from '../app/app.ts';
 import { button, html, setText } from '../base/dom.ts';
 import { degrees, fixed, wrap } from '../base/format.ts';
+import { Newest } from '../base/newest.ts';
 import { readTheme, type Theme } from '../colours/theme.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Plot } from '../inspector/imagePlot.ts';
@@ -23,7 +24,6 @@ import {
   withoutHyperparameters,
   withPaperProcess,
 } from './knobs.ts';
-import { Newest } from './newest.ts';
 import { errorWords, skylineError } from './skylineError.ts';
 import { drawSlice } from './slice.ts';
 import { ThresholdHandle } from './thresholdHandle.ts';

@@ -20,7 +20,9 @@ export class Slider {
   /** `move` is called while it is dragged, `set` when it is let go. */
   constructor(name: string, scale: Scale, move: (value: number) => void, set?: (value: number) => void) {
     this.#scale = scale;
-    Object.assign(this.#input, { type: 'range', min: '0', max: String(scale.steps), step: '1' });
+    const [min, max] = [this.#at(scale.lowest), this.#at(scale.highest)];
+    const step = (max - min) / scale.steps;
+    Object.assign(this.#input, { type: 'range', min: String(min), max: String(max), step: String(step) });
     this.#input.addEventListener('input', () => {
       this.#say(this.value);
       move(this.value);
@@ -31,18 +33,13 @@ export class Slider {
 
   get value(): number {
     const { lowest, highest, steps, logarithmic } = this.#scale;
-    const share = Number(this.#input.value) / steps;
-    const value = logarithmic ? lowest * (highest / lowest) ** share : lowest + (highest - lowest) * share;
-    return Number(value.toPrecision(3));
+    const at = Number(this.#input.value);
+    return Number((logarithmic ? lowest * (highest / lowest) ** (at / steps) : at).toPrecision(3));
   }
 
   /** A value beyond the ends stands at the end, in its own words. */
   set value(value: number) {
-    const { lowest, highest, steps, logarithmic } = this.#scale;
-    const share = logarithmic
-      ? Math.log(value / lowest) / Math.log(highest / lowest)
-      : (value - lowest) / (highest - lowest);
-    this.#input.value = String(Math.round(steps * share));
+    this.#input.value = String(this.#at(value));
     this.#say(value);
   }
 
@@ -53,6 +50,12 @@ export class Slider {
   /** What screen readers say in place of its name. */
   set label(label: string) {
     this.#input.setAttribute('aria-label', label);
+  }
+
+  /** Where a value is in the slider's own numbers: its steps from the lowest where those are shares. */
+  #at(value: number): number {
+    const { lowest, highest, steps, logarithmic } = this.#scale;
+    return logarithmic ? (steps * Math.log(Math.max(value, lowest) / lowest)) / Math.log(highest / lowest) : value;
   }
 
   #say(value: number): void {

@@ -4,12 +4,12 @@ import '../style/method.css';
 import type { App } from '../app/app.ts';
 import { button, html, setText } from '../base/dom.ts';
 import { fixed, radians } from '../base/format.ts';
+import { Newest } from '../base/newest.ts';
 import { type Overrides, override, withOverride } from '../experiment/overrides.ts';
 import type { Place } from '../experiment/place.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Stage } from '../view/stage.ts';
 import { changeOfMind, whatChangedIt } from './changesOfMind.ts';
-import { Newest } from './newest.ts';
 import { type Scale, Slider } from './slider.ts';
 import { whyThere } from './whyThere.ts';
 
