@@ -118,7 +118,7 @@ test.describe('in Firefox', () => {
     const text = (selector: string) =>
       firefox.evaluate((asked) => document.querySelector(asked)?.textContent, selector);
     await expect.poll(() => text('.seeds-summary')).toContain('3 of 3 (95 %: 44 % to 100 %)');
-    expect(await text('.seeds-table tbody')).toMatch(/^1Goal reached.*2Goal reached.*3Goal reached/);
+    expect(await text('.trials-table tbody')).toMatch(/^1Goal reached.*2Goal reached.*3Goal reached/);
   });
 });
 

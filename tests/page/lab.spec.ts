@@ -171,7 +171,7 @@ async function batch(page: Page): Promise<{ rows: string[]; summary: string | nu
   await page.getByLabel('From seed').fill('41');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await expect(page.getByText('6 trials. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
-  const rows = await page.locator('.seeds-table tbody tr').allInnerTexts();
+  const rows = await page.locator('.trials-table tbody tr').allInnerTexts();
   return { rows, summary: await page.locator('.seeds-summary').textContent(), most };
 }
 
@@ -188,9 +188,9 @@ test('many seeds run beside the page, are summed up, replayed and cancelled', as
   await page.getByLabel('How many').fill('3');
   await page.getByLabel('From seed').fill('41');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await expect(page.locator('.seeds-table tbody tr')).toHaveCount(3);
+  await expect(page.locator('.trials-table tbody tr')).toHaveCount(3);
   await expect(page.locator('.seeds-summary')).toContainText('3 of 3 (95 %: 44 % to 100 %)');
-  const time = await page.locator('.seeds-table tbody tr').nth(1).getByRole('cell').nth(1).textContent();
+  const time = await page.locator('.trials-table tbody tr').nth(1).getByRole('cell').nth(1).textContent();
   await page.getByRole('button', { name: 'Show seed 42' }).click();
   await until(page, (now) => now.seed === 42 && now.outcome === 'reached');
   await expect(page.locator('#time')).toHaveText(time ?? '');
@@ -199,6 +199,24 @@ test('many seeds run beside the page, are summed up, replayed and cancelled', as
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await page.getByRole('button', { name: 'Cancel' }).click();
   await expect(page.getByRole('status').filter({ hasText: /^Cancelled after \d+ of 200/ })).toBeVisible();
+});
+
+test('an object put on the course leaves the seeds as they were found, with none to replay', async ({
+  mapless: page,
+}) => {
+  await shortCourse(page, 3);
+  await openLab(page, 'Seeds');
+  await page.getByLabel('How many').fill('1');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  const replay = page.getByRole('button', { name: 'Show seed 1' });
+  await expect(replay).toBeEnabled();
+  const { goal } = await state(page);
+  await page.evaluate(
+    ({ x, y }) => window.mapless?.setObjects([{ kind: 'post', at: [x, y + 2], radius_m: 0.2, height_m: 1 }]),
+    goal,
+  );
+  await expect(replay).toBeDisabled();
+  await expect(page.getByText('The course has changed since')).toBeVisible();
 });
 
 test('one worker and several give the same table and the same summary', async ({ mapless: page }) => {
@@ -233,7 +251,7 @@ test.describe(() => {
     await page.getByRole('button', { name: 'Run', exact: true }).click();
     await expect(page.getByRole('alert').filter({ hasText: /^Seed \d: unreachable$/ })).toBeVisible();
     await expect(page.getByText('5 of 6 trials. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
-    await expect(page.locator('.seeds-table tbody tr')).toHaveCount(5);
+    await expect(page.locator('.trials-table tbody tr')).toHaveCount(5);
     await expect(page.locator('.seeds-summary')).toContainText('5 of 5');
   });
 });

@@ -167,6 +167,33 @@ test('the paper’s process is what the paper’s planner has', async ({ mapless
   expect(await values()).toEqual(process);
 });
 
+test('the true skyline is that of the radius which is tried', async ({ mapless: page }) => {
+  await pausedAt(page, 40);
+  await openByHand(page);
+  for (const surface_radius_m of [4, 6]) {
+    await adjust(page, { planner: { perception: { surface_radius_m } } });
+    await expect(page.locator('.method-error')).toContainText(`cm at ${surface_radius_m} m`);
+    expect(await off_deg(page)).toBeLessThan(1);
+  }
+});
+
+test('closing the process leaves the image as it was before', async ({ mapless: page }) => {
+  const image = page.locator('#app');
+  await pausedAt(page, 10);
+  await openByHand(page);
+  await expect(image).toHaveAttribute('data-image', 'large');
+  await page.keyboard.press('m');
+  await expect(method(page)).toBeHidden();
+  await expect(image).toHaveAttribute('data-image', 'small');
+  // Who enlarged it before, keeps it so.
+  await page.keyboard.press('v');
+  await page.keyboard.press('m');
+  await expect(method(page)).toBeVisible();
+  await page.keyboard.press('m');
+  await expect(method(page)).toBeHidden();
+  await expect(image).toHaveAttribute('data-image', 'large');
+});
+
 test('the threshold is a handle on the scale of the image, by mouse and by keys', async ({ mapless: page }) => {
   await pausedAt(page, 40);
   await page.keyboard.press('v');

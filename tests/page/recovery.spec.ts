@@ -39,6 +39,24 @@ plain('a panic loses neither the ground, the start nor the goal', async ({ page 
   await until(page, ({ tick }) => tick > 3);
 });
 
+plain('after a panic the process by hand has the true skyline again', async ({ page }) => {
+  await trapAfterStart(page);
+  await page.goto('/');
+  await loaded(page);
+  await page.evaluate(() => window.mapless?.pause());
+  const { start } = await state(page);
+  await page.evaluate((at) => window.mapless?.setStart(at), start);
+  await page.getByRole('button', { name: 'By hand' }).click();
+  await expect(page.locator('.method')).toBeVisible();
+  await page.getByRole('button', { name: 'Play' }).click();
+  await expect(page.locator('#notice-text')).toContainText('with your ground, start and goal');
+  await until(page, (now) => now.tick === 0);
+  await page.getByRole('button', { name: 'Play' }).click();
+  await until(page, ({ tick }) => tick > 3);
+  await page.evaluate(() => window.mapless?.pause());
+  await expect(page.locator('.method-error')).toContainText('Off the true skyline by');
+});
+
 /** The first worker's core never comes to an end with an experiment of other parameters. */
 async function slowCore(page: Page): Promise<void> {
   await changeFirstCore(page, (script) =>

@@ -144,12 +144,12 @@ test('many seeds, cancelled half-way: what they found stays, and one is shown', 
   await openLab(page, 'Seeds', 'tap');
   await page.getByLabel('How many').fill('200');
   await press(button(page, 'Run'));
-  const rows = page.locator('.seeds-table tbody tr');
+  const rows = page.locator('.trials-table tbody tr');
   await expect(rows.first()).toBeVisible();
   await press(button(page, 'Cancel'));
   await expect(page.getByRole('status').filter({ hasText: /^Cancelled after \d+ of 200/ })).toBeVisible();
   await expect(page.locator('.seeds-summary')).toContainText('Goal reached');
-  await fits(page.locator('.seeds-summary:visible, .seeds-table:visible'));
+  await fits(page.locator('.seeds-summary:visible, .trials-table:visible'));
   const show = rows.first().getByRole('button');
   const seed = (await show.textContent()) ?? '';
   await press(show);

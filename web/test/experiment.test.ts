@@ -6,6 +6,7 @@ import { EXPERIMENT, OBJECTS, STROKE } from './example.ts';
 
 /** The document with one part replaced, by the path of its keys. */
 function changed(path: readonly (string | number)[], value: unknown): unknown {
+  // It is to become what no experiment is.
   const copy = structuredClone(EXPERIMENT) as unknown as Record<string | number, unknown>;
   let part = copy;
   for (const key of path.slice(0, -1)) part = part[key] as Record<string | number, unknown>;

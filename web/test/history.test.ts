@@ -2,14 +2,14 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Editor } from '../src/editor/editor.ts';
 import type { WorldObject } from '../src/experiment/objects.ts';
-import type { Command, Ground, GroundPatch, SessionInfo, Source } from '../src/protocol/simulationProtocol.ts';
+import type { Command, Ground, GroundPatch, Source } from '../src/protocol/simulationProtocol.ts';
 import { EXPERIMENT } from './example.ts';
 
 /** A core whose strokes raise whole rows by one metre, and which notes what it is asked. */
 class Core {
   readonly asked: string[] = [];
   readonly editor: Editor;
-  info: SessionInfo | undefined;
+  info: ReturnType<ConstructorParameters<typeof Editor>[0]['info']>;
   readonly field: Ground = { columns: 4, rows: 4, cell_m: 1, heights_m: new Float32Array(16) };
 
   constructor() {
@@ -126,7 +126,7 @@ test('another start, route or ground is not the scenario’s any more, until it 
 test('objects share the history, and are taken back without loading where it is known what stood there', async () => {
   const core = new Core();
   const post = { kind: 'post', at: [1.004, 2], radius_m: 0.2, height_m: 1 } as const satisfies WorldObject;
-  core.info = { objects: [] } as unknown as SessionInfo;
+  core.info = { objects: [], waypoints: [], goal: EXPERIMENT.goal, runsWith: undefined };
   await core.editor.open(SOURCE, false, false);
   core.asked.length = 0;
   await core.editor.setObjects((objects) => [...objects, { ...post, at: [...post.at] }]);
@@ -199,9 +199,9 @@ test('undoing leads from an experiment of somebody else back to one’s own', as
 test('what begins anew does so with the route of the experiment, also from an earlier one', async () => {
   const core = await opened();
   const { waypoints, goal } = EXPERIMENT;
-  core.info = { waypoints, goal } as SessionInfo;
+  core.info = { objects: [], waypoints: [...waypoints], goal, runsWith: undefined };
   await core.editor.restart();
-  core.info = { waypoints: [], goal } as unknown as SessionInfo;
+  core.info = { objects: [], waypoints: [], goal, runsWith: undefined };
   await core.editor.setOverrides({ sensor: { columns: 900 } });
   assert.deepEqual(core.asked, ['restart', 'goal', 'parameters']);
   assert.deepEqual(core.editor.experiment?.overrides, { sensor: { columns: 900 } });

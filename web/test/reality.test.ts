@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Parameter, ParameterGroup } from '../src/experiment/parameters.ts';
+import type { ParameterGroup } from '../src/experiment/parameters.ts';
 import { inIdealWorld, isEffects, isOn, realityPresets, withReality } from '../src/experiment/reality.ts';
 
 const BEFORE = { sensor: { rings: 32 }, reality: { preset: 'field', motion: { friction: 0.4 } } };
@@ -15,6 +15,7 @@ test('a preset takes the place of every effect and leaves the rest', () => {
 
 test('the presets are those that the core names', () => {
   const preset = { name: 'preset', choices: ['ideal', 'field', 'muddy'] };
+  // What a parameter means, and its unit, name no preset.
   const groups = [
     { table: 'sensor', parameters: [] },
     { table: 'reality', parameters: [preset] },
@@ -29,10 +30,9 @@ test('an effect is on where its value is not the ideal one', () => {
     { preset: 'ideal', value: 2 },
     { preset: 'field', value: 0.9 },
   ];
-  const friction = { presets } as unknown as Parameter;
   assert.deepEqual(
-    [2, 0.9, 0.3].map((value) => isOn(friction, value)),
+    [2, 0.9, 0.3].map((value) => isOn({ presets }, value)),
     [false, true, true],
   );
-  assert.equal(isOn({ presets: [] } as unknown as Parameter, 7), false, 'no effect at all');
+  assert.equal(isOn({ presets: [] }, 7), false, 'no effect at all');
 });

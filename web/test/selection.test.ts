@@ -11,6 +11,7 @@ const segments = [
 ] as Segment[];
 const frame = (yaw: number, azimuths_rad: number[]): Frame => {
   const subgoals = azimuths_rad.map((azimuth_rad, index) => ({ azimuth_rad, segment: 0, chosen: index === 1 }));
+  // A selection reads no more of a frame.
   return { pose: { yaw }, segments, subgoals: subgoals as Subgoal[] } as unknown as Frame;
 };
 

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { overridesWith, type Sweep, valuesIn } from '../src/trials/sweep.ts';
+import { overridesWith, valuesIn } from '../src/trials/sweep.ts';
 import { campaignFile } from '../src/trials/sweepFiles.ts';
 
 test('values are read as people write them, each once, or refused with the word that is none', () => {
@@ -28,7 +28,7 @@ test('a campaign says planner, route, seeds and values, numbers with their point
     values: [1, 0.5],
     seeds: [1, 2],
   };
-  const text = campaignFile(sweep as unknown as Sweep);
+  const text = campaignFile(sweep);
   for (const line of ['planners = ["paper"]', 'routes = ["ht.toml"]', 'seeds = [1, 2]', 'values = [1.0, 0.5]']) {
     assert.ok(text.split('\n').includes(line), text);
   }

@@ -47,7 +47,7 @@ pub struct Session {
     ground_changed: bool,
     /// What is shown in place of what the run decided, until that goes on.
     rethought: Option<Rethought>,
-    /// The true skyline, from where it was last asked for; none on other ground.
+    /// The true skyline as it was last asked for; none on other ground.
     truth: Option<Truth>,
     seed: u64,
     preset: Preset,
@@ -60,11 +60,20 @@ pub struct Session {
     clock: Option<Performance>,
 }
 
-/// The true skyline in each column, as seen from a sensor along a robot's axes.
+/// The true skyline in each column.
 #[derive(Debug)]
 struct Truth {
-    seen_from: (mapless_world::SensorPose, DMat3),
+    view: TrueView,
     elevations: Vec<f32>,
+}
+
+/// What a true skyline depends on beside the ground.
+#[derive(Debug, PartialEq)]
+struct TrueView {
+    /// Of the sensor's place, along the robot's axes.
+    pose: mapless_world::SensorPose,
+    radius_m: f64,
+    between_rad: [f64; 2],
 }
 
 /// All that belongs to one point in time.

@@ -464,6 +464,22 @@ fn what_is_only_tried_is_shown_at_the_pose_and_leaves_the_run_as_it_was() {
 }
 
 #[wasm_bindgen_test]
+fn the_true_skyline_is_that_of_the_radius_which_is_tried() {
+    let truth = |radius_m: f64, session: &mut Session| {
+        let with = format!(
+            r#"{{ "preset": "default", "overrides": {{ "planner": {{ "perception": {{ "surface_radius_m": {radius_m} }} }} }} }}"#
+        );
+        session.think_again(Some(given(&with))).unwrap_or_else(|error| panic!("{}", message(error)));
+        known(&frame(session).1("truth"))
+    };
+    let (mut one, mut other) = (session(), session());
+    tick(&mut one, 30);
+    tick(&mut other, 30);
+    let _ = truth(4.0, &mut one);
+    assert_eq!(truth(6.0, &mut one), truth(6.0, &mut other));
+}
+
+#[wasm_bindgen_test]
 fn going_on_with_what_was_tried_begins_a_timeline_at_the_pose() {
     let mut session = session();
     tick(&mut session, 25);

@@ -1,5 +1,6 @@
 /** The page's state and its actions: what buttons, keys, tools and `window.mapless` call. */
 
+import { messageOf } from '../base/messageOf.ts';
 import { Editor } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { type Experiment, FIRST_SETUP, type Holes, type Stroke } from '../experiment/experiment.ts';
@@ -10,14 +11,10 @@ import type { Setup } from '../experiment/setting.ts';
 import { HeightField } from '../ground/heightField.ts';
 import type {
   Beginning,
-  ClimbStep,
   Frame,
   GroundPatch,
-  Inside,
-  InsideQuestion,
   Loaded,
   NamedFile,
-  PlaceReport,
   SessionInfo,
   Solid,
   Source,
@@ -27,39 +24,15 @@ import { RunRecord } from '../run/record.ts';
 import { SPEEDS } from '../run/speeds.ts';
 import type { SimulationClient } from '../simulation/simulationClient.ts';
 import { AutoAdvance } from './autoAdvance.ts';
+import { Insight } from './insight.ts';
 import { Recovery } from './recovery.ts';
 import { Seeker } from './seeker.ts';
+import { stateOf } from './state.ts';
+import type { Views } from './views.ts';
 import type { MaplessState } from './windowApi.ts';
 
 /** One jump along the timeline. */
 const JUMP_S = 5;
-
-export interface Views {
-  /** A scenario, goal or start changed; with `field`, the ground is another one. */
-  session(info: SessionInfo, field: HeightField | undefined): void;
-  frame(frame: Frame): void;
-  status(frame: Frame, playing: boolean): void;
-  /** The ground was sculpted: these heights are new, and what stands on it stands so. */
-  sculpted(patch: GroundPatch, solids: readonly Solid[]): void;
-  playing(playing: boolean): void;
-  speed(speed: number): void;
-  /** Resolves once all is drawn and nothing moves any more. */
-  still(): Promise<void>;
-  /** Seconds until the next scenario starts by itself, or nothing. */
-  countdown(seconds: number | undefined): void;
-  /** The experiment, or what can be undone, has changed. */
-  experiment(editor: Editor): void;
-  notice(message: string): void;
-  /** Something that is not wrong, but good to know. */
-  news(message: string): void;
-  clearNotice(): void;
-  /** Whether to drive on from here with what is only tried, or from the start. */
-  askHow(): void;
-  /** Something takes long to open, which can be stopped. */
-  slow(stop: () => void): void;
-  /** What took long is open, or refused. */
-  clearSlow(): void;
-}
 
 export class App {
   /** The run so far. */
@@ -80,10 +53,12 @@ export class App {
   #watching = false;
   readonly #recovery: Recovery;
   readonly editor: Editor;
+  readonly insight: Insight;
 
   constructor(core: SimulationClient, views: Views) {
     this.#core = core;
     this.#views = views;
+    this.insight = new Insight(core);
     this.#autoAdvance = new AutoAdvance((seconds) => views.countdown(seconds));
     this.editor = new Editor({
       request: (command) => this.#core.request(command),
@@ -120,47 +95,7 @@ export class App {
 
   state(): MaplessState | undefined {
     const [info, frame, field] = [this.#info, this.#frame, this.#field];
-    if (!info || !frame || !field) return undefined;
-    const {
-      buffers: _buffers,
-      trail: _trail,
-      rows: _rows,
-      movers: _movers,
-      anew: _anew,
-      ahead: _ahead,
-      path: _path,
-      sensor: _sensor,
-      segments,
-      subgoals,
-      stop_reason: stopReason,
-      set_aside: setAside,
-      mount_misfit: mountMisfit,
-      waypoints_passed: waypointsPassed,
-      ...rest
-    } = frame;
-    return {
-      ...rest,
-      stopReason,
-      setAside,
-      mountMisfit,
-      waypointsPassed,
-      scenario: info.scenario,
-      preset: info.preset,
-      learning: info.learning,
-      seed: info.seed,
-      start: info.start,
-      waypoints: info.waypoints,
-      goal: info.goal,
-      objects: info.objects,
-      overrides: info.overrides,
-      reality: info.reality,
-      playing: this.#playing,
-      speed: this.#speed,
-      ground: { columns: field.columns, rows: field.rows, cell_m: field.cell_m },
-      segments: segments.length,
-      subgoals: subgoals.length,
-      disturbed: frame.timeline.first > 0 || frame.timeline.changes.some((tick) => tick > 0),
-    };
+    return info && frame && field && stateOf(info, frame, field, this.#playing, this.#speed);
   }
 
   /** The newest frame of a running trial in which something was decided, and what it belongs to. */
@@ -217,30 +152,6 @@ export class App {
   async runTried(): Promise<void> {
     await this.restart();
     await this.play();
-  }
-
-  lookInside(question: InsideQuestion): Promise<Inside> {
-    return this.#core.request({ type: 'inside', question });
-  }
-
-  /** What is true of a place, and what the scan in view saw of it. */
-  reportOn(place: Place): Promise<PlaceReport> {
-    return this.#core.request({ type: 'place', place });
-  }
-
-  /** The climb of the bound on the scan that is shown, with nothing to hold the values. */
-  climb(): Promise<readonly ClimbStep[]> {
-    return this.#core.request({ type: 'climb' });
-  }
-
-  /** The covariance of every direction of the image with this one, as a share of the signal variance. */
-  kernelFrom(column: number, row: number): Promise<Float32Array> {
-    return this.#core.request({ type: 'kernel', column, row });
-  }
-
-  /** Has frames bring the true skyline while nothing drives. */
-  showTruth(shown: boolean): Promise<void> {
-    return this.#core.request({ type: 'truth', shown });
   }
 
   /** Other settings for the experiment as it is. */
@@ -533,7 +444,7 @@ export class App {
 
   /** Shows what went wrong instead of leaving a promise unhandled. */
   attempt(action: Promise<void>): Promise<void> {
-    return action.catch((error: unknown) => this.#views.notice(error instanceof Error ? error.message : String(error)));
+    return action.catch((error: unknown) => this.#views.notice(messageOf(error)));
   }
 
   #onFailure(message: string, panicked: boolean): void {
@@ -554,5 +465,6 @@ export class App {
     await this.editor.reopen();
     await this.setSpeed(this.#speed);
     await this.#core.request({ type: 'watch', surfaces: this.#watching });
+    await this.insight.resume();
   }
 }

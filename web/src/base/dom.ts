@@ -33,6 +33,14 @@ export function html<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** A new button that acts when it is pressed. */
+export function button(look: string, words: string, act: () => void): HTMLButtonElement {
+  const made = html('button', look, [words]);
+  made.type = 'button';
+  made.addEventListener('click', act);
+  return made;
+}
+
 /** Sets text only when it changes, so that layout and screen readers are left in peace. */
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;

@@ -14,6 +14,11 @@ export function degrees(angle_rad: number, decimals = 0): string {
   return `${fixed((angle_rad * 180) / Math.PI, decimals)}°`;
 }
 
+/** A round length as it is, another one to two figures. */
+export function metres(length_m: number): string {
+  return `${Number(length_m.toPrecision(2))} m`;
+}
+
 /** As in a field: from 0 to 359. */
 export function wholeDegrees(angle_rad: number): number {
   return ((Math.round((angle_rad * 180) / Math.PI) % 360) + 360) % 360;

@@ -1,5 +1,7 @@
 /** Loads the wasm core (`crate/wasm`). Its face is what wasm-bindgen writes from the Rust types. */
 
+import { messageOf } from '../base/messageOf.ts';
+
 /** The core, once it runs. */
 export type Core = typeof import('../wasm/mapless_wasm.js');
 
@@ -14,7 +16,7 @@ export async function loadCore(): Promise<Core> {
     await core.default({ module_or_path: file });
     return core;
   } catch (cause) {
-    const why = cause instanceof Error ? cause.message : String(cause);
+    const why = messageOf(cause);
     throw new Error(`The simulation could not be loaded; reload the page to try again. (${why})`, { cause });
   }
 }

@@ -22,8 +22,6 @@ import { Inspector } from '../inspector/inspector.ts';
 import { OUTCOME_WORDS, StatusPanel } from '../inspector/status.ts';
 import type { Lab } from '../lab/lab.ts';
 import { Measure } from '../measurements/measurements.ts';
-import type { Method } from '../method/method.ts';
-import type { Weighing } from '../method/weighing.ts';
 import { watchFaults, watchGraphics } from '../notices/faults.ts';
 import { MountNotice } from '../notices/mountNotice.ts';
 import { Notice } from '../notices/notice.ts';
@@ -33,6 +31,7 @@ import { GroundTools } from '../view/groundTools.ts';
 import { ObjectTool } from '../view/objectTool.ts';
 import { Stage } from '../view/stage.ts';
 import { AddressBar } from './addressBar.ts';
+import { ByHand } from './byHand.ts';
 import { beginAt, begun, core } from './startCore.ts';
 import { begin, leadOut } from './welcome.ts';
 
@@ -66,48 +65,6 @@ async function openLab(): Promise<void> {
   lab.toggle();
 }
 
-/** The Gaussian process by hand: loaded when the image is first enlarged, which has a handle on its threshold. */
-let method: Method | undefined;
-
-async function loadMethod(): Promise<Method> {
-  const { Method } = await import('../method/method.ts');
-  const seen = document.querySelector<HTMLElement>('.seen');
-  if (!seen) throw new Error('The page has no image.');
-  method ??= new Method(app, inspector.image, seen, byId('variance', HTMLCanvasElement));
-  return method;
-}
-
-async function byHand(open: boolean): Promise<void> {
-  if (!open && !method) return;
-  const loaded = await loadMethod();
-  if (loaded.isOpen === open) return;
-  if (open) inspector.enlargeImage(true);
-  showMethod(loaded, open);
-}
-
-/** The cost by hand: loaded when it is first opened. */
-let weighing: Weighing | undefined;
-
-async function toggleWeighing(): Promise<void> {
-  const [place, opener] = [element('weighing'), byId('weigh', HTMLButtonElement)];
-  if (!weighing) {
-    const { Weighing } = await import('../method/weighing.ts');
-    weighing ??= new Weighing(app, stage, view);
-    place.replaceChildren(weighing.element);
-  }
-  place.hidden = !place.hidden;
-  opener.setAttribute('aria-expanded', String(!place.hidden));
-  if (place.hidden) weighing.close();
-  else place.scrollIntoView({ block: 'nearest' });
-}
-
-function showMethod(loaded: Method, open: boolean): void {
-  element('app').toggleAttribute('data-method', open);
-  byId('by-hand', HTMLButtonElement).setAttribute('aria-expanded', String(open));
-  element('key-true').hidden = !open;
-  loaded.show(open);
-}
-
 function labCount(count: number): void {
   const badge = element('lab-count');
   badge.hidden = count === 0;
@@ -137,8 +94,7 @@ const app = new App(core, {
     timeline.session(info.period_s);
     labCount(countOverrides(info.overrides));
     lab?.session(info);
-    method?.session(info);
-    weighing?.session(info);
+    byHand.session(info);
     inspector.session(info, field);
     roll.limit(info.limits.roll_rad);
     pitch.limit(info.limits.pitch_rad);
@@ -162,7 +118,7 @@ const app = new App(core, {
     timeline.show(frame);
     lab?.frame(frame);
     inspector.frame(frame);
-    method?.frame(frame);
+    byHand.frame(frame);
     measure.frame(frame);
     roll.show(frame.pose.roll, frame.metrics.max_abs_roll_rad);
     pitch.show(frame.pose.pitch, frame.metrics.max_abs_pitch_rad);
@@ -225,12 +181,10 @@ const measure = new Measure({
   notice: (message) => notice.show(message),
 });
 const inspector = new Inspector(app, stage, view, {
-  enlarged(large) {
-    if (large) app.attempt(loadMethod().then(() => undefined));
-    else if (method?.isOpen) showMethod(method, false);
-  },
-  byHand,
+  enlarged: (large) => byHand.imageEnlarged(large),
+  byHand: (open) => byHand.process(open),
 });
+const byHand = new ByHand(app, inspector, stage, view);
 const tools = stage
   ? new GroundTools(view, stage, {
       setGoal: (goal) => app.attempt(app.setGoal(goal)),
@@ -301,8 +255,8 @@ const actions = {
   setGoalHeading: (heading_rad: number | undefined) => app.attempt(app.setGoalHeading(heading_rad)),
   jump: (times: number) => app.attempt(app.jump(times)),
   lab: () => app.attempt(openLab()),
-  method: () => app.attempt(byHand(!method?.isOpen)),
-  weigh: () => app.attempt(toggleWeighing()),
+  method: () => byHand.toggleProcess(),
+  weigh: () => byHand.toggleCost(),
 };
 const brushPanel = new BrushPanel((setting) => tools?.brush(setting));
 const groundKey = new GroundKey((colouring) => stage?.colouring(colouring));
@@ -314,8 +268,6 @@ const addressBar = new AddressBar((experiment) => app.attempt(app.run({ experime
 const controls = new Controls(actions);
 const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
 byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
-byId('by-hand', HTMLButtonElement).addEventListener('click', actions.method);
-byId('weigh', HTMLButtonElement).addEventListener('click', actions.weigh);
 bindKeys(actions, inspector);
 controls.showTool('look');
 controls.showSpeed(1);
@@ -323,7 +275,7 @@ controls.showSpeed(1);
 watchTheme((theme) => {
   stage?.theme(theme);
   inspector.theme(theme);
-  method?.theme(theme);
+  byHand.theme(theme);
 });
 for (const event of ['pointerdown', 'keydown', 'wheel']) {
   document.addEventListener(event, () => app.touch(), { passive: true, capture: true });

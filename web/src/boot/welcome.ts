@@ -2,6 +2,7 @@
 
 import type { App } from '../app/app.ts';
 import { byId } from '../base/dom.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { CATALOGUE } from '../experiment/catalogue.ts';
 import { type Experiment, FIRST_SETUP } from '../experiment/experiment.ts';
 import { linkTo } from '../experiment/link.ts';
@@ -30,7 +31,7 @@ export async function begin(
         Promise.reject(error),
       )
       .catch(() => first(app));
-    notice.show(error instanceof Error ? error.message : String(error));
+    notice.show(messageOf(error));
     return instead ?? undefined;
   }
 }

@@ -1,8 +1,10 @@
 /** The sheet that asks how an image is to be read as heights, which it does not say itself. Loaded when such a file is opened. */
 
+import { messageOf } from '../base/messageOf.ts';
+import { Newest } from '../base/newest.ts';
 import '../style/heights.css';
 import { base64 } from '../base/base64.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
 import { readTheme } from '../colours/theme.ts';
 import { HOLES, type Holes, type Terrain } from '../experiment/experiment.ts';
@@ -42,8 +44,7 @@ export class HeightsSheet {
   readonly #warning = html('p', 'heights-warning');
   readonly #open = html('button', 'filled', ['Open']);
   #timer: ReturnType<typeof setTimeout> | undefined;
-  /** The newest preview asked for: older ones that come later are not shown. */
-  #asked = 0;
+  readonly #newest = new Newest();
 
   constructor(file: NamedFile, head: PngHead, holes: Holes, preview: (terrain: Terrain) => Promise<TerrainPreview>) {
     [this.#file, this.#head, this.#preview] = [file, head, preview];
@@ -58,9 +59,7 @@ export class HeightsSheet {
     this.#picture.setAttribute('role', 'img');
     this.#note.setAttribute('role', 'status');
     this.#warning.setAttribute('role', 'alert');
-    const cancel = html('button', 'plain', ['Cancel']);
-    cancel.type = 'button';
-    cancel.addEventListener('click', () => this.#sheet.close());
+    const cancel = button('plain', 'Cancel', () => this.#sheet.close());
     this.#form.method = 'dialog';
     this.#form.append(
       field('Cell size', this.#cell, 'm'),
@@ -87,7 +86,7 @@ export class HeightsSheet {
         resolve(this.#sheet.returnValue === 'open' ? this.#recipeFile() : undefined);
       });
       this.#sheet.showModal();
-      this.#show();
+      this.#newest.do(() => this.#show());
     });
   }
 
@@ -105,23 +104,19 @@ export class HeightsSheet {
     const { low_m, high_m } = this.#reading;
     this.#high.setCustomValidity(high_m > low_m ? '' : `White must be higher than black, which is ${low_m} m.`);
     clearTimeout(this.#timer);
-    if (this.#form.checkValidity()) this.#timer = setTimeout(() => this.#show(), DELAY_MS);
+    if (this.#form.checkValidity()) this.#timer = setTimeout(() => this.#newest.do(() => this.#show()), DELAY_MS);
   }
 
   async #show(): Promise<void> {
-    this.#asked += 1;
-    const asked = this.#asked;
     try {
       const preview = await this.#preview({ recipe: this.#recipe(), imported: this.#imported() });
-      if (asked !== this.#asked) return;
       drawRelief(this.#picture, preview, readTheme());
       this.#say(preview);
       setText(this.#warning, this.#warn());
       this.#open.disabled = false;
     } catch (error) {
-      if (asked !== this.#asked) return;
       setText(this.#note, '');
-      setText(this.#warning, error instanceof Error ? error.message : String(error));
+      setText(this.#warning, messageOf(error));
       this.#open.disabled = true;
     }
   }
@@ -147,7 +142,7 @@ export class HeightsSheet {
   }
 
   #imported() {
-    return { name: `heights.png`, base64: this.#encoded };
+    return { name: 'heights.png', base64: this.#encoded };
   }
 
   #recipe(): string {

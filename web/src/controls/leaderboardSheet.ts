@@ -1,7 +1,7 @@
 /** The sheet of a campaign's table: who reaches the goal how often, and every trial, to be driven in the view. Loaded when such a file is opened. */
 
 import '../style/leaderboard.css';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
 import { loadTrials, type TrialsModule } from '../bindings/trialsModule.ts';
 import type { CampaignRow, Replay } from '../trials/campaignRows.ts';
@@ -30,10 +30,8 @@ export class LeaderboardSheet {
     title.id = 'leaderboard-title';
     this.#sheet.setAttribute('aria-labelledby', title.id);
     this.#note.setAttribute('role', 'status');
-    const close = html('button', 'round sheet-close', ['×']);
-    close.type = 'button';
+    const close = button('round sheet-close', '×', () => this.#sheet.close());
     close.setAttribute('aria-label', 'Close');
-    close.addEventListener('click', () => this.#sheet.close());
     this.#whose.append(new Option('all planners', ''), ...[...groups(rows).keys()].map((one) => new Option(one, one)));
     this.#which.append(
       new Option('all outcomes', ''),
@@ -69,20 +67,18 @@ export class LeaderboardSheet {
 
   #row(row: CampaignRow): HTMLElement {
     const { replay, route, seed, outcome, metrics } = row;
-    const button = html('button', 'plain', [`${route}, ${seed}`]);
-    button.type = 'button';
-    button.setAttribute('aria-label', `Drive ${route}, ${seed} with ${nameOf(row)}`);
+    const drive = button('plain', `${route}, ${seed}`, () => {
+      if (typeof replay === 'string') return;
+      this.#sheet.close();
+      this.#drive(replay);
+    });
+    drive.setAttribute('aria-label', `Drive ${route}, ${seed} with ${nameOf(row)}`);
     if (typeof replay === 'string') {
-      button.disabled = true;
-      button.title = replay;
-    } else {
-      button.addEventListener('click', () => {
-        this.#sheet.close();
-        this.#drive(replay);
-      });
+      drive.disabled = true;
+      drive.title = replay;
     }
     const numbers = METRICS.map(([, key, decimals]) => fixed(metrics[key], decimals));
-    return line(button, [nameOf(row), outcome.replaceAll('_', ' '), ...numbers]);
+    return line(drive, [nameOf(row), outcome.replaceAll('_', ' '), ...numbers]);
   }
 }
 

@@ -1,6 +1,7 @@
 /** The sheet for links and files. */
 
 import { byId, setText } from '../base/dom.ts';
+import { messageOf } from '../base/messageOf.ts';
 import type { Experiment } from '../experiment/experiment.ts';
 import { linkTo, MAX_LINK_CHARACTERS } from '../experiment/link.ts';
 import { zip } from '../files/archive.ts';
@@ -77,7 +78,7 @@ export class ShareSheet {
       // What goes wrong is said in the sheet, which covers the notice.
       save(name).then(
         () => setText(this.#state, ''),
-        (error: unknown) => setText(this.#state, error instanceof Error ? error.message : String(error)),
+        (error: unknown) => setText(this.#state, messageOf(error)),
       );
     });
   }

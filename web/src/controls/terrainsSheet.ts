@@ -1,6 +1,7 @@
 /** The sheet of terrains: those of the scenarios, generated ones, and files of one's own. */
 
-import { byId, html, setText } from '../base/dom.ts';
+import { button, byId, html, setText } from '../base/dom.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { readTheme } from '../colours/theme.ts';
 import { kept, works } from '../experiment/autosave.ts';
 import { CATALOGUE, entry, isKnown } from '../experiment/catalogue.ts';
@@ -76,13 +77,11 @@ export class TerrainsSheet {
   async #listWork(): Promise<void> {
     this.#showWork(
       (await works()).map(({ id, name, saved }) => {
-        const button = html('button', 'plain', [`${entry(name).title}, ${saved.toLocaleString()}`]);
-        button.type = 'button';
-        button.addEventListener('click', () => {
+        const work = button('plain', `${entry(name).title}, ${saved.toLocaleString()}`, () => {
           this.#sheet.close();
           this.#actions.attempt(this.#reopen(id));
         });
-        return html('li', '', [button]);
+        return html('li', '', [work]);
       }),
     );
   }
@@ -121,7 +120,7 @@ export class TerrainsSheet {
     });
     this.#actions.preview(terrain).then(
       (terrain) => drawRelief(picture, terrain, readTheme()),
-      (error: unknown) => setText(words, `${title}: ${error instanceof Error ? error.message : error}`),
+      (error: unknown) => setText(words, `${title}: ${messageOf(error)}`),
     );
     return html('li', '', [button]);
   }

@@ -39,7 +39,7 @@ interface Core {
   /** The page's copy of the ground. */
   ground(): Ground | undefined;
   /** What runs now; going back in time may have brought an earlier route back. */
-  info(): SessionInfo | undefined;
+  info(): Pick<SessionInfo, 'objects' | 'waypoints' | 'goal' | 'runsWith'> | undefined;
   /** Whether the run stands still under way, so that other settings can be tried where it stands. */
   mayThink(): boolean;
   /** The experiment or what can be undone has changed. */

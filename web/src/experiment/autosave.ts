@@ -1,5 +1,6 @@
 /** Keeps work in the browser's own database, for the next visit: each piece of work by itself, so that no tab overwrites another's. */
 
+import { messageOf } from '../base/messageOf.ts';
 import type { Experiment } from './experiment.ts';
 import { readExperiment } from './readExperiment.ts';
 
@@ -63,7 +64,7 @@ export class Autosave {
     keep(this.#id, this.#last).catch((error: unknown) => {
       if (this.#told) return;
       this.#told = true;
-      const why = error instanceof Error ? error.message : String(error);
+      const why = messageOf(error);
       this.#failed(`This browser does not keep your work for the next visit; save it as a file. (${why})`);
     });
   }

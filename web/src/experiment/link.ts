@@ -3,6 +3,7 @@
  * anybody, so nothing of it is believed before it is checked, and no more than a bounded amount of it is unpacked.
  */
 
+import { messageOf } from '../base/messageOf.ts';
 import type { Experiment, Stroke } from './experiment.ts';
 import { readExperiment } from './readExperiment.ts';
 
@@ -31,7 +32,7 @@ export async function experimentIn(hash: string): Promise<Experiment> {
   try {
     return readExperiment(unpackAll(await unpacked(hash.slice(KEY.length))));
   } catch (cause) {
-    const why = cause instanceof Error ? cause.message : String(cause);
+    const why = messageOf(cause);
     throw new Error(`This link does not work, so nothing was changed. ${why}`, { cause });
   }
 }

@@ -13,7 +13,7 @@ export function realityPresets(groups: readonly ParameterGroup[]): readonly stri
 }
 
 /** Whether a group describes effects of reality. */
-export function isEffects({ table }: ParameterGroup): boolean {
+export function isEffects({ table }: Pick<ParameterGroup, 'table'>): boolean {
   return table.startsWith(`${TABLE}.`);
 }
 
@@ -29,7 +29,7 @@ export function inIdealWorld(overrides: Overrides): Overrides {
 }
 
 /** Whether an effect is there: its value is not that of the ideal world. */
-export function isOn({ presets }: Parameter, value: OverrideValue): boolean {
+export function isOn({ presets }: Pick<Parameter, 'presets'>, value: OverrideValue): boolean {
   const ideal = presets.find(({ preset }) => preset === IDEAL);
   return ideal !== undefined && JSON.stringify(ideal.value) !== JSON.stringify(value);
 }

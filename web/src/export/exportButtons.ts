@@ -1,6 +1,7 @@
 /** The buttons that download a run: as numbers, as pictures, as a film. */
 
 import { byId, setText } from '../base/dom.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { download } from '../files/download.ts';
 import { fileName, type Run, runJson, runWords, trajectoryCsv, whatWasRun } from './exportedRun.ts';
 import { Camera, canFilm, type Filmed } from './film.ts';
@@ -52,9 +53,7 @@ export class ExportButtons {
           );
         }
       } catch (error) {
-        this.#source.notice(
-          `${fileName(run, what)} could not be made: ${error instanceof Error ? error.message : error}`,
-        );
+        this.#source.notice(`${fileName(run, what)} could not be made: ${messageOf(error)}`);
       } finally {
         button.disabled = false;
       }
@@ -74,7 +73,7 @@ export class ExportButtons {
       const film = await camera.film(() => this.#showFilm(true, 'Stop the film'));
       download(fileName(run, 'film.webm'), film);
     } catch (error) {
-      this.#source.notice(`The film could not be made: ${error instanceof Error ? error.message : error}`);
+      this.#source.notice(`The film could not be made: ${messageOf(error)}`);
     } finally {
       this.#showFilm(false, 'Film (WebM)');
     }

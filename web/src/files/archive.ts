@@ -2,6 +2,7 @@
 
 import { crc32 } from '@foxglove/crc';
 import { type UnzipFileInfo, unzipSync, zipSync } from 'fflate';
+import { messageOf } from '../base/messageOf.ts';
 import type { NamedFile } from '../protocol/simulationProtocol.ts';
 
 /** The first day that the format knows: the same files give the same archive. */
@@ -34,7 +35,7 @@ export function unzip({ name, bytes }: NamedFile, most_bytes: number): NamedFile
     contents = unzipSync(bytes, { filter }) as typeof contents;
   } catch (cause) {
     if (cause instanceof RangeError) throw fault('its directory is missing or cut off');
-    throw fault(cause instanceof Error ? cause.message : String(cause));
+    throw fault(messageOf(cause));
   }
   return paths.flatMap((path, index) => {
     const content = contents[path];

@@ -1,12 +1,12 @@
 /** The frame of the unfolded image: scales, axes, and the marks for columns without a skyline. */
 
+import { radians } from '../base/format.ts';
 import { css, type Rgb } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
 import { COLUMN_KINDS, type ColumnKind } from '../protocol/simulationProtocol.ts';
+import { TOP_RAD } from './lattice.ts';
 
-/** The occupancy surface's limits. */
 export const HALF_TURN = Math.PI;
-const TOP_RAD = (15 * Math.PI) / 180;
 /** What lies there is in the image, rounded as it may be. */
 const EDGE_RAD = TOP_RAD + 1e-6;
 const MARGIN = { left: 34, right: 10, top: 16, bottom: 20 };
@@ -15,13 +15,13 @@ const SCALE_MARGIN = 86;
 /** From this size on the plot has room for widths, finer axes and a scale. */
 const DETAILED = { width: 620, height: 260 };
 
-/** Where azimuth and elevation lie on the canvas, in CSS pixels. */
 /** Where an elevation is drawn, and whether it lies beyond the image, above or below. */
 export interface Mark {
   readonly y: number;
   readonly beyond: -1 | 0 | 1;
 }
 
+/** Where azimuth and elevation lie on the canvas, in CSS pixels. */
 export interface Plot {
   readonly left: number;
   readonly top: number;
@@ -35,20 +35,28 @@ export interface Plot {
   mark(elevation_rad: number, margin: number): Mark;
 }
 
-/** Azimuth and elevation ticks, and the horizon. */
-export function drawAxes(context: CanvasRenderingContext2D, plot: Plot, theme: Theme): void {
+/** Elevations along the left edge of a plot, in the colour and font that its other labels go on with. */
+export function drawElevations(
+  context: CanvasRenderingContext2D,
+  { left, top, height, detailed, y }: Pick<Plot, 'left' | 'top' | 'height' | 'detailed' | 'y'>,
+  theme: Theme,
+): void {
   context.font = LABEL_FONT;
   context.fillStyle = css(theme.muted);
   context.strokeStyle = css(theme.muted);
   context.lineWidth = 1;
   context.textAlign = 'right';
   context.textBaseline = 'middle';
-  for (const elevation_deg of plot.detailed ? [-15, -10, -5, 0, 5, 10, 15] : [-15, 0, 15]) {
-    const y = plot.y((elevation_deg * Math.PI) / 180);
+  for (const elevation_deg of detailed ? [-15, -10, -5, 0, 5, 10, 15] : [-15, 0, 15]) {
     const label = elevation_deg > 0 ? `+${elevation_deg}°` : elevation_deg < 0 ? `\u2212${-elevation_deg}°` : '0°';
-    const inside = Math.min(Math.max(y, plot.top + 5), plot.top + plot.height - 5);
-    context.fillText(label, plot.left - 6, inside);
+    const inside = Math.min(Math.max(y(radians(elevation_deg)), top + 5), top + height - 5);
+    context.fillText(label, left - 6, inside);
   }
+}
+
+/** Azimuth and elevation ticks, and the horizon. */
+export function drawAxes(context: CanvasRenderingContext2D, plot: Plot, theme: Theme): void {
+  drawElevations(context, plot, theme);
   if (plot.detailed) {
     context.save();
     context.translate(9, plot.top + plot.height / 2);

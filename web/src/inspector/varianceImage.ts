@@ -19,6 +19,7 @@ import {
   drawSubgoals,
 } from './imageMarks.ts';
 import { drawAxes, drawScale, hatching, layout, type Plot } from './imagePlot.ts';
+import { rowOf, TOP_RAD } from './lattice.ts';
 
 /** What somebody looks at in place of what the planner sees. */
 export interface ImageInstead {
@@ -143,9 +144,8 @@ export class VarianceImage {
   directionAt(x: number, y: number): { azimuth_rad: number; row: number } | undefined {
     const plot = layout(this.#canvas.clientWidth, this.#canvas.clientHeight);
     if (x < plot.left || x > plot.left + plot.width || y < plot.top || y > plot.top + plot.height) return undefined;
-    const rows = this.#pixels.height;
-    const row = Math.round((rows - 1) * (1 - (y - plot.top) / plot.height));
-    return { azimuth_rad: plot.azimuth_rad(x), row };
+    const elevation_rad = TOP_RAD * (1 - (2 * (y - plot.top)) / plot.height);
+    return { azimuth_rad: plot.azimuth_rad(x), row: rowOf(elevation_rad, this.#pixels.height) };
   }
 
   #paintPixels(): void {

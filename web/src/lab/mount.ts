@@ -1,6 +1,6 @@
 /** The mount of the sensor as a group of its own in the table of parameters, with mounts to choose from. */
 
-import { html } from '../base/dom.ts';
+import { button, html } from '../base/dom.ts';
 import { type Overrides, type OverrideValue, withOverride } from '../experiment/overrides.ts';
 import type { ParameterGroup } from '../experiment/parameters.ts';
 import type { Mount } from '../protocol/simulationProtocol.ts';
@@ -49,11 +49,6 @@ export function withMount(overrides: Overrides, mount: MountPreset, group: Param
 /** A row of buttons, for the group of the mount. */
 export function presetButtons(group: ParameterGroup, choose: (mount: MountPreset) => void): HTMLElement[] {
   if (group.title !== TITLE) return [];
-  const buttons = PRESETS.map(([name, mount]) => {
-    const button = html('button', 'plain', [name]);
-    button.type = 'button';
-    button.addEventListener('click', () => choose(mount));
-    return button;
-  });
+  const buttons = PRESETS.map(([name, mount]) => button('plain', name, () => choose(mount)));
   return [html('div', 'lab-row presets', buttons)];
 }

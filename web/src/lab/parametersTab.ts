@@ -2,6 +2,7 @@
 
 import type { App } from '../app/app.ts';
 import { html, setText } from '../base/dom.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { countOverrides, type Overrides, type OverrideValue, override, withOverride } from '../experiment/overrides.ts';
 import { complaintAbout, type ParameterGroup } from '../experiment/parameters.ts';
 import { isEffects, isOn, withReality } from '../experiment/reality.ts';
@@ -177,7 +178,7 @@ export class ParametersTab implements Tab {
       this.#app.touch();
       await this.#app.adjust({ overrides });
     } catch (error) {
-      const message = (error instanceof Error ? error.message : String(error)).replace(/^settings: /, '');
+      const message = messageOf(error).replace(/^settings: /, '');
       const groups = this.#sections.map(({ group }) => group);
       const about = complaintAbout(message, groups) ?? path;
       const field = this.#sections.flatMap(({ fields }) => fields).find((one) => one.path === about);

@@ -1,6 +1,6 @@
 /** The card of reality: presets, the ghost of an ideal world, and each effect by itself, grouped. */
 
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import type { ParameterGroup } from '../experiment/parameters.ts';
 import { realityPresets } from '../experiment/reality.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
@@ -36,12 +36,10 @@ export class RealityCard {
   constructor(groups: readonly ParameterGroup[], parts: readonly HTMLElement[], actions: RealityActions) {
     this.#buttons = new Map(
       realityPresets(groups).map((name) => {
-        const button = html('button', 'plain', [name]);
-        button.type = 'button';
+        const preset = button('plain', name, () => actions.preset(name));
         // By which it has the focus again when the table is made anew.
-        button.id = `reality-${name}`;
-        button.addEventListener('click', () => actions.preset(name));
-        return [name, button];
+        preset.id = `reality-${name}`;
+        return [name, preset];
       }),
     );
     const presets = html('div', 'lab-row presets', [...this.#buttons.values()]);

@@ -1,20 +1,20 @@
 /** Many seeds of the present setting, run in the background: how often the goal is reached, and the metrics. */
 
 import type { App } from '../app/app.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { clock, fixed } from '../base/format.ts';
+import { MAX_SEED } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import { OUTCOME_WORDS } from '../inspector/status.ts';
 import { METRIC_ROWS } from '../measurements/metrics.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import { Batch, type FromBatch, workersFor } from '../trials/batch.ts';
-import { courseOf } from '../trials/course.ts';
+import { courseKey, courseOf } from '../trials/course.ts';
 import type { Summary, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
 
 const MOST_SEEDS = 500;
-const MAX_SEED = 0xffff_ffff;
 
 export class SeedsTab implements Tab {
   readonly title = 'Seeds';
@@ -22,15 +22,15 @@ export class SeedsTab implements Tab {
   readonly #app: App;
   readonly #count = numberInput('seeds', 'How many', 1, MOST_SEEDS, 10);
   readonly #first = numberInput('seeds', 'From seed', 0, MAX_SEED, 1);
-  readonly #start = html('button', 'lab-action', ['Run']);
-  readonly #cancel = html('button', 'plain', ['Cancel']);
+  readonly #start = button('lab-action', 'Run', () => this.#begin());
+  readonly #cancel = button('plain', 'Cancel', () => this.#end(`Cancelled after ${this.#done} of ${this.#total}.`));
   readonly #progress = html('progress', 'lab-progress');
   readonly #note = html('p', 'lab-note');
   readonly #stand = html('p', 'lab-note');
   readonly #fault = html('p', 'parameter-fault');
   readonly #summary = html('table', 'comparison seeds-summary');
   readonly #rows = html('tbody');
-  readonly #table = html('table', 'comparison seeds-table');
+  readonly #table = html('table', 'comparison trials-table');
   #batch: Batch | undefined;
   /** The course that the table stands for. */
   #course: { key: string; overrides: Overrides } | undefined;
@@ -38,10 +38,6 @@ export class SeedsTab implements Tab {
 
   constructor(app: App) {
     this.#app = app;
-    this.#start.type = 'button';
-    this.#cancel.type = 'button';
-    this.#start.addEventListener('click', () => this.#begin());
-    this.#cancel.addEventListener('click', () => this.#end(`Cancelled after ${this.#done} of ${this.#total}.`));
     this.#note.setAttribute('role', 'status');
     this.#fault.setAttribute('role', 'alert');
     this.#fault.hidden = true;
@@ -69,7 +65,7 @@ export class SeedsTab implements Tab {
   /** What the table says still holds, but for another course than the one in view. */
   #stale(): void {
     this.#course = undefined;
-    for (const button of this.#rows.querySelectorAll('button')) button.disabled = true;
+    for (const replay of this.#rows.querySelectorAll('button')) replay.disabled = true;
     setText(this.#stand, 'The course has changed since; these trials ran on the one before.');
   }
 
@@ -138,10 +134,8 @@ export class SeedsTab implements Tab {
   }
 
   #row({ seed, outcome, time_s, metrics }: TrialResult): HTMLElement {
-    const replay = html('button', 'plain', [String(seed)]);
-    replay.type = 'button';
+    const replay = button('plain', String(seed), () => this.#app.attempt(this.#replay(seed)));
     replay.setAttribute('aria-label', `Show seed ${seed}`);
-    replay.addEventListener('click', () => this.#app.attempt(this.#replay(seed)));
     const end = html('td', '', [OUTCOME_WORDS[outcome]]);
     end.dataset.outcome = outcome;
     const head = html('th', '', [replay]);
@@ -190,9 +184,4 @@ function spreadWords(mean: number, deviation: number, decimals: number, trials: 
   const needed =
     deviation > 0 ? Math.max(decimals, Math.min(Math.ceil(-Math.log10(deviation)), decimals + 3)) : decimals;
   return `${fixed(mean, needed)} ± ${fixed(deviation, needed)}`;
-}
-
-/** All that trials with other seeds have in common. */
-function courseKey({ scenario, preset, learning, overrides, start, waypoints, goal }: SessionInfo): string {
-  return JSON.stringify([scenario, preset, learning, overrides, start, waypoints, goal]);
 }

@@ -1,8 +1,9 @@
 /** One parameter over values and seeds, in the background: what it buys, as a plot, a table to replay from, and files. */
 
 import type { App } from '../app/app.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { clock, fixed } from '../base/format.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { withOverride } from '../experiment/overrides.ts';
 import { label, type Parameter } from '../experiment/parameters.ts';
 import { zip } from '../files/archive.ts';
@@ -10,7 +11,7 @@ import { download, plainName } from '../files/download.ts';
 import { OUTCOME_WORDS } from '../inspector/status.ts';
 import { METRIC_ROWS } from '../measurements/metrics.ts';
 import type { NamedFile, SessionInfo } from '../protocol/simulationProtocol.ts';
-import { courseOf } from '../trials/course.ts';
+import { courseKey, courseOf } from '../trials/course.ts';
 import { overridesWith, type Sweep, SweepRun, type SweptTrial, valuesIn } from '../trials/sweep.ts';
 import { campaignFile, trialsCsv } from '../trials/sweepFiles.ts';
 import type { Summary } from '../trials/trialsProtocol.ts';
@@ -29,15 +30,15 @@ export class SweepTab implements Tab {
   readonly #values = named('input', 'Values');
   readonly #count = numberInput('sweep', 'Seeds', 1, MOST_SEEDS, 5);
   readonly #metric = named('select', 'Metric');
-  readonly #start = action('lab-action', 'Run', () => this.#begin());
-  readonly #cancel = action('plain', 'Cancel', () => this.#end(`Cancelled after ${this.#trials.length} trials.`));
-  readonly #csv = action('plain', 'Save as CSV', () => this.#saveCsv());
-  readonly #campaign = action('plain', 'Save as campaign', () => this.#saveCampaign());
+  readonly #start = button('lab-action', 'Run', () => this.#begin());
+  readonly #cancel = button('plain', 'Cancel', () => this.#end(`Cancelled after ${this.#trials.length} trials.`));
+  readonly #csv = button('plain', 'Save as CSV', () => this.#saveCsv());
+  readonly #campaign = button('plain', 'Save as campaign', () => this.#saveCampaign());
   readonly #note = html('p', 'lab-note');
   readonly #fault = html('p', 'parameter-fault');
   readonly #plot = html('div');
   readonly #rows = html('tbody');
-  readonly #table = html('table', 'comparison seeds-table');
+  readonly #table = html('table', 'comparison trials-table');
   readonly #shown = html('div', '', [html('div', 'sweep-form', labelled(this.#metric)), this.#plot]);
   readonly #saves = html('div', 'lab-row', [this.#csv, this.#campaign]);
   #run: SweepRun | undefined;
@@ -77,13 +78,13 @@ export class SweepTab implements Tab {
 
   session(info: SessionInfo): void {
     if (this.#parameter.options.length === 0) this.#fill(info);
-    if (this.#course !== undefined && courseKey(info) !== this.#course) this.sculpted();
+    if (this.#course !== undefined && sweepKey(info) !== this.#course) this.sculpted();
   }
 
   sculpted(): void {
     if (this.#course === undefined) return;
     this.#course = undefined;
-    for (const button of this.#rows.querySelectorAll('button')) button.disabled = true;
+    for (const replay of this.#rows.querySelectorAll('button')) replay.disabled = true;
   }
 
   #fill({ parameters }: SessionInfo): void {
@@ -130,12 +131,12 @@ export class SweepTab implements Tab {
       const route = name === 'terrain' ? 'scenario' : name;
       this.#sweep = { course: courseOf(info, field), planner: info.preset, route, path, whole, values, seeds };
     } catch (error) {
-      setText(this.#fault, error instanceof Error ? error.message : String(error));
+      setText(this.#fault, messageOf(error));
       this.#values.focus();
       return;
     }
     this.#app.touch();
-    [this.#trials, this.#summaries, this.#course] = [[], new Map(), courseKey(info)];
+    [this.#trials, this.#summaries, this.#course] = [[], new Map(), sweepKey(info)];
     // A campaign knows no learning but that of its scenario.
     const overrides = withOverride(info.overrides, 'planner.perception.learning', 'mode', info.learning);
     this.#files = this.#app.files({ ...experiment, overrides });
@@ -158,7 +159,7 @@ export class SweepTab implements Tab {
   #enter(trial: SweptTrial): void {
     this.#trials.push(trial);
     const { value, result } = trial;
-    const replay = action('plain', String(value), () => this.#app.attempt(this.#replay(trial)));
+    const replay = button('plain', String(value), () => this.#app.attempt(this.#replay(trial)));
     replay.setAttribute('aria-label', `Show ${value} with seed ${result.seed}`);
     const end = html('td', '', [OUTCOME_WORDS[result.outcome]]);
     end.dataset.outcome = result.outcome;
@@ -204,7 +205,7 @@ export class SweepTab implements Tab {
     this.#cancel.hidden = this.#run === undefined;
     this.#start.disabled = this.#run !== undefined;
     for (const part of [this.#table, this.#saves, this.#shown]) part.hidden = this.#trials.length === 0;
-    for (const button of [this.#csv, this.#campaign]) button.disabled = this.#run !== undefined;
+    for (const save of [this.#csv, this.#campaign]) save.disabled = this.#run !== undefined;
   }
 
   #draw(): void {
@@ -237,14 +238,14 @@ export class SweepTab implements Tab {
       const campaign = { name: 'campaign.toml', bytes: new TextEncoder().encode(campaignFile(sweep)) };
       download(`mapless-${sweep.route}-sweep.zip`, zip([campaign, ...files]));
     } catch (error) {
-      setText(this.#fault, error instanceof Error ? error.message : String(error));
+      setText(this.#fault, messageOf(error));
     }
   }
 }
 
-/** All that the trials of a sweep have in common but for parameters. */
-function courseKey({ scenario, preset, learning, start, waypoints, goal, objects }: SessionInfo): string {
-  return JSON.stringify([scenario, preset, learning, start, waypoints, goal, objects]);
+/** A sweep sets parameters itself. */
+function sweepKey(info: SessionInfo): string {
+  return courseKey({ ...info, overrides: {} });
 }
 
 function named<K extends 'select' | 'input'>(kind: K, name: string): HTMLElementTagNameMap[K] {
@@ -252,11 +253,4 @@ function named<K extends 'select' | 'input'>(kind: K, name: string): HTMLElement
   control.id = `sweep-${name.toLowerCase()}`;
   control.setAttribute('aria-label', name);
   return control;
-}
-
-function action(look: string, words: string, act: () => void): HTMLButtonElement {
-  const button = html('button', look, [words]);
-  button.type = 'button';
-  button.addEventListener('click', act);
-  return button;
 }

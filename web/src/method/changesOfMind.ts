@@ -1,11 +1,12 @@
 /** Where a run went for another subgoal than just before, and why. */
 
-import { fixed, wrap } from '../base/format.ts';
+import { wrap } from '../base/format.ts';
 import { direction } from '../inspector/decision.ts';
 import { VERDICT_WORDS } from '../inspector/explain.ts';
-import { type Frame, type Subgoal, TERMS } from '../protocol/simulationProtocol.ts';
+import type { Frame, Subgoal } from '../protocol/simulationProtocol.ts';
 import type { RunRecord } from '../run/record.ts';
 import { segmentAt } from '../scene/selection.ts';
+import { dearerBy } from './dearer.ts';
 
 /** A subgoal that moved no farther in one tick is the same one, seen from farther on. */
 const SAME_WITHIN_M = 1.5;
@@ -46,9 +47,5 @@ export function whatChangedIt(former: Subgoal | undefined, before: Frame, now: F
   if (same.refusal === 'unseen') return `${words}: no scan has seen the ground on the way to the former.`;
   const [theirs, ours] = [same.cost, chosen.cost];
   if (!theirs || !ours) return `${words}: the goal itself is not weighed.`;
-  const [term, most] = TERMS.map((name) => [name, theirs[name] - ours[name]] as const).reduce((a, b) =>
-    b[1] > a[1] ? b : a,
-  );
-  const dearer = theirs.total - ours.total;
-  return `${words}: the former is dearer by ${fixed(dearer, 3)}, above all for ${term} (${fixed(most, 3)}).`;
+  return `${words}: the former is dearer by ${dearerBy(theirs, ours)}.`;
 }

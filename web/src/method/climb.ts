@@ -1,6 +1,6 @@
 /** Learning, step by step: the bound climbs, and the skyline is shown that each step gives. */
 
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { fixed, grouped } from '../base/format.ts';
 import type { ClimbStep } from '../protocol/simulationProtocol.ts';
 import type { Hyperparameters } from './knobs.ts';
@@ -13,7 +13,7 @@ interface Host {
 }
 
 export class Climb {
-  readonly button = html('button', 'plain', ['Learned…']);
+  readonly button = button('plain', 'Learned…', () => void this.#toggle());
   readonly element = html('div', 'method-climb');
   readonly #host: Host;
   readonly #step = html('input');
@@ -23,10 +23,8 @@ export class Climb {
 
   constructor(host: Host) {
     this.#host = host;
-    this.button.type = 'button';
     this.button.title = 'Learns from this scan as the paper does, with nothing to hold the values: they run away';
     this.button.setAttribute('aria-expanded', 'false');
-    this.button.addEventListener('click', () => void this.#toggle());
     Object.assign(this.#step, { type: 'range', min: '0', step: '1' });
     this.#step.setAttribute('aria-label', 'Step of learning');
     this.#step.addEventListener('input', () => this.#show((values) => host.move(values)));

@@ -1,12 +1,13 @@
 /** The inducing inputs over the image: shown, placed otherwise, and taken away one by one. */
 
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
+import { Newest } from '../base/newest.ts';
 import { css } from '../colours/scale.ts';
 import type { Theme } from '../colours/theme.ts';
 import type { Plot } from '../inspector/imagePlot.ts';
+import { azimuthOf, columnsApart, elevationOf } from '../inspector/lattice.ts';
 import type { Inside, InsideQuestion, Placement, SessionInfo } from '../protocol/simulationProtocol.ts';
-import { Newest } from './newest.ts';
-import { azimuthOf, type InducingInput } from './slice.ts';
+import type { InducingInput } from './slice.ts';
 
 /** What is pressed this near, in columns and rows, is meant. */
 const REACH = { columns: 4, rows: 2 };
@@ -31,8 +32,8 @@ export class InducingInputs {
   readonly #host: Host;
   readonly #choice = html('select');
   readonly #said = html('span', 'method-count');
-  readonly #take = html('button', 'plain', ['Take one away']);
-  readonly #back = html('button', 'plain', ['Put back']);
+  readonly #take = button('plain', 'Take one away', () => this.#takeNearest());
+  readonly #back = button('plain', 'Put back', () => this.#putBack());
   readonly #newest = new Newest();
   #without: readonly number[] = [];
   #inside: Inside | undefined;
@@ -50,13 +51,6 @@ export class InducingInputs {
     });
     this.#take.title = 'The one nearest to the slice: a false hole may open there. Or press any in the image.';
     this.#back.disabled = true;
-    for (const [one, act] of [
-      [this.#take, () => this.#takeNearest()],
-      [this.#back, () => this.#putBack()],
-    ] as const) {
-      one.type = 'button';
-      one.addEventListener('click', act);
-    }
     this.element = html('div', 'method-inputs', [
       html('label', 'method-choice', [html('span', '', ['Inducing inputs']), this.#choice]),
       html('div', 'method-row', [this.#said, this.#take, this.#back]),
@@ -97,7 +91,7 @@ export class InducingInputs {
   toggleAt(column: number, row: number): void {
     this.#at = { column, row };
     const near = this.#nearest(
-      (one) => around(one.column, column) <= REACH.columns && Math.abs(one.row - row) <= REACH.rows,
+      (one) => this.#apart(one, column) <= REACH.columns && Math.abs(one.row - row) <= REACH.rows,
     );
     if (near === undefined) return;
     this.#without = this.#without.includes(near)
@@ -109,8 +103,7 @@ export class InducingInputs {
   draw(context: CanvasRenderingContext2D, plot: Plot, image: SessionInfo['image'], theme: Theme): void {
     for (const { column, row, out } of this.#list) {
       if (row >= image.rows) continue;
-      const elevation_rad = ((-15 + (30 * row) / (image.rows - 1)) * Math.PI) / 180;
-      const [x, y] = [plot.x(azimuthOf(column, image.columns)), plot.y(elevation_rad)];
+      const [x, y] = [plot.x(azimuthOf(column, image.columns)), plot.y(elevationOf(row, image.rows))];
       context.beginPath();
       context.arc(x, y, plot.detailed ? 2.6 : 1.6, 0, 2 * Math.PI);
       context.lineWidth = 1;
@@ -142,10 +135,14 @@ export class InducingInputs {
   #nearest(passes: (one: InducingInput) => boolean, column = this.#at.column, row = this.#at.row): number | undefined {
     let [best, least] = [-1, Number.POSITIVE_INFINITY];
     this.#list.forEach((one, index) => {
-      const apart = Math.hypot(around(one.column, column), 2 * (one.row - row));
+      const apart = Math.hypot(this.#apart(one, column), 2 * (one.row - row));
       if (passes(one) && apart < least) [best, least] = [index, apart];
     });
     return best < 0 ? undefined : best;
+  }
+
+  #apart(one: InducingInput, column: number): number {
+    return columnsApart(one.column, column, this.#inside?.profile.length ?? 0);
   }
 
   #forget(): void {
@@ -184,9 +181,4 @@ export class InducingInputs {
     this.#back.disabled = out === 0;
     this.#take.disabled = all === 0;
   }
-}
-
-function around(a: number, b: number): number {
-  const apart = Math.abs(a - b);
-  return Math.min(apart, 360 - apart);
 }

@@ -1,9 +1,10 @@
 /** The process's parameters as sliders: what is dragged shows at once, what is let go holds. */
 
-import { html, setText } from '../base/dom.ts';
+import { html } from '../base/dom.ts';
 import { degrees, fixed } from '../base/format.ts';
 import { type Overrides, type OverrideValue, override, withOverride } from '../experiment/overrides.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
+import { type Scale, Slider } from './slider.ts';
 
 const PERCEPTION = 'planner.perception';
 const KERNEL = 'planner.perception.kernel';
@@ -18,16 +19,15 @@ export interface Hyperparameters {
   readonly variance_m2: number;
 }
 
-interface Knob {
+interface Knob extends Scale {
   readonly of: keyof Hyperparameters;
   readonly name: string;
   readonly title: string;
-  readonly lowest: number;
-  readonly highest: number;
-  /** Equal steps of the slider are equal shares of the value. */
-  readonly logarithmic: boolean;
-  readonly shown: (value: number) => string;
 }
+
+/** Ends of the threshold: beyond them all is free, or nothing. */
+export const THRESHOLD = { lowest: 0.05, highest: 0.98 };
+const STEPS = 200;
 
 const squareMetres = (value: number) => `${value < 0.1 ? fixed(value, 3) : fixed(value, 2)} m²`;
 
@@ -36,10 +36,9 @@ const KNOBS: readonly Knob[] = [
     of: 'threshold',
     name: 'V_th',
     title: 'Share of the prior variance above which space counts as free',
-    lowest: 0.05,
-    highest: 0.98,
-    logarithmic: false,
-    shown: (value) => fixed(value, 2),
+    ...THRESHOLD,
+    steps: STEPS,
+    words: (value) => fixed(value, 2),
   },
   {
     of: 'azimuth_rad',
@@ -47,8 +46,9 @@ const KNOBS: readonly Knob[] = [
     title: 'Length-scale over azimuth: how far around a return counts',
     lowest: 0.01,
     highest: 1,
+    steps: STEPS,
     logarithmic: true,
-    shown: (value) => degrees(value, 1),
+    words: (value) => degrees(value, 1),
   },
   {
     of: 'elevation_rad',
@@ -56,8 +56,9 @@ const KNOBS: readonly Knob[] = [
     title: 'Length-scale over elevation: how far up and down a return counts; rings are 2° apart',
     lowest: 0.01,
     highest: 1,
+    steps: STEPS,
     logarithmic: true,
-    shown: (value) => degrees(value, 1),
+    words: (value) => degrees(value, 1),
   },
   {
     of: 'noise_m2',
@@ -65,8 +66,9 @@ const KNOBS: readonly Knob[] = [
     title: 'How little one return is trusted',
     lowest: 0.001,
     highest: 20,
+    steps: STEPS,
     logarithmic: true,
-    shown: squareMetres,
+    words: squareMetres,
   },
   {
     of: 'alpha',
@@ -74,65 +76,36 @@ const KNOBS: readonly Knob[] = [
     title: 'Mixture of length-scales: small is many at once',
     lowest: 0.1,
     highest: 100,
+    steps: STEPS,
     logarithmic: true,
-    shown: (value) => fixed(value, 1),
+    words: (value) => fixed(value, 1),
   },
 ];
 
-/** Steps of a slider. */
-const STEPS = 200;
-
 export class Knobs {
   readonly element = html('div', 'knobs');
-  readonly #rows = new Map<keyof Hyperparameters, { input: HTMLInputElement; output: HTMLOutputElement; knob: Knob }>();
+  readonly #sliders: readonly (readonly [keyof Hyperparameters, Slider])[];
 
   /** `move` is called while a slider is dragged, `set` when it is let go. */
   constructor(move: (value: Partial<Hyperparameters>) => void, set: (value: Partial<Hyperparameters>) => void) {
-    for (const knob of KNOBS) {
-      const input = html('input');
-      Object.assign(input, { type: 'range', min: '0', max: String(STEPS), step: '1', id: `knob-${knob.of}` });
-      const output = html('output');
-      output.htmlFor = input.id;
-      const told = (tell: (value: Partial<Hyperparameters>) => void) => () => {
-        const value = valueAt(knob, Number(input.value));
-        show(input, output, knob, value);
-        tell({ [knob.of]: value });
-      };
-      input.addEventListener('input', told(move));
-      input.addEventListener('change', told(set));
-      const row = html('label', 'knob', [html('span', '', [knob.name]), input, output]);
-      row.title = knob.title;
-      this.#rows.set(knob.of, { input, output, knob });
-      this.element.append(row);
-    }
+    this.#sliders = KNOBS.map((knob) => {
+      const { of, name, title } = knob;
+      const slider = new Slider(
+        name,
+        knob,
+        (value) => move({ [of]: value }),
+        (value) => set({ [of]: value }),
+      );
+      slider.row.title = title;
+      this.element.append(slider.row);
+      return [of, slider] as const;
+    });
   }
 
   /** Shows what holds; with `busy`, a slider in hand stays where it is. */
   show(values: Hyperparameters, busy: boolean): void {
-    for (const [of, { input, output, knob }] of this.#rows) {
-      if (busy && input === document.activeElement) continue;
-      input.value = String(Math.round(STEPS * shareOf(knob, values[of])));
-      show(input, output, knob, values[of]);
-    }
+    for (const [of, slider] of this.#sliders) if (!busy || !slider.isInHand) slider.value = values[of];
   }
-}
-
-function show(input: HTMLInputElement, output: HTMLOutputElement, knob: Knob, value: number): void {
-  setText(output, knob.shown(value));
-  input.setAttribute('aria-valuetext', knob.shown(value));
-}
-
-function shareOf({ lowest, highest, logarithmic }: Knob, value: number): number {
-  const share = logarithmic
-    ? Math.log(value / lowest) / Math.log(highest / lowest)
-    : (value - lowest) / (highest - lowest);
-  return Math.min(Math.max(share, 0), 1);
-}
-
-function valueAt({ lowest, highest, logarithmic }: Knob, step: number): number {
-  const share = step / STEPS;
-  const value = logarithmic ? lowest * (highest / lowest) ** share : lowest + (highest - lowest) * share;
-  return Number(value.toPrecision(3));
 }
 
 /** What holds at present. */

@@ -5,11 +5,13 @@
 
 import '../style/method.css';
 import type { App } from '../app/app.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { degrees, fixed, wrap } from '../base/format.ts';
+import { Newest } from '../base/newest.ts';
 import { readTheme, type Theme } from '../colours/theme.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Plot } from '../inspector/imagePlot.ts';
+import { azimuthOf, columnOf, rowOf } from '../inspector/lattice.ts';
 import type { VarianceImage } from '../inspector/varianceImage.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { Climb } from './climb.ts';
@@ -22,9 +24,8 @@ import {
   withoutHyperparameters,
   withPaperProcess,
 } from './knobs.ts';
-import { Newest } from './newest.ts';
 import { errorWords, skylineError } from './skylineError.ts';
-import { azimuthOf, columnOf, drawSlice } from './slice.ts';
+import { drawSlice } from './slice.ts';
 import { ThresholdHandle } from './thresholdHandle.ts';
 
 export class Method {
@@ -64,7 +65,7 @@ export class Method {
     );
     canvas.parentElement?.append(this.#handle.element);
     this.#inputs = new InducingInputs({
-      look: (question) => app.lookInside(question),
+      look: (question) => app.insight.lookInside(question),
       changed: () => this.#showInside(),
       pause: () => app.pause(),
       failed: (error) => app.attempt(Promise.reject(error)),
@@ -72,7 +73,7 @@ export class Method {
     this.#climb = new Climb({
       begin: async () => {
         await app.pause();
-        return app.climb();
+        return app.insight.climb();
       },
       move: (values) => this.#move(values),
       set: (values) => this.#set(values),
@@ -106,7 +107,7 @@ export class Method {
       this.#kernel.checked = false;
     }
     this.#image.drawOver(open ? (context, plot, theme) => this.#drawOver(context, plot, theme) : undefined);
-    this.#app.attempt(this.#app.showTruth(open));
+    this.#app.attempt(this.#app.insight.showTruth(open));
     if (open && this.#frame) this.frame(this.#frame);
     else this.#showInside();
   }
@@ -136,12 +137,14 @@ export class Method {
       ['Default', 'The values of this project, chosen on recorded truth', withoutHyperparameters],
       ['Paper’s', 'V_th 0.70, one length-scale of 2°, little noise, farthest points', withPaperProcess],
     ];
-    const buttons = presets.map(([name, title, change]) =>
-      button(name, title, () => {
+    const buttons = presets.map(([name, title, change]) => {
+      const made = button('plain', name, () => {
         const { info } = this.#app;
         if (info) this.#adjust(change(info.overrides));
-      }),
-    );
+      });
+      made.title = title;
+      return made;
+    });
     Object.assign(this.#azimuth, { type: 'range', step: '1', value: '0' });
     this.#azimuth.setAttribute('aria-label', 'Azimuth of the slice');
     this.#azimuth.addEventListener('input', () => {
@@ -160,7 +163,7 @@ export class Method {
       html('summary', '', ['Equations']),
       html('p', '', ['k(z, z′) = σ² (1 + r² / 2α)^−α,  r² = Σ ((z − z′) / ℓ)²  over azimuth and elevation']),
       html('p', '', ['variance v = k** − k*ᵤ Kᵤᵤ⁻¹ kᵤ* + k*ᵤ (Kᵤᵤ + Kᵤf Kfᵤ / σₙ²)⁻¹ kᵤ*']),
-      html('p', '', ['mean = k*ᵤ (Kᵤᵤ + Kᵤf Kfᵤ / σₙ²)⁻¹ Kᵤf y / σₙ²,  y = 7 m − range']),
+      html('p', '', ['mean = k*ᵤ (Kᵤᵤ + Kᵤf Kfᵤ / σₙ²)⁻¹ Kᵤf y / σₙ²,  y = r − range,  r the radius of the occupancy']),
       html('p', '', ['Free where v / σ² > V_th: no return is near, so nothing has lowered the prior variance.']),
     ]);
     const slice = html('div', 'method-slice', [
@@ -227,7 +230,7 @@ export class Method {
     if (this.#open && this.#kernel.checked) {
       const [column, row] = [this.#column, this.#row];
       this.#newest.do(async () => {
-        const covariances = await this.#app.kernelFrom(column, row);
+        const covariances = await this.#app.insight.kernelFrom(column, row);
         if (!this.#kernel.checked) return;
         this.#image.showInstead({ values: covariances.map((value) => 1 - value), profile: undefined });
       });
@@ -239,22 +242,22 @@ export class Method {
           : undefined,
       );
     }
-    this.#sayError(frame);
+    this.#sayError(info, frame);
     this.#drawSlice();
     this.#image.again();
   }
 
-  #sayError({ buffers, thought }: Frame): void {
+  #sayError({ occupancy_radius_m }: SessionInfo, { buffers, thought }: Frame): void {
     const profile = (this.#inputs.isOwn === false && this.#inputs.inside?.profile) || buffers.profile;
     const now = skylineError(profile, buffers.truth);
     const before = thought === 'what_if' ? skylineError(buffers.former, buffers.truth) : undefined;
-    const words = now ? `Off the true skyline by ${errorWords(now)}` : '';
+    const words = now ? `Off the true skyline by ${errorWords(now, occupancy_radius_m)}` : '';
     setText(
       this.#error,
       !now
         ? 'Pause to compare with the true skyline.'
         : before
-          ? `${words}; the run’s: ${errorWords(before)}.`
+          ? `${words}; the run’s: ${errorWords(before, occupancy_radius_m)}.`
           : `${words}.`,
     );
   }
@@ -282,9 +285,7 @@ export class Method {
       this.#theme,
     );
     const skyline = profile[this.#column] ?? Number.NaN;
-    const rows = info.image.rows - 1;
-    const share = Number.isNaN(skyline) ? 0.5 : (skyline * 180) / Math.PI / 30 + 0.5;
-    this.#inputs.lookAt(this.#column, Math.round(rows * Math.min(Math.max(share, 0), 1)));
+    this.#inputs.lookAt(this.#column, rowOf(Number.isNaN(skyline) ? 0 : skyline, info.image.rows));
     this.#slice.setAttribute(
       'aria-label',
       `Slice ${where}: ${Number.isNaN(skyline) ? 'no skyline' : `skyline at ${degrees(skyline, 1)}`}, V_th ${fixed(frame.threshold, 2)}`,
@@ -303,12 +304,4 @@ export class Method {
     context.lineTo(x, plot.top + plot.height);
     context.stroke();
   }
-}
-
-export function button(text: string, title: string, act: () => void): HTMLButtonElement {
-  const made = html('button', 'plain', [text]);
-  made.type = 'button';
-  made.title = title;
-  made.addEventListener('click', act);
-  return made;
 }

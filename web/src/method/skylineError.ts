@@ -1,7 +1,6 @@
 /** How far a skyline is from the true one. */
 
-/** Where the occupancy ends: a degree there is this many metres. */
-const RADIUS_M = 7;
+import { degrees, metres } from '../base/format.ts';
 
 export interface SkylineError {
   readonly mean_rad: number;
@@ -20,7 +19,7 @@ export function skylineError(profile: Float32Array, truth: Float32Array): Skylin
   return columns > 0 ? { mean_rad: sum / columns, columns } : undefined;
 }
 
-/** In degrees, and in centimetres at the edge of the occupancy surface. */
-export function errorWords({ mean_rad }: SkylineError): string {
-  return `${((mean_rad * 180) / Math.PI).toFixed(2)}° (${Math.round(100 * RADIUS_M * mean_rad)} cm at 7 m)`;
+/** In degrees, and in centimetres at the edge of the occupancy surface, which lies `radius_m` away. */
+export function errorWords({ mean_rad }: SkylineError, radius_m: number): string {
+  return `${degrees(mean_rad, 2)} (${Math.round(100 * radius_m * mean_rad)} cm at ${metres(radius_m)})`;
 }

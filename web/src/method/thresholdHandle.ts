@@ -3,6 +3,7 @@
 import { html } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
 import type { Plot } from '../inspector/imagePlot.ts';
+import { THRESHOLD } from './knobs.ts';
 
 /** Half of the thumb lies beyond either end of the scale. */
 const THUMB_PX = 18;
@@ -12,7 +13,8 @@ export class ThresholdHandle {
 
   /** `move` is called while it is dragged, `set` when it is let go. */
   constructor(move: (threshold: number) => void, set: (threshold: number) => void) {
-    Object.assign(this.element, { type: 'range', min: '0.05', max: '0.98', step: '0.01', hidden: true });
+    const [min, max] = [String(THRESHOLD.lowest), String(THRESHOLD.highest)];
+    Object.assign(this.element, { type: 'range', min, max, step: '0.01', hidden: true });
     this.element.setAttribute('aria-label', 'Threshold V_th');
     this.element.title = 'Drag the threshold between seen and free';
     this.element.addEventListener('input', () => move(Number(this.element.value)));
@@ -24,7 +26,7 @@ export class ThresholdHandle {
     this.element.hidden = !plot.detailed || threshold === undefined;
     if (this.element.hidden || threshold === undefined) return;
     const { style } = this.element;
-    const [lowest, highest] = [Number(this.element.min), Number(this.element.max)];
+    const { lowest, highest } = THRESHOLD;
     style.left = `${plot.left + plot.width + 3}px`;
     style.top = `${plot.top + plot.height * (1 - highest) - THUMB_PX / 2}px`;
     style.height = `${plot.height * (highest - lowest) + THUMB_PX}px`;

@@ -2,33 +2,37 @@
 
 import '../style/method.css';
 import type { App } from '../app/app.ts';
-import { html, setText } from '../base/dom.ts';
-import { fixed } from '../base/format.ts';
+import { button, html, setText } from '../base/dom.ts';
+import { fixed, radians } from '../base/format.ts';
+import { Newest } from '../base/newest.ts';
 import { type Overrides, override, withOverride } from '../experiment/overrides.ts';
 import type { Place } from '../experiment/place.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Stage } from '../view/stage.ts';
 import { changeOfMind, whatChangedIt } from './changesOfMind.ts';
-import { Newest } from './newest.ts';
+import { type Scale, Slider } from './slider.ts';
 import { whyThere } from './whyThere.ts';
 
 const TABLE = 'planner.decision';
 const WEIGHTS = ['direction', 'distance', 'steepness', 'climb', 'commitment', 'correction'] as const;
 /** The paper has the first three. */
 const PAPER_WEIGHTS = 3;
-const HIGHEST = 3;
+const SCALE: Scale = { lowest: 0, highest: 3, steps: 60, words: (value) => fixed(value, 2) };
+/** To the right positive, as on the slider. */
+const BEARING: Scale = { lowest: -180, highest: 180, steps: 360, words: (value) => `${fixed(value, 0)}°` };
+const DISTANCE: Scale = { lowest: 1, highest: 15, steps: 28, words: (value) => `${fixed(value, 1)} m` };
 /** Radius of the mark on the ground: about half of the robot. */
 const MARK_M = 0.5;
 
 export class Weighing {
   readonly element = html('div', 'weighing');
   readonly #app: App;
-  readonly #rows: readonly { name: string; row: HTMLElement; input: HTMLInputElement; output: HTMLOutputElement }[];
+  readonly #weights: readonly { name: string; slider: Slider }[];
   readonly #said = html('p', 'weighing-said');
   readonly #newest = new Newest();
   readonly #stage: Stage | undefined;
-  readonly #bearing = slider('Bearing', -180, 180, 1);
-  readonly #distance = slider('Distance', 1, 15, 0.5);
+  readonly #bearing = new Slider('bearing', BEARING, () => this.#askThere());
+  readonly #distance = new Slider('distance', DISTANCE, () => this.#askThere());
   readonly #why = html('p', 'weighing-said');
 
   /** `view` is the canvas of the 3D view: while this is open, a press on its ground asks why the robot does not go there. */
@@ -36,34 +40,26 @@ export class Weighing {
     this.#app = app;
     this.#stage = stage;
     this.#why.setAttribute('role', 'status');
-    this.#bearing.value = '0';
-    this.#distance.value = '5';
+    [this.#bearing.value, this.#distance.value] = [0, 5];
+    [this.#bearing.label, this.#distance.label] = ['Bearing of the place', 'Distance of the place'];
     view.addEventListener('click', ({ clientX, clientY }) => {
       const place = view.dataset.tool === 'look' && this.#isOpen ? stage?.pick(clientX, clientY) : undefined;
       if (place) this.#ask(place);
     });
-    for (const input of [this.#bearing, this.#distance]) input.addEventListener('input', () => this.#askThere());
-    this.#rows = WEIGHTS.map((weight) => {
+    this.#weights = WEIGHTS.map((weight) => {
       const name = `${weight}_weight`;
-      const input = html('input');
-      Object.assign(input, { type: 'range', min: '0', max: String(HIGHEST), step: '0.05', id: `weight-${weight}` });
-      const output = html('output');
-      output.htmlFor = input.id;
-      input.addEventListener('input', () => {
-        setText(output, fixed(Number(input.value), 2));
-        this.#try(name, Number(input.value), (overrides) => app.tryOut(overrides).catch(() => undefined));
-      });
-      input.addEventListener('change', () =>
-        this.#try(name, Number(input.value), (overrides) => app.attempt(app.adjust({ overrides }))),
+      const slider = new Slider(
+        weight,
+        SCALE,
+        (value) => this.#try(name, value, (overrides) => app.tryOut(overrides).catch(() => undefined)),
+        (value) => this.#try(name, value, (overrides) => app.attempt(app.adjust({ overrides }))),
       );
-      return { name, row: html('label', 'knob', [html('span', '', [weight]), input, output]), input, output };
+      return { name, slider };
     });
     this.#said.setAttribute('role', 'status');
     const step = (text: string, title: string, by: 1 | -1) => {
-      const made = html('button', 'plain', [text]);
-      made.type = 'button';
+      const made = button('plain', text, () => this.#step(by));
       made.title = title;
-      made.addEventListener('click', () => this.#step(by));
       return made;
     };
     this.element.append(
@@ -71,7 +67,7 @@ export class Weighing {
       html(
         'div',
         'knobs',
-        this.#rows.map(({ row }) => row),
+        this.#weights.map(({ slider }) => slider.row),
       ),
       html('div', 'method-row', [
         html('span', 'method-count', ['Changes of mind']),
@@ -81,8 +77,8 @@ export class Weighing {
       this.#said,
       html('h3', '', ['Why not there?']),
       html('p', 'lab-note', ['Press the ground in the view, or choose a place around the robot.']),
-      html('label', 'knob', [html('span', '', ['bearing']), this.#bearing]),
-      html('label', 'knob', [html('span', '', ['distance']), this.#distance]),
+      this.#bearing.row,
+      this.#distance.row,
       this.#why,
     );
     if (app.info) this.session(app.info);
@@ -90,15 +86,13 @@ export class Weighing {
 
   session(info: SessionInfo): void {
     const parameters = info.parameters.find(({ table }) => table === TABLE)?.parameters ?? [];
-    this.#rows.forEach(({ name, row, input, output }, index) => {
-      row.hidden = info.preset === 'paper' && index >= PAPER_WEIGHTS;
+    this.#weights.forEach(({ name, slider }, index) => {
+      slider.row.hidden = info.preset === 'paper' && index >= PAPER_WEIGHTS;
       const own = parameters.find((one) => one.name === name);
-      const value = Number(override(info.overrides, TABLE, name) ?? own?.value);
-      row.title = own?.text ?? '';
+      slider.row.title = own?.text ?? '';
       // A slider in hand stays where it is: what comes in is older.
-      if (this.#newest.busy && input === document.activeElement) return;
-      input.value = String(value);
-      setText(output, fixed(value, 2));
+      if (this.#newest.busy && slider.isInHand) return;
+      slider.value = Number(override(info.overrides, TABLE, name) ?? own?.value);
     });
   }
 
@@ -112,12 +106,12 @@ export class Weighing {
     return this.element.checkVisibility();
   }
 
-  /** The place that bearing and distance say, the bearing to the right positive, as on the slider. */
+  /** The place that bearing and distance say. */
   #askThere(): void {
     const { frame } = this.#app;
     if (!frame) return;
-    const bearing_rad = frame.pose.yaw - (Number(this.#bearing.value) * Math.PI) / 180;
-    const distance_m = Number(this.#distance.value);
+    const bearing_rad = frame.pose.yaw - radians(this.#bearing.value);
+    const distance_m = this.#distance.value;
     const { x, y } = frame.pose;
     this.#ask({ x: x + distance_m * Math.cos(bearing_rad), y: y + distance_m * Math.sin(bearing_rad) });
   }
@@ -126,7 +120,7 @@ export class Weighing {
     const place = { x, y };
     this.#newest.do(async () => {
       await this.#app.pause();
-      const report = await this.#app.reportOn(place);
+      const report = await this.#app.insight.reportOn(place);
       const { frame, info } = this.#app;
       if (!frame || !info) return;
       this.#stage?.brush(place, place, MARK_M);
@@ -164,11 +158,4 @@ export class Weighing {
     await app.seek(tick + 1);
     if (app.frame) setText(this.#said, whatChangedIt(former, before, app.frame));
   }
-}
-
-function slider(name: string, lowest: number, highest: number, step: number): HTMLInputElement {
-  const input = html('input');
-  Object.assign(input, { type: 'range', min: String(lowest), max: String(highest), step: String(step) });
-  input.setAttribute('aria-label', name);
-  return input;
 }

@@ -4,8 +4,9 @@ import { degrees, fixed, wrap } from '../base/format.ts';
 import type { Place } from '../experiment/place.ts';
 import { direction } from '../inspector/decision.ts';
 import { segmentReason, VERDICT_WORDS } from '../inspector/explain.ts';
-import { type Frame, type PlaceReport, type SessionInfo, type Subgoal, TERMS } from '../protocol/simulationProtocol.ts';
+import type { Frame, PlaceReport, SessionInfo, Subgoal } from '../protocol/simulationProtocol.ts';
 import { segmentAt } from '../scene/selection.ts';
+import { dearerBy } from './dearer.ts';
 
 /** A return this near shows the ground of a place. */
 const SEEN_WITHIN_M = 0.5;
@@ -89,10 +90,5 @@ function ofDirection(azimuth_rad: number, frame: Frame, info: SessionInfo): stri
   if (one.refusal === 'tilt') return 'The path to the subgoal there would tilt the robot too far.';
   if (one.refusal === 'unseen') return 'No scan has seen the ground on the way to the subgoal there.';
   if (!one.cost || !chosen?.cost) return 'The goal itself was nearer than the ground in sight.';
-  const [theirs, ours] = [one.cost, chosen.cost];
-  const [term, most] = TERMS.map((name) => [name, theirs[name] - ours[name]] as const).reduce((a, b) =>
-    b[1] > a[1] ? b : a,
-  );
-  const dearer = fixed(theirs.total - ours.total, 3);
-  return `The subgoal there is dearer than the chosen one by ${dearer}, above all for ${term} (${fixed(most, 3)}).`;
+  return `The subgoal there is dearer than the chosen one by ${dearerBy(one.cost, chosen.cost)}.`;
 }

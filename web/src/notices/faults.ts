@@ -1,6 +1,7 @@
 /** Faults that nobody expected, in words: nothing fails in silence. */
 
 import { byId, setText } from '../base/dom.ts';
+import { messageOf } from '../base/messageOf.ts';
 import type { Graphics } from '../painter/painterClient.ts';
 
 const ADVICE = 'If something no longer answers, reload the page.';
@@ -8,7 +9,7 @@ const ADVICE = 'If something no longer answers, reload the page.';
 export function watchFaults(show: (message: string) => void): void {
   window.addEventListener('error', ({ message }) => show(`The page met an error: ${message}. ${ADVICE}`));
   window.addEventListener('unhandledrejection', ({ reason }) => {
-    show(`The page met an error: ${reason instanceof Error ? reason.message : reason}. ${ADVICE}`);
+    show(`The page met an error: ${messageOf(reason)}. ${ADVICE}`);
   });
 }
 

@@ -1,6 +1,6 @@
 /** The plots over time: zoomed by wheel, pinch, buttons and keys, with a cursor that is a time of the run. */
 
-import { html } from '../base/dom.ts';
+import { button, html } from '../base/dom.ts';
 import { clock } from '../base/format.ts';
 import { Pending } from '../base/pending.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
@@ -43,12 +43,10 @@ export class TimePlots {
     this.#go = go;
     this.#surface = html('div', 'plots-surface', [this.#figure.svg]);
     const zoomButton = (label: string, text: string, act: () => void) => {
-      const button = html('button', 'plain plots-zoom', [text]);
-      button.type = 'button';
-      button.title = label;
-      button.setAttribute('aria-label', label);
-      button.addEventListener('click', act);
-      return button;
+      const made = button('plain plots-zoom', text, act);
+      made.title = label;
+      made.setAttribute('aria-label', label);
+      return made;
     };
     const tools = html('div', 'plots-tools', [
       zoomButton('Zoom in on the plots', '+', () => this.#zoom(ZOOM_STEP)),

@@ -1,5 +1,6 @@
 /** What the page begins with: a link, a scenario by name, where somebody left off, or the first scenario. */
 
+import { messageOf } from '../base/messageOf.ts';
 import { askedFor } from '../experiment/address.ts';
 import { kept, type Work } from '../experiment/autosave.ts';
 import { CATALOGUE } from '../experiment/catalogue.ts';
@@ -14,7 +15,7 @@ export async function beginningAt({ hash, search, work }: Address): Promise<Begi
   try {
     own = await kept(work);
   } catch (error) {
-    unread = error instanceof Error ? error.message : String(error);
+    unread = messageOf(error);
   }
   if (carriesExperiment(hash)) {
     return { from: 'link', source: { experiment: await experimentIn(hash) }, own, unread };

@@ -1,6 +1,7 @@
 /** From scenarios and files to experiments, and from an experiment's terrain to the text that the core reads. */
 
 import { base64, fromBase64 } from '../base/base64.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { loadHeights } from '../bindings/heightsModule.ts';
 import type { Core } from '../bindings/simulationModule.ts';
 import { loadTrials } from '../bindings/trialsModule.ts';
@@ -224,7 +225,7 @@ function readFile(name: string, json: string): Experiment {
     const read = JSON.parse(json);
     return readExperiment(read?.run?.experiment ?? read?.experiment ?? read);
   } catch (cause) {
-    throw new Error(`${name}: ${cause instanceof Error ? cause.message : cause}`, { cause });
+    throw new Error(`${name}: ${messageOf(cause)}`, { cause });
   }
 }
 

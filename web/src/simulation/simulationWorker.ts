@@ -1,5 +1,6 @@
 /** The worker: owns the wasm core and the loop. The page only ever sees the protocol. */
 
+import { messageOf } from '../base/messageOf.ts';
 import { loadCore } from '../bindings/simulationModule.ts';
 import {
   type Command,
@@ -71,7 +72,7 @@ function post(message: FromSimulation, transfer: Transferable[] = []): void {
 function fail(error: unknown, id?: number): void {
   if (id === undefined) playing = false;
   const panicked = error instanceof WebAssembly.RuntimeError;
-  const message = error instanceof Error ? error.message : String(error);
+  const message = messageOf(error);
   post({ type: 'failed', id, message, panicked });
 }
 

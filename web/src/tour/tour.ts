@@ -1,6 +1,6 @@
 /** The guided tour: a card that says what the scene shows, one step after the other. Everything is put back at its end. */
 
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Layers } from '../scene/layers.ts';
 import type { Finder } from '../scene/selection.ts';
@@ -33,8 +33,8 @@ export class Tour {
   readonly #count = html('p', 'tour-count');
   readonly #title = html('h2', 'tour-title');
   readonly #text = html('p', 'tour-text');
-  readonly #back = button('Back', 'plain', () => this.#go(this.#at - 1));
-  readonly #next = button('Next', 'tour-next', () => this.#go(this.#at + 1));
+  readonly #back = button('plain', 'Back', () => void this.#go(this.#at - 1));
+  readonly #next = button('tour-next', 'Next', () => void this.#go(this.#at + 1));
   #at = -1;
 
   /** Shows the tour in `card`, which is empty and hidden before and after. */
@@ -46,7 +46,7 @@ export class Tour {
     this.#before = { layers, camera, imageIsLarge, isByHand, playing };
     const words = html('div', 'tour-words', [this.#title, this.#text]);
     words.setAttribute('aria-live', 'polite');
-    const end = button('End the tour', 'plain', () => this.end());
+    const end = button('plain', 'End the tour', () => this.end());
     card.replaceChildren(words, html('div', 'tour-foot', [this.#count, end, this.#back, this.#next]));
     card.addEventListener('keydown', this.#key);
   }
@@ -101,11 +101,4 @@ export class Tour {
     event.stopPropagation();
     act();
   };
-}
-
-function button(text: string, className: string, act: () => void | Promise<void>): HTMLButtonElement {
-  const made = html('button', className, [text]);
-  made.type = 'button';
-  made.addEventListener('click', () => void act());
-  return made;
 }

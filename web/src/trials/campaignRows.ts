@@ -1,5 +1,6 @@
 /** The table of a campaign (`trials.csv`), row by row, and which of its trials the page can drive itself. */
 
+import { messageOf } from '../base/messageOf.ts';
 import { MAX_SEED, PRESETS } from '../experiment/experiment.ts';
 import { type Overrides, withOverride } from '../experiment/overrides.ts';
 import type { Preset } from '../experiment/setting.ts';
@@ -41,7 +42,7 @@ export function campaignRows(file: string, text: string, knows: (route: string) 
       throw new Error(`no column ${missing.join(', ')}: expected those of a campaign’s trials.csv`);
     return rows.map((row) => campaignRow(row, knows(row.route ?? '')));
   } catch (cause) {
-    throw new Error(`${file}: ${cause instanceof Error ? cause.message : cause}`, { cause });
+    throw new Error(`${file}: ${messageOf(cause)}`, { cause });
   }
 }
 

@@ -8,3 +8,8 @@ export function courseOf(info: SessionInfo, ground: Ground): Course {
   const { columns, rows, cell_m, heights_m } = ground;
   return { preset, overrides, learning, start, waypoints, goal, objects, ground: { columns, rows, cell_m, heights_m } };
 }
+
+/** All that trials with other seeds have in common but for the ground, a change of which the page tells by itself. */
+export function courseKey({ scenario, preset, learning, overrides, start, waypoints, goal, objects }: SessionInfo) {
+  return JSON.stringify([scenario, preset, learning, overrides, start, waypoints, goal, objects]);
+}

@@ -16,7 +16,7 @@ export function trialsCsv({ planner, route, path }: Sweep, trials: readonly Swep
 }
 
 /** The campaign file of a sweep over the scenario file `route`.toml beside it. */
-export function campaignFile({ planner, route, path, whole, values, seeds }: Sweep): string {
+export function campaignFile({ planner, route, path, whole, values, seeds }: Omit<Sweep, 'course'>): string {
   const literals = values.map((value) => (!whole && Number.isInteger(value) ? value.toFixed(1) : String(value)));
   return `# The trials of a sweep in the page:
 #   mapless trials campaign.toml

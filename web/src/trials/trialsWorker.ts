@@ -1,5 +1,6 @@
 /** The worker of ghosts and batches: runs whole trials beside the page's own, and tells how they stand. */
 
+import { messageOf } from '../base/messageOf.ts';
 import { loadTrials, type TrialsModule } from '../bindings/trialsModule.ts';
 import { type Runner, RunnerFactory, summary } from './runner.ts';
 import type { FromTrials, Job, ToTrials } from './trialsProtocol.ts';
@@ -12,10 +13,6 @@ let wake: (() => void) | undefined;
 
 function post(message: FromTrials, transfer: Transferable[] = []): void {
   self.postMessage(message, { transfer });
-}
-
-function words(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
 }
 
 /** Lets messages in. */
@@ -33,7 +30,7 @@ async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' 
       post({ type: 'ghost', rows: new Float64Array(runner.row), result: runner.result });
     } catch (error) {
       if (error instanceof WebAssembly.RuntimeError) throw error;
-      post({ type: 'refused', planner, message: words(error) });
+      post({ type: 'refused', planner, message: messageOf(error) });
     }
   }
   while (running.length > 0) {
@@ -101,6 +98,6 @@ function carryOut(message: ToTrials): Promise<void> | undefined {
 
 self.onmessage = ({ data }: MessageEvent<ToTrials>) => {
   carryOut(data)?.catch((error: unknown) => {
-    post({ type: 'failed', message: words(error), panicked: error instanceof WebAssembly.RuntimeError });
+    post({ type: 'failed', message: messageOf(error), panicked: error instanceof WebAssembly.RuntimeError });
   });
 };

@@ -571,7 +571,8 @@ export interface FrameBuffers {
      */
     former: Float32Array<ArrayBuffer>;
     /**
-     * The true skyline where it was asked for, NaN elsewhere: what endlessly many beams would show.
+     * The true skyline where it was asked for, NaN elsewhere: what endlessly many beams would show of
+     * the bare ground.
      */
     truth: Float32Array<ArrayBuffer>;
     /**

@@ -4,14 +4,14 @@ use glam::DVec3;
 use js_sys::{Float32Array, Uint8Array};
 use mapless::skyline::columns::{COLUMNS, column_azimuth_rad};
 use mapless_trials::PoseConfig;
-use mapless_world::{Skyline, true_skyline};
+use mapless_world::{Caster, Skyline, true_skyline};
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 use super::tick::{Activity, Velocity};
 use super::what_if::Thought;
-use super::{Moment, Session, Truth};
+use super::{Moment, Session, TrueView, Truth};
 use crate::decision::{self, PathPoint, Segment, Subgoal};
 use crate::objects::Solid;
 use crate::returns::{self, SetAside};
@@ -92,7 +92,8 @@ pub struct FrameBuffers {
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Float32Array<ArrayBuffer>")]
     former: Float32Array,
-    /// The true skyline where it was asked for, NaN elsewhere: what endlessly many beams would show.
+    /// The true skyline where it was asked for, NaN elsewhere: what endlessly many beams would show of
+    /// the bare ground.
     #[serde(with = "serde_wasm_bindgen::preserve")]
     #[tsify(type = "Float32Array<ArrayBuffer>")]
     truth: Float32Array,
@@ -145,6 +146,18 @@ pub struct Timeline {
     /// Where the route was changed.
     #[tsify(type = "readonly number[]")]
     changes: Vec<u64>,
+}
+
+impl TrueView {
+    fn elevations_rad(&self, caster: &Caster) -> Vec<f32> {
+        let &Self { ref pose, radius_m, between_rad } = self;
+        let at = |column| match true_skyline(caster, pose, radius_m, column_azimuth_rad(column), between_rad)
+        {
+            Skyline::Ground { elevation_rad } => elevation_rad as f32,
+            Skyline::Unknown | Skyline::Wall => f32::NAN,
+        };
+        (0..COLUMNS).map(at).collect()
+    }
 }
 
 #[wasm_bindgen]
@@ -276,35 +289,27 @@ impl Session {
         kinds.subarray(0, codes.len() as u32).copy_from(&codes);
     }
 
-    /// The true skyline around the place of the last scan, along the robot's axes as the planner sees it.
     fn fill_truth(&mut self, out: &Float32Array) {
-        let seen_from = (self.shown().scanned_from, self.shown().world_from_robot);
-        if self.truth.as_ref().is_none_or(|truth| truth.seen_from != seen_from) {
-            self.truth = Some(Truth { seen_from, elevations: self.true_elevations() });
+        let view = self.true_view();
+        if self.truth.as_ref().is_none_or(|truth| truth.view != view) {
+            let elevations = view.elevations_rad(self.shown().trial.caster());
+            self.truth = Some(Truth { view, elevations });
         }
         let elevations = self.truth.as_ref().map_or(&[][..], |truth| &truth.elevations);
         let fit = elevations.len().min(out.length() as usize);
         out.subarray(0, fit as u32).copy_from(&elevations[..fit]);
     }
 
-    fn true_elevations(&self) -> Vec<f32> {
+    /// From the place of the last scan, along the robot's axes as the planner sees it.
+    fn true_view(&self) -> TrueView {
         let &Moment { ref trial, scanned_from, world_from_robot, .. } = self.shown();
-        let (pose, config) = (
-            mapless_world::SensorPose { world_from_sensor: world_from_robot, ..scanned_from },
-            trial.planner_config(),
-        );
+        let config = trial.planner_config();
         let sensor = &config.sensor;
-        let between_rad = [sensor.lowest_elevation_rad, sensor.highest_elevation_rad];
-        let radius_m = config.perception.surface_radius_m;
-        (0..COLUMNS)
-            .map(|column| {
-                let azimuth_rad = column_azimuth_rad(column);
-                match true_skyline(trial.caster(), &pose, radius_m, azimuth_rad, between_rad) {
-                    Skyline::Ground { elevation_rad } => elevation_rad as f32,
-                    Skyline::Unknown | Skyline::Wall => f32::NAN,
-                }
-            })
-            .collect()
+        TrueView {
+            pose: mapless_world::SensorPose { world_from_sensor: world_from_robot, ..scanned_from },
+            radius_m: config.perception.surface_radius_m,
+            between_rad: [sensor.lowest_elevation_rad, sensor.highest_elevation_rad],
+        }
     }
 
     /// Where there is no posterior, nothing was observed: 0 and 1.
