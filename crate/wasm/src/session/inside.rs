@@ -20,7 +20,7 @@ pub enum Placement {
     Lattice,
     /// Among the returns, each the farthest from those before it.
     FarthestPoints,
-    /// Every so manieth return.
+    /// One return in so many.
     Strided,
 }
 
