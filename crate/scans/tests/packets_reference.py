@@ -1,10 +1,11 @@
 """Points and times of Velodyne packets as velodyne-decoder (PyPI, 3.1.0) gives them, for crate/scans/tests/packets.rs.
 
     pip install velodyne-decoder==3.1.0
-    python packets_reference.py > packets_reference.csv       # of made-up packets; the file is kept
-    python packets_reference.py FOLDER FILE.pcap ...           # of captures; the test reads FOLDER as MAPLESS_DECODED
+    python packets_reference.py > packets_reference.csv                    # of made-up packets
+    python packets_reference.py FILE.pcap ... > captures_reference.csv     # of captures
 
-A row of the file: product, return mode, x, y, z in metres, microseconds after the first packet's stamp.
+Rows: product, return mode, x, y, z in metres, microseconds after the first packet's stamp; and the capture's name,
+x, y, z in metres, microseconds after the hour. Both hold a sample of the returns.
 """
 
 import struct
@@ -18,6 +19,7 @@ PACKETS = 24
 SEQUENCE_US = 55.296
 STAMP_US = 1_000_000
 SAMPLE = 97
+CAPTURE_SAMPLE = 499
 
 
 def packets(product, mode):
@@ -56,17 +58,18 @@ def made_up():
                 print(f"{product},{mode},{x:.6f},{y:.6f},{z:.6f},{(time % 3600) * 1e6 - STAMP_US:.2f}")
 
 
-def captures(folder, files):
+def captures(files):
     for file in map(Path, files):
         config = velodyne_decoder.Config(timestamp_first_packet=True)
         rows = []
         for stamp, points in velodyne_decoder.read_pcap(str(file), config):
             points = numpy.asarray(points, dtype=numpy.float64)
-            rows.append(numpy.column_stack([points[:, :3], (stamp.device + points[:, 4]) % 3600]))
-        numpy.concatenate(rows).astype("<f8").tofile(folder / f"{file.stem}.f64")
+            rows.extend(numpy.column_stack([points[:, :3], (stamp.device + points[:, 4]) % 3600]))
+        for x, y, z, time in rows[::CAPTURE_SAMPLE]:
+            print(f"{file.stem},{x:.6f},{y:.6f},{z:.6f},{time * 1e6:.2f}")
 
 
 if len(sys.argv) > 1:
-    captures(Path(sys.argv[1]), sys.argv[2:])
+    captures(sys.argv[1:])
 else:
     made_up()
