@@ -225,7 +225,7 @@ impl Oracle {
     }
 }
 
-/// 5000 sequences; `MAPLESS_SEQUENCES=1000000 cargo test --release -p mapless-robot --test supervisor` for more.
+/// 5000 sequences, or as many as `MAPLESS_SEQUENCES` says.
 #[test]
 fn no_sequence_gives_a_command_beyond_limits_or_without_fresh_input() {
     let sequences = std::env::var("MAPLESS_SEQUENCES").map_or(5000, |text| text.parse().unwrap());
