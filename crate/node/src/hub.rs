@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use mapless::glam::Vec3;
 use mapless::{Pose, Status};
 use mapless_robot::supervisor::{Decision, Inputs, Proposal};
+use mapless_scans::Revolution;
 
 use crate::messages::Time;
 use crate::navigation::Task;
@@ -25,6 +26,17 @@ pub(crate) struct Scan {
     pub(crate) points_m: Vec<Vec3>,
     /// The robot's pose for it.
     pub(crate) pose: Pose,
+}
+
+/// A revolution of a sensor that sends packets.
+#[derive(Debug)]
+pub(crate) struct Arrived {
+    /// When its last packet arrived, on the clock of [`Hub::now`], and what the node's clock said then.
+    pub(crate) at: Duration,
+    pub(crate) stamp: Time,
+    /// The same on the sensor's clock, nanoseconds from an instant of no meaning.
+    pub(crate) sensor_ns: i64,
+    pub(crate) revolution: Revolution,
 }
 
 /// What the planner last made of a scan.
@@ -59,6 +71,8 @@ pub(crate) struct Hub {
     has_jumped: AtomicBool,
     /// The simulation's clock, if time is simulated.
     clock: Option<Mutex<Time>>,
+    /// From the LiDAR, if it sends packets, to the middleware.
+    pub(crate) revolution: Slot<Arrived>,
     /// From the middleware to the planner.
     pub(crate) scan: Slot<Scan>,
     /// From the planner to the supervisor.
@@ -80,6 +94,7 @@ impl Hub {
             is_ending: AtomicBool::new(false),
             has_jumped: AtomicBool::new(false),
             clock: use_sim_time.then(Mutex::default),
+            revolution: Slot::default(),
             scan: Slot::default(),
             proposal: Slot::default(),
             inputs: Mutex::default(),

@@ -9,11 +9,13 @@
 //! | planner | answers each scan; a panic is a fault |
 //! | supervisor | at 50 Hz, and at once when the planner answers; it alone publishes commands |
 //! | spin | follows who is on the network |
+//! | LiDAR | if the sensor sends packets: puts them together |
 
 pub mod config;
 mod diagnostics;
 mod frames;
 mod hub;
+mod lidar;
 pub mod messages;
 pub mod navigation;
 mod picture;
@@ -26,5 +28,6 @@ mod service;
 mod slot;
 mod supervising;
 
+pub use lidar::LidarError;
 pub use ros::RosError;
 pub use run::{RunError, run};

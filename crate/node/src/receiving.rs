@@ -65,7 +65,12 @@ impl Receiving<'_> {
         each(hub, &incoming.reset, "reset", |message| hub.tell(|inputs| inputs.reset |= message.data));
         each(hub, &incoming.imu, "IMU", |message| senses.take_imu(hub, &message));
         each(hub, &incoming.odometry, "odometry", |message| senses.take_odometry(hub, &message));
-        each(hub, &incoming.scan, "scan", |message| senses.take_scan(hub, &message));
+        if let Some(scan) = &incoming.scan {
+            each(hub, scan, "scan", |message| senses.take_scan(hub, &message));
+        }
+        if let Some(arrived) = hub.revolution.take(Duration::ZERO) {
+            senses.take_revolution(hub, arrived);
+        }
         self.presence.look(&self.entities.participant);
         let (readers, writers) = (self.presence.readers, self.presence.writers);
         hub.tell(|inputs| (inputs.has_peer, inputs.other_publishers) = (readers > 0, writers));

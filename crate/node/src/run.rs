@@ -11,6 +11,7 @@ use ros2_client::NodeName;
 
 use crate::config::NodeConfig;
 use crate::hub::Hub;
+use crate::lidar::{Lidar, LidarError};
 use crate::navigation::Navigation;
 use crate::picture::Picture;
 use crate::planning::Planning;
@@ -34,6 +35,9 @@ pub enum RunError {
     /// A value of the configuration.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// The LiDAR's packets cannot be taken.
+    #[error(transparent)]
+    Lidar(#[from] LidarError),
     /// Signals cannot be heard.
     #[error("signals: {0}")]
     Signals(#[from] std::io::Error),
@@ -60,6 +64,10 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     let estimator = Estimator::new(config.estimator, config.imu.base_from_imu())?;
 
     let mut entities = Entities::join(config)?;
+    let lidar = match &config.velodyne {
+        Some(velodyne) => Some(Lidar::listen(velodyne, entities.waker()?)?),
+        None => None,
+    };
     let spin = Spin::start(&mut entities.node)?;
     let commands = CommandPublisher::new(config, &mut entities)?;
     let decisions =
@@ -87,11 +95,12 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     log::info!("{}/{} has begun in domain {}", config.namespace, config.node_name, config.domain_id);
 
     let ended = std::thread::scope(|scope| {
-        let threads = [
+        let mut threads = vec![
             ("supervisor", scope.spawn(|| supervise(&hub, supervisor, &commands, &service))),
             ("planner", scope.spawn(|| planning.run(&hub))),
             ("middleware", scope.spawn(|| receiving.run())),
         ];
+        threads.extend(lidar.map(|lidar| ("LiDAR", scope.spawn(|| lidar.run(&hub)))));
         let mut is_whole = true;
         while signal.load(Ordering::Relaxed) == 0
             && is_whole
@@ -101,8 +110,9 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             is_whole = alive.is_whole();
         }
         hub.end();
-        let joined = threads.map(|(name, thread)| thread.join().map_err(|_| RunError::Panicked(name)));
-        joined.into_iter().collect::<Result<(), RunError>>()?;
+        let joined = threads.into_iter();
+        let joined = joined.map(|(name, thread)| thread.join().map_err(|_| RunError::Panicked(name)));
+        joined.collect::<Result<(), RunError>>()?;
         if is_whole { Ok(()) } else { Err(RunError::MiddlewareEnded) }
     });
     std::thread::sleep(LINGER);

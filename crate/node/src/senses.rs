@@ -11,8 +11,8 @@ use mapless_robot::estimator::{self, Estimator, ReadingError};
 use mapless_robot::supervisor::Message;
 
 use crate::config::Frames;
-use crate::hub::{Hub, Scan};
-use crate::messages::{Header, Imu, Odometry, PointCloud2, Vector3};
+use crate::hub::{Arrived, Hub, Scan};
+use crate::messages::{Imu, Odometry, PointCloud2, Time, Vector3};
 
 /// Half a turn of a sensor that turns at 10 Hz.
 const HALF_SWEEP: Duration = Duration::from_millis(50);
@@ -49,16 +49,39 @@ impl Senses {
     /// Takes a scan: to the planner, if it can be used and the pose is known.
     pub(crate) fn take_scan(&mut self, hub: &Hub, cloud: &PointCloud2) {
         let arrived = hub.now();
+        let stamp = cloud.header.stamp;
         let returns =
             in_frame(&cloud.header.frame_id, &self.frames.scan).and_then(|()| returns(cloud, &self.sensor));
         let mut content = DefaultHasher::new();
         content.write(&cloud.data);
-        let message = message(hub, arrived, &cloud.header, content, &returns, "scan");
+        let message = message(hub, arrived, stamp.nanoseconds(), content, &returns, "scan");
         hub.tell(|inputs| inputs.scan = Some(message));
+        self.plan(hub, arrived, stamp, returns);
+    }
+
+    /// Takes a revolution of a sensor that sends packets, likewise.
+    pub(crate) fn take_revolution(&mut self, hub: &Hub, arrived: Arrived) {
+        let Arrived { at, stamp, sensor_ns, revolution } = arrived;
+        let mut content = DefaultHasher::new();
+        for point_m in &revolution.points_m {
+            point_m.to_array().iter().for_each(|axis_m| content.write_u32(axis_m.to_bits()));
+        }
+        let returns =
+            check_view(&revolution.points_m, &self.sensor).map_err(Unusable::from).map(|()| Returns {
+                points_m: revolution.points_m,
+                since_stamp_s: Some(revolution.since_end_s),
+                warnings: Vec::new(),
+            });
+        let message = message(hub, at, sensor_ns, content, &returns, "scan");
+        hub.tell(|inputs| inputs.scan = Some(message));
+        self.plan(hub, at, stamp, returns);
+    }
+
+    fn plan(&self, hub: &Hub, arrived: Duration, stamp: Time, returns: Result<Returns, Unusable>) {
         if let Ok(mut returns) = returns
             && let Some(pose) = self.placed(hub, &mut returns, arrived)
         {
-            hub.scan.put(Scan { arrived, stamp: cloud.header.stamp, points_m: returns.points_m, pose });
+            hub.scan.put(Scan { arrived, stamp, points_m: returns.points_m, pose });
         }
     }
 
@@ -97,7 +120,7 @@ impl Senses {
         hash(&mut content, &reading.position_m.to_array());
         hash(&mut content, &reading.orientation.to_array());
         hash(&mut content, &[twist.linear.x, twist.angular.z]);
-        let message = message(hub, arrived, &odometry.header, content, &taken, "odometry");
+        let message = message(hub, arrived, odometry.header.stamp.nanoseconds(), content, &taken, "odometry");
         if let Ok(Some(jump)) = taken {
             log::warn!("the odometry jumped from {} to {}", jump.before.position_m, jump.after.position_m);
             hub.jump();
@@ -128,7 +151,7 @@ impl Senses {
         hash(&mut content, &reading.orientation.to_array());
         hash(&mut content, &reading.angular_rad_s.to_array());
         hash(&mut content, &vector(imu.linear_acceleration).to_array());
-        let message = message(hub, arrived, &imu.header, content, &taken, "IMU");
+        let message = message(hub, arrived, imu.header.stamp.nanoseconds(), content, &taken, "IMU");
         let attitude_rad = self.estimator.attitude_rad();
         hub.tell(|inputs| {
             inputs.imu = Some(message);
@@ -152,7 +175,7 @@ fn hash(content: &mut DefaultHasher, numbers: &[f64]) {
 fn message<T>(
     hub: &Hub,
     arrived: Duration,
-    header: &Header,
+    stamp_ns: i64,
     content: DefaultHasher,
     taken: &Result<T, Unusable>,
     what: &'static str,
@@ -163,7 +186,7 @@ fn message<T>(
     Message {
         arrived,
         clock_ns: hub.stamp().nanoseconds(),
-        stamp_ns: header.stamp.nanoseconds(),
+        stamp_ns,
         fingerprint: content.finish(),
         is_well_formed: taken.is_ok(),
     }

@@ -20,7 +20,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use merge::merged;
-pub use sections::{Frames, ImuMount, NavigationConfig, PlannerPreset, RobotPreset};
+pub use sections::{Frames, ImuMount, NavigationConfig, PlannerPreset, RobotPreset, Velodyne};
 pub use topics::{CommandType, Distro, Reliability, Topics};
 pub use yaml::ConfigFileError;
 use yaml::YamlFile;
@@ -46,6 +46,8 @@ pub struct NodeConfig {
     pub topics: Topics,
     /// What is asked of the publishers of scan, odometry and IMU.
     pub sensor_reliability: Reliability,
+    /// The sensor whose packets are taken by UDP; `None`: scans come by topic.
+    pub velodyne: Option<Velodyne>,
     /// The type of the command.
     pub command_type: CommandType,
     /// Names of frames.
@@ -94,6 +96,7 @@ struct Parameters {
     topics: Topics,
     #[serde(default = "best_effort")]
     sensor_reliability: Reliability,
+    velodyne: Option<Velodyne>,
     command_type: Option<CommandType>,
     robot_preset: RobotPreset,
     #[serde(default = "default_planner")]
@@ -181,6 +184,18 @@ impl NodeConfig {
                 return fail(&["topics", key], format!("topics.{key}: {message}"));
             }
         }
+        if let Some(velodyne) = given.velodyne {
+            if velodyne.address.is_ipv4() != velodyne.from.is_ipv4() {
+                let Velodyne { address, from, .. } = velodyne;
+                let message = format!("velodyne.from = {from}: expected an address of the kind of {address}");
+                return fail(&["velodyne", "from"], message);
+            }
+            if given.use_sim_time {
+                let message =
+                    "velodyne: a sensor on the network has no simulated clock: expected use_sim_time: false";
+                return fail(&["velodyne"], message.to_owned());
+            }
+        }
         checked(&yaml, given.imu.validate("imu"))?;
         checked(&yaml, given.estimator.validate("estimator"))?;
         checked(&yaml, given.navigation.validate("navigation"))?;
@@ -197,6 +212,7 @@ impl NodeConfig {
             use_sim_time: given.use_sim_time,
             topics: given.topics,
             sensor_reliability: given.sensor_reliability,
+            velodyne: given.velodyne,
             command_type: given.command_type.unwrap_or(by_distro),
             frames: given.frames,
             imu: given.imu,

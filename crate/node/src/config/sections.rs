@@ -1,6 +1,8 @@
 //! Small sections of the file.
 
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::net::{IpAddr, Ipv4Addr};
+use std::num::NonZeroU16;
 
 use mapless::RobotModel;
 use mapless::glam::{DQuat, EulerRot};
@@ -97,4 +99,27 @@ impl Default for Frames {
             imu: "imu_0_link".to_owned(),
         }
     }
+}
+
+/// A Velodyne sensor that sends its packets to the node, in place of the topic `scan`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Velodyne {
+    /// The sensor's address: packets of others are passed over.
+    pub from: IpAddr,
+    /// The address of this computer at which the node listens.
+    #[serde(default = "any_address")]
+    pub address: IpAddr,
+    /// The port at which it listens.
+    #[serde(default = "velodyne_port")]
+    pub port: NonZeroU16,
+}
+
+fn any_address() -> IpAddr {
+    Ipv4Addr::UNSPECIFIED.into()
+}
+
+/// Velodyne, *VLP-16 User Manual*, 63-9243: the port of data packets.
+fn velodyne_port() -> NonZeroU16 {
+    const { NonZeroU16::new(2368).unwrap() }
 }

@@ -37,6 +37,14 @@ fn sections_start_from_their_presets() {
 }
 
 #[test]
+fn packets_are_taken_from_the_sensor_that_is_named() {
+    assert_eq!(parse("").unwrap().velodyne, None);
+    let velodyne = parse("    velodyne: {from: 192.168.1.201}\n").unwrap().velodyne.unwrap();
+    assert_eq!(velodyne.from.to_string(), "192.168.1.201");
+    assert_eq!((velodyne.address.to_string().as_str(), velodyne.port.get()), ("0.0.0.0", 2368));
+}
+
+#[test]
 fn every_fault_is_told_with_its_line() {
     for (more, expected) in [
         ("    speed: 3\n", "robot.yaml:5: unknown field `speed`"),
@@ -68,6 +76,17 @@ fn every_fault_is_told_with_its_line() {
         ),
         ("    supervisor:\n      has_clock: true\n", "robot.yaml:6: supervisor.has_clock: "),
         ("    command_type: joy\n", "robot.yaml:5: "),
+        ("    velodyne: {}\n", "robot.yaml:5: missing field `from`"),
+        ("    velodyne:\n      from: lidar\n", "robot.yaml:6: "),
+        ("    velodyne:\n      from: 10.0.0.2\n      port: 0\n", "robot.yaml:7: "),
+        (
+            "    velodyne:\n      from: fe80::1\n",
+            "robot.yaml:6: velodyne.from = fe80::1: expected an address of the kind of 0.0.0.0",
+        ),
+        (
+            "    velodyne: {from: 10.0.0.2}\n    use_sim_time: true\n",
+            "robot.yaml:5: velodyne: a sensor on the network has no simulated clock",
+        ),
     ] {
         let refusal = refusal(more);
         assert!(refusal.starts_with(expected), "{refusal}\nexpected: {expected}");

@@ -4,7 +4,7 @@ use ros2_client::qos::{Durability, History, Reliability as RosReliability, WhenF
 use ros2_client::{Context, ContextOptions, MessageTypeName, Name, Node, NodeName, NodeOptions, QosProfile};
 use ros2_client::{Publisher, Subscription};
 use rustdds::DomainParticipant;
-use rustdds::mio1::{Interest, Poll, Token};
+use rustdds::mio1::{Interest, Poll, Token, Waker};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -26,7 +26,8 @@ pub(crate) struct Entities {
 
 /// What is read from other nodes.
 pub(crate) struct Incoming {
-    pub(crate) scan: Subscription<PointCloud2>,
+    /// None, if scans come as packets.
+    pub(crate) scan: Option<Subscription<PointCloud2>>,
     pub(crate) odometry: Subscription<Odometry>,
     pub(crate) imu: Subscription<Imu>,
     pub(crate) emergency_stop: Subscription<Bool>,
@@ -74,7 +75,10 @@ impl Entities {
         let switch = sensor_qos(Reliability::BestEffort, 1);
         let goal = sensor_qos(Reliability::Reliable, 1);
         Ok(Incoming {
-            scan: self.subscription(&topics.scan, "sensor_msgs/PointCloud2", sensor(1))?,
+            scan: match config.velodyne {
+                Some(_) => None,
+                None => Some(self.subscription(&topics.scan, "sensor_msgs/PointCloud2", sensor(1))?),
+            },
             odometry: self.subscription(&topics.odometry, "nav_msgs/Odometry", sensor(WAITING))?,
             imu: self.subscription(&topics.imu, "sensor_msgs/Imu", sensor(WAITING))?,
             emergency_stop: self.subscription(&topics.emergency_stop, "std_msgs/Bool", switch.clone())?,
@@ -125,6 +129,13 @@ impl Entities {
         let token = Token(self.registered);
         self.registered += 1;
         self.poll.registry().register(source, token, Interest::READABLE).map_err(making("polling"))
+    }
+
+    /// What has [`Self::wait`] return from another thread.
+    pub(crate) fn waker(&mut self) -> Result<Waker, RosError> {
+        let token = Token(self.registered);
+        self.registered += 1;
+        Waker::new(self.poll.registry(), token).map_err(making("polling"))
     }
 
     /// Waits until something came, or for `most`.

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![cfg(all(unix, not(feature = "humble")))]
 
+mod packets;
 mod robot;
 
 use std::process::{Child, Command};
@@ -26,12 +27,30 @@ const FAR_M: f64 = 200.0;
 type Client = ActionClient<NavigateGoal, NavigateResult, Feedback>;
 
 /// The process under test; it is killed when a test fails.
-struct Process(Child);
+struct Process {
+    child: Child,
+    _folder: tempfile::TempDir,
+}
+
+impl Process {
+    /// The node in a domain of its own, by the sample file with `more` at its end.
+    fn start(domain_id: u16, more: &str) -> Self {
+        let sample = concat!(env!("CARGO_MANIFEST_DIR"), "/config/husky-jazzy.yaml");
+        let text = std::fs::read_to_string(sample).unwrap();
+        let text = text.replace("domain_id: 0", &format!("domain_id: {domain_id}"));
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("robot.yaml");
+        std::fs::write(&file, text + more).unwrap();
+        NodeConfig::open(&file).unwrap();
+        let child = Command::new(env!("CARGO_BIN_EXE_mapless-node")).arg(&file).spawn().unwrap();
+        Self { child, _folder: folder }
+    }
+}
 
 impl Drop for Process {
     fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
 
@@ -105,14 +124,7 @@ fn result(client: &Client, id: GoalId) -> (GoalStatusEnum, NavigateResult) {
 #[test]
 fn a_robot_is_driven_by_the_action_and_stopped() {
     let domain_id = 1 + (std::process::id() % 50) as u16;
-    let sample = concat!(env!("CARGO_MANIFEST_DIR"), "/config/husky-jazzy.yaml");
-    let text = std::fs::read_to_string(sample).unwrap();
-    let text = text.replace("domain_id: 0", &format!("domain_id: {domain_id}"));
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("robot.yaml");
-    std::fs::write(&file, text).unwrap();
-    NodeConfig::open(&file).unwrap();
-    let mut process = Process(Command::new(env!("CARGO_BIN_EXE_mapless-node")).arg(&file).spawn().unwrap());
+    let mut process = Process::start(domain_id, "");
     let robot = Robot::start(peer(domain_id, "robot"));
     let mut node = peer(domain_id, "client");
     let client = client(&mut node);
@@ -168,8 +180,9 @@ fn a_robot_is_driven_by_the_action_and_stopped() {
     assert!(stopped < Duration::from_millis(350) + SLACK, "stopped {stopped:?} after the last scan");
 
     // It ends by itself when asked to.
-    let id = process.0.id().to_string();
+    let id = process.child.id().to_string();
     assert!(Command::new("kill").arg(&id).status().unwrap().success());
-    let status = until(Duration::from_secs(10), || process.0.try_wait().unwrap()).expect("it does not end");
+    let status =
+        until(Duration::from_secs(10), || process.child.try_wait().unwrap()).expect("it does not end");
     assert!(status.success() && !robot.is_driven());
 }

@@ -3,11 +3,14 @@
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use crate::packets::Velodyne;
 use mapless_node::messages::{
-    Bool, Header, Imu, Odometry, PointCloud2, PointField, Quaternion, Time, Twist, TwistStamped,
+    Bool, DiagnosticArray, Header, Imu, Odometry, PointCloud2, PointField, Quaternion, Time, Twist,
+    TwistStamped,
 };
 use ros2_client::{MessageTypeName, Name, Node, Publisher, QosProfile, Subscription};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 const RINGS: usize = 16;
 const COLUMNS: usize = 900;
@@ -21,6 +24,9 @@ struct State {
     command: Twist,
     roll_rad: f64,
     is_blind: bool,
+    loses_packets: bool,
+    decisions: usize,
+    diagnosis: String,
     resets: bool,
     is_ending: bool,
 }
@@ -33,12 +39,32 @@ pub(crate) struct Robot {
 
 struct Sensors {
     _node: Node,
-    scan: Publisher<PointCloud2>,
+    scan: Scans,
     odometry: Publisher<Odometry>,
     imu: Publisher<Imu>,
     stop: Publisher<Bool>,
     reset: Publisher<Bool>,
     commands: Subscription<TwistStamped>,
+    decisions: Subscription<TwistStamped>,
+    diagnostics: Subscription<DiagnosticArray>,
+}
+
+/// How scans are sent.
+enum Scans {
+    Clouds(Publisher<PointCloud2>),
+    Packets(Velodyne),
+}
+
+fn subscription<M: DeserializeOwned + 'static>(
+    node: &mut Node,
+    topic: &str,
+    package: &str,
+    kind: &str,
+) -> Subscription<M> {
+    let qos = QosProfile::publisher_default();
+    let name = Name::parse(topic).unwrap();
+    let topic = node.create_topic(&name, MessageTypeName::new(package, kind), &qos).unwrap();
+    node.create_subscription(&topic, Some(qos)).unwrap()
 }
 
 fn publisher<M: Serialize>(node: &mut Node, topic: &str, package: &str, kind: &str) -> Publisher<M> {
@@ -49,13 +75,23 @@ fn publisher<M: Serialize>(node: &mut Node, topic: &str, package: &str, kind: &s
 }
 
 impl Robot {
+    /// Its scans are clouds.
     pub(crate) fn start(mut node: Node) -> Self {
-        let name = Name::parse("cmd_vel").unwrap();
-        let kind = MessageTypeName::new("geometry_msgs", "TwistStamped");
-        let topic = node.create_topic(&name, kind, &QosProfile::publisher_default()).unwrap();
+        let scan = publisher(&mut node, "sensors/lidar3d_0/points", "sensor_msgs", "PointCloud2");
+        Self::start_with(node, Scans::Clouds(scan))
+    }
+
+    /// Its scans are packets.
+    pub(crate) fn start_with_packets(node: Node, velodyne: Velodyne) -> Self {
+        Self::start_with(node, Scans::Packets(velodyne))
+    }
+
+    fn start_with(mut node: Node, scan: Scans) -> Self {
         let sensors = Sensors {
-            commands: node.create_subscription(&topic, Some(QosProfile::publisher_default())).unwrap(),
-            scan: publisher(&mut node, "sensors/lidar3d_0/points", "sensor_msgs", "PointCloud2"),
+            commands: subscription(&mut node, "cmd_vel", "geometry_msgs", "TwistStamped"),
+            decisions: subscription(&mut node, "mapless/decision", "geometry_msgs", "TwistStamped"),
+            diagnostics: subscription(&mut node, "diagnostics", "diagnostic_msgs", "DiagnosticArray"),
+            scan,
             odometry: publisher(&mut node, "platform/odom/filtered", "nav_msgs", "Odometry"),
             imu: publisher(&mut node, "sensors/imu_0/data", "sensor_msgs", "Imu"),
             stop: publisher(&mut node, "platform/emergency_stop", "std_msgs", "Bool"),
@@ -64,7 +100,7 @@ impl Robot {
         };
         let state = Arc::new(Mutex::new(State::default()));
         let shared = Arc::clone(&state);
-        let thread = std::thread::spawn(move || go(&shared, &sensors));
+        let thread = std::thread::spawn(move || go(&shared, sensors));
         Self { state, thread: Some(thread) }
     }
 
@@ -79,6 +115,21 @@ impl Robot {
     /// Whether the last command moves it.
     pub(crate) fn is_driven(&self) -> bool {
         self.state.lock().unwrap().command != Twist::default()
+    }
+
+    /// Decisions that came, one for each scan.
+    pub(crate) fn decisions(&self) -> usize {
+        self.state.lock().unwrap().decisions
+    }
+
+    /// The last status, and the complaints in it.
+    pub(crate) fn diagnosis(&self) -> String {
+        self.state.lock().unwrap().diagnosis.clone()
+    }
+
+    /// From now on one packet of each revolution gets lost.
+    pub(crate) fn lose_packets(&self) {
+        self.set(|state| state.loses_packets = true);
     }
 
     pub(crate) fn tilt(&self, roll_rad: f64) {
@@ -104,7 +155,7 @@ impl Drop for Robot {
     }
 }
 
-fn go(state: &Mutex<State>, sensors: &Sensors) {
+fn go(state: &Mutex<State>, mut sensors: Sensors) {
     let begun = Instant::now();
     for tick in 0_u32.. {
         let mut state = state.lock().unwrap();
@@ -113,6 +164,14 @@ fn go(state: &Mutex<State>, sensors: &Sensors) {
         }
         while let Some((command, _)) = sensors.commands.take().unwrap() {
             state.command = command.twist;
+        }
+        while sensors.decisions.take().unwrap().is_some() {
+            state.decisions += 1;
+        }
+        while let Some((mut diagnostics, _)) = sensors.diagnostics.take().unwrap() {
+            let status = diagnostics.status.remove(0);
+            let values = status.values.iter().map(|value| format!("; {}: {}", value.key, value.value));
+            state.diagnosis = status.message + &values.collect::<String>();
         }
         let (speed_m_s, turn_rad_s) = (state.command.linear.x, state.command.angular.z);
         let (sin, cos) = libm::sincos(state.yaw_rad);
@@ -130,9 +189,12 @@ fn go(state: &Mutex<State>, sensors: &Sensors) {
             if std::mem::take(&mut state.resets) {
                 sensors.reset.publish(Bool { data: true }).unwrap();
             }
-            if !state.is_blind {
-                sensors.scan.publish(scan(noise as f32)).unwrap();
+            if let (Scans::Clouds(publisher), false) = (&sensors.scan, state.is_blind) {
+                publisher.publish(scan(noise as f32)).unwrap();
             }
+        }
+        if let (Scans::Packets(velodyne), false) = (&mut sensors.scan, state.is_blind) {
+            velodyne.send_until(begun.elapsed(), state.loses_packets);
         }
         drop(state);
         std::thread::sleep((begun + PERIOD * tick).saturating_duration_since(Instant::now()));

@@ -36,7 +36,7 @@ pub struct PacketReceiver {
     before: Option<(u32, Sweep)>,
     /// Microseconds from the sensor's hour to the stamp of the last packet, counted on past the next hour.
     clock_us: f64,
-    gaps: usize,
+    gap: Option<String>,
 }
 
 impl PacketReceiver {
@@ -68,9 +68,10 @@ impl PacketReceiver {
         if let Some((before_us, turned)) = &self.before {
             let passed_us = (f64::from(stamp_us) - f64::from(*before_us)).rem_euclid(HOUR_US);
             self.clock_us += passed_us;
-            let is_endless = self.turns.firings() > MOST_FIRINGS;
-            if is_endless || lost_between(turned, &swept, Some(passed_us)).is_some() {
+            let lost = lost_between(turned, &swept, Some(passed_us));
+            if let Some(gap) = lost.or_else(|| self.endless()) {
                 self.interrupt();
+                self.gap = Some(gap);
             }
         }
         if self.before.is_none() {
@@ -85,10 +86,16 @@ impl PacketReceiver {
         Ok(whole.as_deref().and_then(revolution))
     }
 
-    /// How often packets were lost or could not be read.
-    #[must_use]
-    pub fn gaps(&self) -> usize {
-        self.gaps
+    /// What was missing between two packets since this was last asked, for people: the revolution under way
+    /// was left out.
+    pub fn take_gap(&mut self) -> Option<String> {
+        self.gap.take()
+    }
+
+    /// Why the revolution under way is none, if it has no end.
+    fn endless(&self) -> Option<String> {
+        let firings = self.turns.firings();
+        (firings > MOST_FIRINGS).then(|| format!("{firings} firings without a whole turn"))
     }
 
     fn read(&self, payload: &[u8]) -> Result<(u32, Sweep), ScanFault> {
@@ -111,7 +118,6 @@ impl PacketReceiver {
     }
 
     fn interrupt(&mut self) {
-        self.gaps += 1;
         self.turns.interrupt();
         self.before = None;
     }
@@ -154,7 +160,7 @@ mod tests {
     fn a_revolution_comes_with_the_time_of_each_return_across_the_hour() {
         let mut receiver = PacketReceiver::new();
         let revolutions = revolutions(&mut receiver, &packets(37 + 2 * 75 + 2));
-        assert_eq!((revolutions.len(), receiver.gaps()), (2, 0));
+        assert_eq!((revolutions.len(), receiver.take_gap()), (2, None));
         for (index, revolution) in revolutions.iter().enumerate() {
             assert_eq!(revolution.points_m.len(), 1800 * 16);
             assert_eq!(revolution.since_end_s.len(), 1800 * 16);
@@ -173,7 +179,9 @@ mod tests {
         let mut receiver = PacketReceiver::new();
         assert_eq!(receiver.take(&[0; POSITION_BYTES]), Ok(None));
         let revolutions = revolutions(&mut receiver, &packets);
-        assert_eq!((revolutions.len(), receiver.gaps()), (2, 1));
+        assert_eq!(revolutions.len(), 2);
+        assert_eq!(receiver.take_gap().unwrap(), "1.3 ms are missing by the sensor's time stamps");
+        assert_eq!(receiver.take_gap(), None, "it is told once");
     }
 
     #[test]
@@ -197,10 +205,13 @@ mod tests {
         assert!(revolutions(&mut receiver, &packets(60)).is_empty());
         // A head that stands still, after the first passing.
         let still = packets(60)[59];
+        let mut gaps = Vec::new();
         for _ in 0..10_000 {
             drop(receiver.take(&still));
             assert!(receiver.turns.firings() <= MOST_FIRINGS + 24);
+            gaps.extend(receiver.take_gap());
         }
+        assert!(!gaps.is_empty());
     }
 
     proptest! {
