@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use mapless::glam::Vec3;
-use mapless::{Pose, Status};
-use mapless_robot::supervisor::{Decision, Inputs, Proposal};
+use mapless::{PlannerConfig, Pose, Status};
+use mapless_robot::supervisor::{Decision, Inputs, Proposal, SupervisorConfig};
 use mapless_scans::Revolution;
 
 use crate::messages::Time;
@@ -77,6 +77,9 @@ pub(crate) struct Hub {
     pub(crate) scan: Slot<Scan>,
     /// From the planner to the supervisor.
     pub(crate) proposal: Slot<Proposal>,
+    /// New limits for the supervisor, and another configuration for the planner.
+    pub(crate) limits: Slot<SupervisorConfig>,
+    pub(crate) planner: Slot<PlannerConfig>,
     inputs: Mutex<Inputs>,
     decision: Mutex<Option<Decision>>,
     planned: Mutex<Option<Planned>>,
@@ -97,6 +100,8 @@ impl Hub {
             revolution: Slot::default(),
             scan: Slot::default(),
             proposal: Slot::default(),
+            limits: Slot::default(),
+            planner: Slot::default(),
             inputs: Mutex::default(),
             decision: Mutex::default(),
             planned: Mutex::default(),

@@ -73,6 +73,11 @@ impl Navigation {
         Self { timeout, accepted: 0, active: None }
     }
 
+    /// From now on a goal may take `timeout`, the one in service included.
+    pub fn set_timeout(&mut self, timeout: Duration) {
+        self.timeout = timeout;
+    }
+
     /// The goal in service.
     #[must_use]
     pub fn task(&self) -> Option<Task> {

@@ -1,6 +1,5 @@
 //! What the planner decided, for RViz, Foxglove and Lichtblick.
 
-use mapless::glam::DVec3;
 use mapless::{Pose, Step};
 use ros2_client::Publisher;
 
@@ -40,7 +39,7 @@ impl Picture {
         let change = FrameChange::new(believed, told);
         let header = Header { stamp, frame_id: self.frame_id.clone() };
         let poses = step.path.iter().map(|point| {
-            let position = message(change.place_m(point.position_m).extend(told.position_m.z));
+            let position = Point::from(change.place_m(point.position_m).extend(told.position_m.z));
             let pose = PoseMessage { position, orientation: Quaternion::default() };
             PoseStamped { header: header.clone(), pose }
         });
@@ -55,7 +54,7 @@ impl Picture {
             r#type: Marker::SPHERE_LIST,
             scale: Vector3 { x: side, y: side, z: side },
             color: CANDIDATE,
-            points: step.subgoals.iter().map(|subgoal| message(change.point_m(subgoal.position_m))).collect(),
+            points: step.subgoals.iter().map(|subgoal| change.point_m(subgoal.position_m).into()).collect(),
             colors: (0..step.subgoals.len()).map(|index| colour(step, index)).collect(),
             ..Marker::default()
         };
@@ -71,9 +70,4 @@ fn colour(step: &Step<'_>, index: usize) -> ColorRgba {
         _ if step.subgoals[index].refusal.is_some() => REFUSED,
         _ => CANDIDATE,
     }
-}
-
-fn message(point_m: DVec3) -> Point {
-    let DVec3 { x, y, z } = point_m;
-    Point { x, y, z }
 }

@@ -11,6 +11,7 @@ use crate::hub::{Hub, Planned, Scan};
 use crate::messages::{Header, TwistStamped, Vector3};
 use crate::navigation::Task;
 use crate::picture::Picture;
+use crate::surfaces::Surfaces;
 
 /// How long a wait for a scan may be, so that the end of the node is noticed.
 const WAIT: Duration = Duration::from_millis(100);
@@ -25,6 +26,8 @@ pub(crate) struct Planning {
     recoveries: i16,
     decisions: Publisher<TwistStamped>,
     picture: Picture,
+    /// None, unless they are asked for.
+    surfaces: Option<Surfaces>,
 }
 
 impl Planning {
@@ -33,6 +36,7 @@ impl Planning {
         config: PlannerConfig,
         decisions: Publisher<TwistStamped>,
         picture: Picture,
+        surfaces: Option<Surfaces>,
     ) -> Result<Self, ConfigError> {
         let planner = Planner::new(config.clone())?;
         Ok(Self {
@@ -44,30 +48,51 @@ impl Planning {
             recoveries: 0,
             decisions,
             picture,
+            surfaces,
         })
     }
 
     /// Answers scans until the node ends.
     pub(crate) fn run(mut self, hub: &Hub) {
         while !hub.is_ending() {
+            if let Some(config) = hub.planner.take(Duration::ZERO) {
+                self.config = config;
+                self.begin_anew();
+            }
             let Some(scan) = hub.scan.take(WAIT) else { continue };
             let Some(task) = hub.task() else {
                 self.task = None;
                 continue;
             };
-            // The planner is made anew after a panic: half a step may have been done.
-            let step = catch_unwind(AssertUnwindSafe(|| self.step(hub, &scan, task)));
-            let outcome = step.unwrap_or_else(|_| {
-                log::error!("the planner panicked");
-                self.task = None;
-                match Planner::new(self.config.clone()) {
-                    Ok(planner) => self.planner = planner,
-                    Err(error) => log::error!("the planner cannot be made anew: {error}"),
-                }
-                Outcome::Panicked
-            });
+            let outcome = self.guarded(|this| this.step(hub, &scan, task)).unwrap_or(Outcome::Panicked);
             hub.proposal.put(Proposal { goal: task.number, scan_arrived: scan.arrived, outcome });
             self.publish(&scan, outcome);
+            if let (Some(poses), true) = (hub.poses(), outcome != Outcome::Panicked) {
+                self.guarded(|this| {
+                    if let Some(surfaces) = &this.surfaces {
+                        surfaces.publish(&mut this.planner, &scan.pose, poses, scan.stamp);
+                    }
+                });
+            }
+        }
+    }
+
+    /// What the planner is asked, but for a panic. It is made anew then: half a step may have been done.
+    fn guarded<T>(&mut self, ask: impl FnOnce(&mut Self) -> T) -> Option<T> {
+        let answer = catch_unwind(AssertUnwindSafe(|| ask(self)));
+        if answer.is_err() {
+            log::error!("the planner panicked");
+            self.begin_anew();
+        }
+        answer.ok()
+    }
+
+    /// Another planner, which has seen nothing yet.
+    fn begin_anew(&mut self) {
+        self.task = None;
+        match Planner::new(self.config.clone()) {
+            Ok(planner) => self.planner = planner,
+            Err(error) => log::error!("the planner cannot be made anew: {error}"),
         }
     }
 

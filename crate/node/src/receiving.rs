@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use mapless::glam::DVec3;
 use mapless::{Goal, Pose};
 use ros2_client::{Publisher, Subscription};
 use serde::de::DeserializeOwned;
@@ -11,9 +10,10 @@ use crate::config::NodeConfig;
 use crate::diagnostics::diagnose;
 use crate::frames::FrameChange;
 use crate::hub::Hub;
-use crate::messages::{DiagnosticArray, Feedback, Header, Outcome, Point, PoseStamped, Quaternion};
+use crate::messages::{DiagnosticArray, Feedback, Header, Outcome, PoseStamped, Quaternion};
 use crate::navigation::{End, Ended, Navigation, code};
-use crate::ros::{ActionServer, Entities, Incoming, Presence};
+use crate::parameters::Parameters;
+use crate::ros::{ActionServer, Entities, Incoming, ParameterServices, Presence};
 use crate::senses::Senses;
 
 /// The longest wait for a message: goals end and peers come without one.
@@ -28,6 +28,8 @@ pub(crate) struct Receiving<'a> {
     pub(crate) entities: &'a mut Entities,
     pub(crate) incoming: Incoming,
     pub(crate) actions: ActionServer,
+    pub(crate) parameters: Parameters,
+    pub(crate) parameter_services: ParameterServices,
     pub(crate) diagnostics: Publisher<DiagnosticArray>,
     pub(crate) presence: Presence,
     pub(crate) senses: Senses,
@@ -114,6 +116,22 @@ impl Receiving<'_> {
             self.end(ended);
         }
         self.actions.answer_results();
+        self.configure();
+    }
+
+    /// Parameters that are asked for and set; who needs to know of a change is told.
+    fn configure(&mut self) {
+        let before = self.parameters.clone();
+        let is_pursuing = self.navigation.task().is_some();
+        self.parameter_services.serve(&mut self.parameters, is_pursuing, self.hub.stamp());
+        let Parameters { planner, supervisor, navigation, .. } = &self.parameters;
+        if *planner != before.planner {
+            self.hub.planner.put(planner.clone());
+        }
+        if *supervisor != before.supervisor {
+            self.hub.limits.put(*supervisor);
+        }
+        self.navigation.set_timeout(Duration::from_secs_f64(navigation.timeout_s));
     }
 
     /// Ends a goal for the one who gave it, and lets the others know what is pursued now.
@@ -137,13 +155,11 @@ impl Receiving<'_> {
             let reason = decision.cause.or(decision.reason);
             return Err(reason.map_or_else(|| "the robot is stopped".to_owned(), |reason| reason.to_string()));
         }
-        let place = pose.pose.position;
-        let position_m = DVec3::new(place.x, place.y, place.z);
-        let asked = Pose::from_quaternion(position_m, pose.pose.orientation.to_glam());
+        let asked = Pose::from_quaternion(pose.pose.position.into(), pose.pose.orientation.to_glam());
         let [believed, told] = self.hub.poses().ok_or("the robot's pose is not known yet")?;
         let change = FrameChange::new(told, believed);
         let goal = Goal::at(change.place_m(asked.plan_m()));
-        let goal = match self.config.navigation.final_heading {
+        let goal = match self.parameters.navigation.final_heading {
             true => goal.facing(change.heading_rad(asked.yaw_rad)),
             false => goal,
         };
@@ -162,7 +178,7 @@ impl Receiving<'_> {
                 log::warn!("diagnostics could not be published: {error}");
             }
         }
-        let feedback_every = Duration::from_secs_f64(1.0 / self.config.navigation.feedback_hz);
+        let feedback_every = Duration::from_secs_f64(1.0 / self.parameters.navigation.feedback_hz);
         if now >= self.fed_back + feedback_every {
             self.fed_back = now;
             self.feed_back(now);
@@ -174,13 +190,12 @@ impl Receiving<'_> {
             return;
         };
         let distance_m = (task.goal.position_m - believed.plan_m()).length();
-        let speed_m_s = self.config.supervisor.max_speed_m_s;
+        let speed_m_s = self.parameters.supervisor.max_speed_m_s;
         let mut current_pose = PoseStamped {
             header: Header { stamp: self.hub.stamp(), frame_id: self.config.frames.odom.clone() },
             ..PoseStamped::default()
         };
-        let DVec3 { x, y, z } = told.position_m;
-        current_pose.pose.position = Point { x, y, z };
+        current_pose.pose.position = told.position_m.into();
         current_pose.pose.orientation = Quaternion::from_yaw(told.yaw_rad);
         self.actions.publish_feedback(
             id,

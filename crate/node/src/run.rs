@@ -9,17 +9,22 @@ use mapless_robot::estimator::Estimator;
 use mapless_robot::supervisor::Supervisor;
 use ros2_client::NodeName;
 
-use crate::config::NodeConfig;
+use crate::config::{MountSource, NodeConfig};
 use crate::hub::Hub;
 use crate::lidar::{Lidar, LidarError};
+use crate::mount::{self, MountError};
 use crate::navigation::Navigation;
+use crate::parameters::Parameters;
 use crate::picture::Picture;
 use crate::planning::Planning;
 use crate::receiving::Receiving;
-use crate::ros::{ActionServer, Alive, Entities, Presence, RosError, Spin, making, published_qos};
+use crate::ros::{
+    ActionServer, Alive, Entities, ParameterServices, Presence, RosError, Spin, making, published_qos,
+};
 use crate::senses::Senses;
 use crate::service::Service;
 use crate::supervising::{CommandPublisher, supervise};
+use crate::surfaces::Surfaces;
 
 /// How often it is looked whether the node is to end.
 const LOOK_EVERY: Duration = Duration::from_millis(20);
@@ -38,6 +43,12 @@ pub enum RunError {
     /// The LiDAR's packets cannot be taken.
     #[error(transparent)]
     Lidar(#[from] LidarError),
+    /// The sensor's mount is not known.
+    #[error(transparent)]
+    Mount(#[from] MountError),
+    /// The sensor cannot serve where tf says that it is.
+    #[error("tf: {0}")]
+    Sensor(String),
     /// Signals cannot be heard.
     #[error("signals: {0}")]
     Signals(#[from] std::io::Error),
@@ -58,12 +69,21 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     for number in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
         signal_hook::flag::register_usize(number, Arc::clone(&signal), 1)?;
     }
+    let mut entities = Entities::join(config)?;
+    let mounted;
+    let config = match config.sensor_mount.source {
+        MountSource::File => config,
+        MountSource::Tf => {
+            mounted = config.mounted(&mount::wait(config, &mut entities)?).map_err(RunError::Sensor)?;
+            log::info!("the sensor's mount by tf: {}", mounted.planner.sensor.offset_m());
+            &mounted
+        }
+    };
     let hub = Hub::new(config.use_sim_time);
     let service = Service::default();
     let supervisor = Supervisor::new(config.supervisor)?;
     let estimator = Estimator::new(config.estimator, config.imu.base_from_imu())?;
 
-    let mut entities = Entities::join(config)?;
     let lidar = match &config.velodyne {
         Some(velodyne) => Some(Lidar::listen(velodyne, entities.waker()?)?),
         None => None,
@@ -72,13 +92,20 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     let commands = CommandPublisher::new(config, &mut entities)?;
     let decisions =
         entities.publisher(&config.topics.decision, "geometry_msgs/TwistStamped", published_qos())?;
-    let planning = Planning::new(config.planner.clone(), decisions, Picture::new(config, &mut entities)?)?;
+    let picture = Picture::new(config, &mut entities)?;
+    let surfaces = match config.visualise {
+        true => Some(Surfaces::new(config, &mut entities)?),
+        false => None,
+    };
+    let planning = Planning::new(config.planner.clone(), decisions, picture, surfaces)?;
     let name = NodeName::new(&config.namespace, &config.node_name).map_err(making("naming the node"))?;
     let receiving = Receiving {
         hub: &hub,
         config,
         incoming: entities.subscribe(config)?,
         actions: ActionServer::new(&config.topics.navigate_to_pose, &mut entities)?,
+        parameters: Parameters::of(config),
+        parameter_services: ParameterServices::new(&name, &mut entities)?,
         diagnostics: entities.publisher(
             &config.topics.diagnostics,
             "diagnostic_msgs/DiagnosticArray",

@@ -12,7 +12,7 @@ use mapless_robot::supervisor::Message;
 
 use crate::config::Frames;
 use crate::hub::{Arrived, Hub, Scan};
-use crate::messages::{Imu, Odometry, PointCloud2, Time, Vector3};
+use crate::messages::{Imu, Odometry, PointCloud2, Time};
 
 /// Half a turn of a sensor that turns at 10 Hz.
 const HALF_SWEEP: Duration = Duration::from_millis(50);
@@ -35,10 +35,6 @@ pub(crate) struct Senses {
     estimator: Estimator,
     frames: Frames,
     sensor: SensorModel,
-}
-
-fn vector(vector: Vector3) -> DVec3 {
-    DVec3::new(vector.x, vector.y, vector.z)
 }
 
 impl Senses {
@@ -107,11 +103,11 @@ impl Senses {
         let (pose, twist) = (&odometry.pose, &odometry.twist.twist);
         let reading = estimator::Odometry {
             at: arrived,
-            position_m: vector(pose.pose.position),
+            position_m: pose.pose.position.into(),
             orientation: pose.pose.orientation.to_glam(),
             variances: std::array::from_fn(|axis| pose.covariance[axis][axis]),
-            linear_m_s: vector(twist.linear),
-            angular_rad_s: vector(twist.angular),
+            linear_m_s: twist.linear.into(),
+            angular_rad_s: twist.angular.into(),
         };
         let taken = in_frame(&odometry.header.frame_id, &self.frames.odom)
             .and_then(|()| in_frame(&odometry.child_frame_id, &self.frames.base))
@@ -143,14 +139,14 @@ impl Senses {
             at: arrived,
             orientation: imu.orientation.to_glam(),
             orientation_variance: imu.orientation_covariance[0],
-            angular_rad_s: vector(imu.angular_velocity),
+            angular_rad_s: imu.angular_velocity.into(),
         };
         let taken = in_frame(&imu.header.frame_id, &self.frames.imu)
             .and_then(|()| Ok(self.estimator.take_imu(&reading)?));
         let mut content = DefaultHasher::new();
         hash(&mut content, &reading.orientation.to_array());
         hash(&mut content, &reading.angular_rad_s.to_array());
-        hash(&mut content, &vector(imu.linear_acceleration).to_array());
+        hash(&mut content, &DVec3::from(imu.linear_acceleration).to_array());
         let message = message(hub, arrived, imu.header.stamp.nanoseconds(), content, &taken, "IMU");
         let attitude_rad = self.estimator.attitude_rad();
         hub.tell(|inputs| {

@@ -77,6 +77,9 @@ pub(crate) fn supervise(
             due = (due + PERIOD).max(now);
         }
         let inputs = hub.take_inputs();
+        if let Some(Err(error)) = hub.limits.take(Duration::ZERO).map(|limits| supervisor.limit(&limits)) {
+            log::error!("the supervisor refuses a limit that was checked: {error}");
+        }
         let decision = supervisor.tick(now, &inputs, proposal.as_ref());
         match publisher.publish(decision.command, hub.stamp()) {
             Ok(()) => service.fed(),

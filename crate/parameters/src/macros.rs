@@ -8,6 +8,8 @@
 /// - `values(&self)`, their values in the same order;
 /// - `validate(&self, place: &str) -> Result<(), ConfigError>`, which checks everything, inner tables
 ///   included;
+/// - `visit(&self, place: &str, see: &mut dyn FnMut(&str, &'static Parameter, Value))`, which shows every
+///   parameter with its table and value, inner tables included;
 /// - `with_paper_values(self)`, the same with every value that the paper gives.
 #[macro_export]
 macro_rules! parameters {
@@ -91,6 +93,20 @@ macro_rules! parameters {
                 $($(self.$table.validate(&$crate::inside(place, stringify!($table)))?;)*)?
                 $(self.$relations(place)?;)?
                 Ok(())
+            }
+
+            /// Shows every parameter with its table and value, those of inner tables included; `place` is the
+            /// table that this stands in.
+            #[cold]
+            pub fn visit(
+                &self,
+                place: &str,
+                see: &mut dyn FnMut(&str, &'static $crate::Parameter, $crate::Value),
+            ) {
+                for (parameter, value) in Self::PARAMETERS.iter().zip(self.values()) {
+                    see(place, parameter, value);
+                }
+                $($(self.$table.visit(&$crate::inside(place, stringify!($table)), see);)*)?
             }
 
             /// The same with every value that the paper gives.

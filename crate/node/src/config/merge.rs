@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 /// `config` with the entries of `section`; `Null` sets nothing.
-pub(super) fn merged<C: Serialize + DeserializeOwned>(
+pub(crate) fn merged<C: Serialize + DeserializeOwned>(
     config: &C,
     section: &Value,
 ) -> Result<C, serde_json::Error> {

@@ -19,8 +19,10 @@ use ros2_client::NodeName;
 use serde::Deserialize;
 use serde_json::Value;
 
-use merge::merged;
-pub use sections::{Frames, ImuMount, NavigationConfig, PlannerPreset, RobotPreset, Velodyne};
+pub(crate) use merge::merged;
+pub use sections::{
+    Frames, ImuMount, Mount, MountSource, NavigationConfig, PlannerPreset, RobotPreset, SensorMount, Velodyne,
+};
 pub use topics::{CommandType, Distro, Reliability, Topics};
 pub use yaml::ConfigFileError;
 use yaml::YamlFile;
@@ -44,6 +46,8 @@ pub struct NodeConfig {
     pub use_sim_time: bool,
     /// Names of topics.
     pub topics: Topics,
+    /// Whether skyline and variance are published with each answer.
+    pub visualise: bool,
     /// What is asked of the publishers of scan, odometry and IMU.
     pub sensor_reliability: Reliability,
     /// The sensor whose packets are taken by UDP; `None`: scans come by topic.
@@ -62,6 +66,27 @@ pub struct NodeConfig {
     pub planner: PlannerConfig,
     /// Limits of the supervisor.
     pub supervisor: SupervisorConfig,
+    /// Where the sensor's mount is told; if by tf, that of `planner.sensor` means nothing yet.
+    pub sensor_mount: SensorMount,
+    /// How the planner's configuration follows from sensor and robot.
+    fit: Fit,
+}
+
+/// A preset of the planner, and what a file sets of it.
+#[derive(Clone, Debug, PartialEq)]
+struct Fit {
+    preset: PlannerPreset,
+    section: Value,
+}
+
+impl Fit {
+    fn planner(&self, sensor: SensorModel, robot: RobotModel) -> Result<PlannerConfig, serde_json::Error> {
+        let preset = match self.preset {
+            PlannerPreset::Default => PlannerConfig::default(),
+            PlannerPreset::Paper => PlannerConfig::paper(),
+        };
+        merged(&preset.fitted_to(sensor, robot), &self.section)
+    }
 }
 
 /// A parameter file.
@@ -93,6 +118,8 @@ struct Parameters {
     #[serde(default)]
     use_sim_time: bool,
     #[serde(default)]
+    visualise: bool,
+    #[serde(default)]
     topics: Topics,
     #[serde(default = "best_effort")]
     sensor_reliability: Reliability,
@@ -111,6 +138,8 @@ struct Parameters {
     navigation: NavigationConfig,
     #[serde(default)]
     supervisor: SupervisorConfig,
+    #[serde(default)]
+    sensor_mount: SensorMount,
     #[serde(default, rename = "robot")]
     _robot: RobotModel,
     #[serde(default, rename = "sensor")]
@@ -199,7 +228,8 @@ impl NodeConfig {
         checked(&yaml, given.imu.validate("imu"))?;
         checked(&yaml, given.estimator.validate("estimator"))?;
         checked(&yaml, given.navigation.validate("navigation"))?;
-        let planner = planner_config(&yaml, &given)?;
+        checked(&yaml, given.sensor_mount.validate("sensor_mount"))?;
+        let (planner, fit) = planner_config(&yaml, &given)?;
         let supervisor = supervisor_config(&yaml, &given, &planner.robot)?;
         let by_distro = match given.distro {
             Distro::Humble => CommandType::Twist,
@@ -211,6 +241,7 @@ impl NodeConfig {
             domain_id: given.domain_id,
             use_sim_time: given.use_sim_time,
             topics: given.topics,
+            visualise: given.visualise,
             sensor_reliability: given.sensor_reliability,
             velodyne: given.velodyne,
             command_type: given.command_type.unwrap_or(by_distro),
@@ -220,12 +251,29 @@ impl NodeConfig {
             navigation: given.navigation,
             planner,
             supervisor,
+            sensor_mount: given.sensor_mount,
+            fit,
         })
+    }
+
+    /// The same with this mount of the sensor, and the planner fitted to it.
+    ///
+    /// # Errors
+    /// Why the sensor cannot serve there, for people.
+    pub fn mounted(&self, mount: &Mount) -> Result<Self, String> {
+        let told = serde_json::to_value(mount).map_err(|error| error.to_string())?;
+        let sensor: SensorModel = merged(&self.planner.sensor, &told).map_err(|error| error.to_string())?;
+        let robot = self.planner.robot;
+        sensor.validate("sensor").map_err(|error| error.to_string())?;
+        check_sensor(&sensor, &robot).map_err(|error| error.to_string())?;
+        let planner = self.fit.planner(sensor, robot).map_err(|error| error.to_string())?;
+        planner.validate("planner").map_err(|error| error.to_string())?;
+        Ok(Self { planner, ..self.clone() })
     }
 }
 
 /// The planner's preset, fitted to sensor and robot, with what the file sets.
-fn planner_config(yaml: &YamlFile<'_>, given: &Parameters) -> Result<PlannerConfig, ConfigFileError> {
+fn planner_config(yaml: &YamlFile<'_>, given: &Parameters) -> Result<(PlannerConfig, Fit), ConfigFileError> {
     let section = |key: &str| yaml.value(&inside(&[key])).unwrap_or(&Value::Null);
     for key in ["sensor", "robot"] {
         if section("planner").get(key).is_some() {
@@ -240,15 +288,21 @@ fn planner_config(yaml: &YamlFile<'_>, given: &Parameters) -> Result<PlannerConf
         merged(&given.robot_preset.model(), section("robot")).map_err(|error| fail("robot", error))?;
     checked(yaml, sensor.validate("sensor"))?;
     checked(yaml, robot.validate("robot"))?;
-    check_sensor(&sensor, &robot).map_err(|error| yaml.error(&inside(&["sensor"]), error))?;
-    let preset = match given.planner_preset {
-        PlannerPreset::Default => PlannerConfig::default(),
-        PlannerPreset::Paper => PlannerConfig::paper(),
-    };
-    let planner: PlannerConfig = merged(&preset.fitted_to(sensor, robot), section("planner"))
-        .map_err(|error| fail("planner", error))?;
+    match given.sensor_mount.source {
+        MountSource::File => {
+            check_sensor(&sensor, &robot).map_err(|error| yaml.error(&inside(&["sensor"]), error))?;
+        }
+        MountSource::Tf => {
+            if let Some(key) = Mount::KEYS.into_iter().find(|key| section("sensor").get(key).is_some()) {
+                let message = format!("sensor.{key}: the mount comes by tf: expected to be left out");
+                return Err(yaml.error(&inside(&["sensor", key]), message));
+            }
+        }
+    }
+    let fit = Fit { preset: given.planner_preset, section: section("planner").clone() };
+    let planner = fit.planner(sensor, robot).map_err(|error| fail("planner", error))?;
     checked(yaml, planner.validate("planner"))?;
-    Ok(planner)
+    Ok((planner, fit))
 }
 
 /// The limits of the supervisor, within the robot's.
@@ -263,14 +317,20 @@ fn supervisor_config(
     }
     let supervisor = SupervisorConfig { has_clock: given.use_sim_time, ..given.supervisor };
     checked(yaml, supervisor.validate("supervisor"))?;
+    checked(yaml, check_tilt(&supervisor, robot))?;
+    Ok(supervisor)
+}
+
+/// The robot is stopped before it leans beyond what it can.
+pub(crate) fn check_tilt(supervisor: &SupervisorConfig, robot: &RobotModel) -> Result<(), ConfigError> {
     for (name, limit_rad, most_rad) in [
         ("max_roll_rad", supervisor.max_roll_rad, robot.roll_limit_rad),
         ("max_pitch_rad", supervisor.max_pitch_rad, robot.pitch_limit_rad),
     ] {
         let expected = format!("at most the robot's limit, {most_rad}");
-        checked(yaml, ConfigError::require(limit_rad <= most_rad, "supervisor", name, limit_rad, &expected))?;
+        ConfigError::require(limit_rad <= most_rad, "supervisor", name, limit_rad, &expected)?;
     }
-    Ok(supervisor)
+    Ok(())
 }
 
 /// A value out of its range, with its line.

@@ -7,7 +7,7 @@ use std::num::NonZeroU16;
 use mapless::RobotModel;
 use mapless::glam::{DQuat, EulerRot};
 use mapless_parameters::{choices, parameters};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 choices! {
     /// A robot whose dimensions are known.
@@ -74,6 +74,50 @@ parameters! {
         /// Feedback of the action, per second.
         feedback_hz: f64 = 5.0, unit "1/s", range [1.0, 20.0], check Within(0.1, 50.0);
     }
+}
+
+choices! {
+    /// Where the sensor's mount is told.
+    pub enum MountSource {
+        /// In the file.
+        File = "file",
+        /// On the topics `tf_static` and `tf`, once as the node begins.
+        Tf = "tf",
+    }
+}
+
+parameters! {
+    /// Where the sensor's mount is told.
+    #[derive(Copy)]
+    pub struct SensorMount {
+        /// In the file's section `sensor`, or by tf from `frames.base` to `frames.scan`.
+        source: MountSource = MountSource::File;
+        /// How long the node waits for tf before it ends.
+        timeout_s: f64 = 30.0, unit "s", range [5.0, 120.0], check Within(1.0, 3600.0);
+    }
+}
+
+/// The mount of the sensor over the point on the ground between the wheels, as in [`mapless::SensorModel`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Mount {
+    /// Metres.
+    pub forward_m: f64,
+    /// Metres.
+    pub left_m: f64,
+    /// Metres.
+    pub height_m: f64,
+    /// Left side up positive.
+    pub roll_rad: f64,
+    /// Nose-up positive.
+    pub pitch_rad: f64,
+    /// Anticlockwise positive.
+    pub yaw_rad: f64,
+}
+
+impl Mount {
+    /// The keys of the file's section `sensor` that tell it.
+    pub(super) const KEYS: [&str; 6] =
+        ["forward_m", "left_m", "height_m", "roll_rad", "pitch_rad", "yaw_rad"];
 }
 
 /// Names of frames. A message in another frame is malformed.

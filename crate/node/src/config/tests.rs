@@ -45,6 +45,21 @@ fn packets_are_taken_from_the_sensor_that_is_named() {
 }
 
 #[test]
+fn a_mount_by_tf_fits_the_planner_as_one_in_the_file_does() {
+    let planner = "    planner: {goal_tolerance_m: 2}\n";
+    let by_tf = parse(&format!("    sensor_mount: {{source: tf}}\n{planner}")).unwrap();
+    let in_file =
+        parse(&format!("    sensor: {{height_m: 1.5, forward_m: 0.2, pitch_rad: -0.1}}\n{planner}"));
+    let in_file = in_file.unwrap().planner;
+    let SensorModel { forward_m, left_m, height_m, roll_rad, pitch_rad, yaw_rad, .. } = in_file.sensor;
+    let mount = Mount { forward_m, left_m, height_m, roll_rad, pitch_rad, yaw_rad };
+    assert_ne!(by_tf.planner, in_file);
+    assert_eq!(by_tf.mounted(&mount).unwrap().planner, in_file);
+    let high = Mount { height_m: 30.0, ..mount };
+    assert!(by_tf.mounted(&high).unwrap_err().starts_with("a sensor whose lowest beam ahead is at"));
+}
+
+#[test]
 fn every_fault_is_told_with_its_line() {
     for (more, expected) in [
         ("    speed: 3\n", "robot.yaml:5: unknown field `speed`"),
@@ -76,6 +91,15 @@ fn every_fault_is_told_with_its_line() {
         ),
         ("    supervisor:\n      has_clock: true\n", "robot.yaml:6: supervisor.has_clock: "),
         ("    command_type: joy\n", "robot.yaml:5: "),
+        (
+            "    sensor_mount: {source: tf}\n    sensor:\n      height_m: 0.6\n",
+            "robot.yaml:7: sensor.height_m: the mount comes by tf",
+        ),
+        ("    sensor_mount: {source: map}\n", "robot.yaml:5: "),
+        (
+            "    sensor_mount: {timeout_s: 0}\n",
+            "robot.yaml:5: sensor_mount.timeout_s = 0: expected a number from 1",
+        ),
         ("    velodyne: {}\n", "robot.yaml:5: missing field `from`"),
         ("    velodyne:\n      from: lidar\n", "robot.yaml:6: "),
         ("    velodyne:\n      from: 10.0.0.2\n      port: 0\n", "robot.yaml:7: "),
@@ -93,11 +117,33 @@ fn every_fault_is_told_with_its_line() {
     }
 }
 
+/// A sample file, for the distribution that this is built for.
+fn sample(robot: &str, distro: &str) -> NodeConfig {
+    let name = format!("{}/config/{robot}-{distro}.yaml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&name).unwrap();
+    let built = text.replace(&format!("distro: {distro}"), &format!("distro: {}", Distro::BUILT.word()));
+    NodeConfig::parse(Path::new(&name), &built).unwrap()
+}
+
 #[test]
-fn the_sample_file_of_the_distribution_is_in_order() {
-    let name = format!("{}/config/husky-{}.yaml", env!("CARGO_MANIFEST_DIR"), Distro::BUILT.word());
-    let config = NodeConfig::open(Path::new(&name)).unwrap();
-    assert_eq!(config.namespace, "/a200_0000");
+fn the_sample_files_are_in_order() {
+    for distro in ["humble", "jazzy"] {
+        assert_eq!(sample("husky", distro).namespace, "/a200_0000");
+    }
+    let jackal = sample("jackal-os1-32", "jazzy");
+    assert_eq!((jackal.planner.sensor.rings, jackal.planner.robot), (32, RobotModel::jackal()));
+    assert_ne!(jackal.planner.perception, PlannerConfig::default().perception, "it is fitted to the sensor");
+}
+
+#[test]
+fn the_foxglove_layout_shows_the_topics_of_the_sample_file() {
+    let layout = include_str!("../../foxglove/mapless.json");
+    serde_json::from_str::<Value>(layout).unwrap();
+    let Topics { scan, path, subgoals, skyline, variance, decision, cmd_vel, diagnostics, goal_pose, .. } =
+        sample("husky", "jazzy").topics;
+    for topic in [scan, path, subgoals, skyline, variance, decision, cmd_vel, diagnostics, goal_pose] {
+        assert!(layout.contains(&format!("\"/a200_0000/{topic}")), "{topic}");
+    }
 }
 
 #[test]

@@ -61,12 +61,20 @@ pub struct Topics {
     pub path: String,
     /// `visualization_msgs/MarkerArray`, written: the subgoals; the chosen one green, refused ones red.
     pub subgoals: String,
+    /// `visualization_msgs/MarkerArray`, written with `visualise`: the skyline; what can be driven to green.
+    pub skyline: String,
+    /// `sensor_msgs/PointCloud2`, written with `visualise`: the variance surface, and the predicted range.
+    pub variance: String,
     /// `std_msgs/Bool`, read: true resets a latched stop.
     pub reset: String,
     /// `diagnostic_msgs/DiagnosticArray`, written.
     pub diagnostics: String,
     /// `nav2_msgs/NavigateToPose`, served.
     pub navigate_to_pose: String,
+    /// `tf2_msgs/TFMessage`, read where `sensor_mount` asks for it: transforms that change.
+    pub tf: String,
+    /// `tf2_msgs/TFMessage`, likewise: transforms that hold for good.
+    pub tf_static: String,
     /// `rosgraph_msgs/Clock`, read with `use_sim_time`.
     pub clock: String,
 }
@@ -83,9 +91,13 @@ impl Default for Topics {
             decision: "mapless/decision".to_owned(),
             path: "mapless/path".to_owned(),
             subgoals: "mapless/subgoals".to_owned(),
+            skyline: "mapless/skyline".to_owned(),
+            variance: "mapless/variance".to_owned(),
             reset: "mapless/reset".to_owned(),
             diagnostics: "diagnostics".to_owned(),
             navigate_to_pose: "navigate_to_pose".to_owned(),
+            tf: "tf".to_owned(),
+            tf_static: "tf_static".to_owned(),
             clock: "/clock".to_owned(),
         }
     }
@@ -93,7 +105,7 @@ impl Default for Topics {
 
 impl Topics {
     /// Every name with its key.
-    pub(super) fn entries(&self) -> [(&'static str, &str); 13] {
+    pub(super) fn entries(&self) -> [(&'static str, &str); 17] {
         [
             ("scan", &self.scan),
             ("odometry", &self.odometry),
@@ -104,9 +116,13 @@ impl Topics {
             ("decision", &self.decision),
             ("path", &self.path),
             ("subgoals", &self.subgoals),
+            ("skyline", &self.skyline),
+            ("variance", &self.variance),
             ("reset", &self.reset),
             ("diagnostics", &self.diagnostics),
             ("navigate_to_pose", &self.navigate_to_pose),
+            ("tf", &self.tf),
+            ("tf_static", &self.tf_static),
             ("clock", &self.clock),
         ]
     }

@@ -15,6 +15,18 @@ pub struct Vector3 {
     pub z: f64,
 }
 
+impl From<glam::DVec3> for Vector3 {
+    fn from(glam::DVec3 { x, y, z }: glam::DVec3) -> Self {
+        Self { x, y, z }
+    }
+}
+
+impl From<Vector3> for glam::DVec3 {
+    fn from(Vector3 { x, y, z }: Vector3) -> Self {
+        Self { x, y, z }
+    }
+}
+
 /// `geometry_msgs/Point`, metres.
 pub type Point = Vector3;
 

@@ -10,6 +10,7 @@ mod sensor;
 mod standard;
 #[cfg(test)]
 mod tests;
+mod tf;
 mod visual;
 
 pub use diagnostic::{DiagnosticArray, DiagnosticStatus, KeyValue, Level};
@@ -20,4 +21,5 @@ pub use geometry::{
 pub use navigate::{Feedback, HumbleResult, JazzyResult, NavigateGoal, NavigateResult, Outcome};
 pub use sensor::{Imu, PointCloud2, PointField};
 pub use standard::{Bool, Clock, Duration, Header, Time};
+pub use tf::{TfMessage, Transform, TransformStamped};
 pub use visual::{ColorRgba, Marker, MarkerArray};

@@ -61,6 +61,8 @@ pub struct Marker {
 }
 
 impl Marker {
+    /// A line between each two points.
+    pub const LINE_LIST: i32 = 5;
     /// A sphere at each point.
     pub const SPHERE_LIST: i32 = 7;
 }

@@ -10,10 +10,12 @@ use serde::de::DeserializeOwned;
 
 use super::{RosError, making};
 use crate::config::{NodeConfig, Reliability};
-use crate::messages::{Bool, Clock, Imu, Odometry, PointCloud2, PoseStamped};
+use crate::messages::{Bool, Clock, Imu, Odometry, PointCloud2, PoseStamped, TfMessage};
 
 /// Messages of odometry and IMU that may wait to be read; of scans one does, as only the newest matters.
 const WAITING: usize = 16;
+/// Messages of tf that may wait: of many publishers, each tells its own frames.
+const TRANSFORMS: usize = 100;
 
 /// A node with its names.
 pub(crate) struct Entities {
@@ -89,6 +91,21 @@ impl Entities {
                 false => None,
             },
         })
+    }
+
+    /// Subscribes to `tf` and `tf_static`.
+    pub(crate) fn subscribe_tf(
+        &mut self,
+        config: &NodeConfig,
+    ) -> Result<(Subscription<TfMessage>, Subscription<TfMessage>), RosError> {
+        let moving = sensor_qos(Reliability::BestEffort, TRANSFORMS);
+        // What was said once is said again to whoever comes later.
+        let fixed = sensor_qos(Reliability::Reliable, TRANSFORMS).durability(Durability::TransientLocal);
+        let kind = "tf2_msgs/TFMessage";
+        Ok((
+            self.subscription(&config.topics.tf, kind, moving)?,
+            self.subscription(&config.topics.tf_static, kind, fixed)?,
+        ))
     }
 
     fn subscription<M: DeserializeOwned + 'static>(

@@ -3,12 +3,14 @@
 mod action;
 mod alive;
 mod entities;
+mod parameters;
 mod presence;
 mod spin;
 
 pub(crate) use action::ActionServer;
 pub(crate) use alive::Alive;
 pub(crate) use entities::{Entities, Incoming, published_qos};
+pub(crate) use parameters::ParameterServices;
 pub(crate) use presence::Presence;
 pub(crate) use spin::Spin;
 

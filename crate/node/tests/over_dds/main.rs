@@ -4,9 +4,12 @@
 #![cfg(all(unix, not(feature = "humble")))]
 
 mod packets;
+mod parameters;
 mod robot;
+mod tf;
 
 use std::process::{Child, Command};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use mapless_node::config::NodeConfig;
@@ -23,27 +26,48 @@ const DISCOVERY: Duration = Duration::from_secs(60);
 /// A command every 20 ms, on a loaded machine.
 const SLACK: Duration = Duration::from_millis(300);
 const FAR_M: f64 = 200.0;
+/// The sample file's section about the mount.
+const MOUNT: [&str; 5] = ["sensor:", "height_m:", "forward_m:", "left_m:", "pitch_rad:"];
 
 type Client = ActionClient<NavigateGoal, NavigateResult, Feedback>;
+
+/// One test at a time: each has a robot that must keep its rates.
+static ALONE: Mutex<()> = Mutex::new(());
 
 /// The process under test; it is killed when a test fails.
 struct Process {
     child: Child,
-    _folder: tempfile::TempDir,
+    folder: tempfile::TempDir,
+    _alone: MutexGuard<'static, ()>,
 }
 
 impl Process {
     /// The node in a domain of its own, by the sample file with `more` at its end.
     fn start(domain_id: u16, more: &str) -> Self {
+        let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let sample = concat!(env!("CARGO_MANIFEST_DIR"), "/config/husky-jazzy.yaml");
         let text = std::fs::read_to_string(sample).unwrap();
         let text = text.replace("domain_id: 0", &format!("domain_id: {domain_id}"));
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("robot.yaml");
+        // A mount by tf takes the place of that in the file.
+        let is_kept = |line: &&str| {
+            !more.contains("sensor_mount") || !MOUNT.iter().any(|key| line.trim_start().starts_with(key))
+        };
+        let text: String = text.lines().filter(is_kept).map(|line| format!("{line}\n")).collect();
         std::fs::write(&file, text + more).unwrap();
         NodeConfig::open(&file).unwrap();
-        let child = Command::new(env!("CARGO_BIN_EXE_mapless-node")).arg(&file).spawn().unwrap();
-        Self { child, _folder: folder }
+        let log = std::fs::File::create(folder.path().join("log")).unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mapless-node"));
+        let child = command.arg(&file).stderr(log).spawn().unwrap();
+        Self { child, folder, _alone: alone }
+    }
+}
+
+impl Process {
+    /// What it wrote to its log.
+    fn log(&self) -> String {
+        std::fs::read_to_string(self.folder.path().join("log")).unwrap()
     }
 }
 

@@ -117,6 +117,11 @@ impl Robot {
         self.state.lock().unwrap().command != Twist::default()
     }
 
+    /// The speed that was last commanded.
+    pub(crate) fn speed_m_s(&self) -> f64 {
+        self.state.lock().unwrap().command.linear.x
+    }
+
     /// Decisions that came, one for each scan.
     pub(crate) fn decisions(&self) -> usize {
         self.state.lock().unwrap().decisions

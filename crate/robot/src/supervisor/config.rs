@@ -52,3 +52,30 @@ parameters! {
         max_turn_jerk_rad_s3: f64 = 20.0, unit "rad/s³", range [0.5, 100.0], check Positive;
     }
 }
+
+impl SupervisorConfig {
+    /// Speed, acceleration and jerk.
+    pub(crate) fn linear(&self) -> [f64; 3] {
+        [self.max_speed_m_s, self.max_acceleration_m_s2, self.max_jerk_m_s3]
+    }
+
+    /// The same of the turn rate.
+    pub(crate) fn angular(&self) -> [f64; 3] {
+        [self.max_turn_rate_rad_s, self.max_turn_acceleration_rad_s2, self.max_turn_jerk_rad_s3]
+    }
+
+    /// The same with the limits on motion and tilt of another.
+    pub(crate) fn limited_as(&self, limits: &Self) -> Self {
+        Self {
+            max_roll_rad: limits.max_roll_rad,
+            max_pitch_rad: limits.max_pitch_rad,
+            max_speed_m_s: limits.max_speed_m_s,
+            max_turn_rate_rad_s: limits.max_turn_rate_rad_s,
+            max_acceleration_m_s2: limits.max_acceleration_m_s2,
+            max_turn_acceleration_rad_s2: limits.max_turn_acceleration_rad_s2,
+            max_jerk_m_s3: limits.max_jerk_m_s3,
+            max_turn_jerk_rad_s3: limits.max_turn_jerk_rad_s3,
+            ..*self
+        }
+    }
+}

@@ -79,12 +79,8 @@ impl Supervisor {
             scan: stream(config.scan_s, config.scan_s),
             odometry: stream(config.odometry_s, config.frozen_s),
             imu: stream(config.imu_s, config.frozen_s),
-            linear: Limiter::new([config.max_speed_m_s, config.max_acceleration_m_s2, config.max_jerk_m_s3]),
-            angular: Limiter::new([
-                config.max_turn_rate_rad_s,
-                config.max_turn_acceleration_rad_s2,
-                config.max_turn_jerk_rad_s3,
-            ]),
+            linear: Limiter::new(config.linear()),
+            angular: Limiter::new(config.angular()),
             command: Command::STOP,
             ticked: None,
             in_order_since: None,
@@ -141,6 +137,19 @@ impl Supervisor {
             cause: causes.strongest,
             takes_goals,
         }
+    }
+
+    /// Takes the limits on motion and tilt of `limits`; how old an input may get stays as it was. A speed
+    /// above a lowered limit is brought down within those on acceleration and jerk.
+    ///
+    /// # Errors
+    /// [`ConfigError`] for a limit that makes no sense; nothing has changed then.
+    pub fn limit(&mut self, limits: &SupervisorConfig) -> Result<(), ConfigError> {
+        limits.validate("supervisor")?;
+        self.linear.limit(limits.linear());
+        self.angular.limit(limits.angular());
+        self.config = self.config.limited_as(limits);
+        Ok(())
     }
 
     /// The configuration.
