@@ -19,10 +19,15 @@ os.environ["FASTDDS_BUILTIN_TRANSPORTS"] = "UDPv4"
 
 import rclpy  # noqa: E402
 from geometry_msgs.msg import TwistStamped  # noqa: E402
+import numpy as np  # noqa: E402
+from rclpy.parameter import Parameter  # noqa: E402
+from rclpy.parameter_client import AsyncParameterClient  # noqa: E402
 from rclpy.qos import ReliabilityPolicy  # noqa: E402
+from sensor_msgs.msg import PointCloud2  # noqa: E402
 from std_msgs.msg import Bool  # noqa: E402
+from visualization_msgs.msg import Marker, MarkerArray  # noqa: E402
 
-from robot import Robot, spinning, until  # noqa: E402
+from robot import NAMESPACE, Robot, spinning, until  # noqa: E402
 
 # Discovery under load takes up to 13 s.
 DISCOVERY_S = 30.0
@@ -250,6 +255,92 @@ def stamps_ahead_of_the_simulated_clock_stop_it(robot, node):
     return checked
 
 
+def answer(future):
+    until(future.done, 10.0)
+    return future.result() if future.done() else None
+
+
+def parameters_are_told_and_set(robot, _node):
+    """rclpy's own client lists, describes, gets and sets; a limit holds at once, and what is refused says why."""
+    client = AsyncParameterClient(robot, f"{NAMESPACE}/mapless")
+    if not client.wait_for_services(DISCOVERY_S):
+        return False, "its services were not found"
+    limit = "supervisor.max_speed_m_s"
+    names = answer(client.list_parameters(prefixes=["supervisor"], depth=0)).result.names
+    threshold = answer(client.describe_parameters(["planner.perception.variance_threshold"])).values[0]
+    kind = answer(client.get_parameter_types([limit])).types[0]
+    before = answer(client.get_parameters([limit])).values[0].double_value
+    change = lambda name, value: answer(client.set_parameters([Parameter(name, value=value)])).results[0]
+    if not drive(robot):
+        return False, f"it does not drive: {state(robot)}"
+    lowered = change(limit, 0.2)
+    time.sleep(2.0)
+    began = time.monotonic()
+    time.sleep(1.0)
+    fastest = max(abs(v) for at, v, _ in robot.commands if at > began)
+    refused = change(limit, -1.0)
+    both = [Parameter(limit, value=before), Parameter("supervisor.scan_s", value=9.0)]
+    neither = answer(client.set_parameters_atomically(both)).result
+    after = answer(client.get_parameters([limit])).values[0].double_value
+    raised = change(limit, before)
+    ok = (
+        limit in names
+        and "a share between 0 and 1" in threshold.additional_constraints
+        and threshold.description.startswith("Share V_th")
+        and kind == Parameter.Type.DOUBLE.value
+        and lowered.successful
+        and fastest <= 0.2 + 1e-9
+        and refused.reason == f"{limit} = -1: expected a positive number"
+        and not neither.successful
+        and after == 0.2
+        and raised.successful
+    )
+    return ok, f"{len(names)} names; {before} to {after} m/s, the fastest command {fastest:.3f}; {refused.reason!r}; {neither.reason!r}"
+
+
+def skyline_and_variance_are_shown(robot, node):
+    """The node is begun anew with `visualise`."""
+    if node.process.poll() is None:
+        node.end()
+    node.configure("node_name: mapless", "node_name: mapless\n    visualise: true")
+    got = {}
+    kept = [
+        robot.create_subscription(PointCloud2, "mapless/variance", lambda m: got.update(variance=m), 10),
+        robot.create_subscription(MarkerArray, "mapless/skyline", lambda m: got.update(skyline=m), 10),
+    ]
+    node.start()
+    if not drive(robot) or not until(lambda: len(got) == 2, DISCOVERY_S):
+        return False, f"{state(robot)}; only {sorted(got)} came"
+    time.sleep(2.0)
+    begin = time.monotonic()
+    time.sleep(5.0)
+    sent = {stamp: at for at, stamp in robot.scans if begin <= at < begin + 4.5}
+    delays = sorted(at - sent[stamp] for at, stamp in list(robot.decisions) if stamp in sent)
+    cloud, marker = got["variance"], got["skyline"].markers[0]
+    fields = {"names": [f.name for f in cloud.fields], "formats": ["<f4"] * 5, "offsets": [f.offset for f in cloud.fields]}
+    points = np.frombuffer(bytes(cloud.data), dtype=np.dtype({**fields, "itemsize": cloud.point_step}))
+    points = points.reshape(cloud.height, cloud.width)
+    # Level ground from 0.8 m up: the lowest beam meets it 3.1 m away; every direction below the horizon was seen.
+    lowest = points[0]
+    off = np.hypot(lowest["x"] - robot.x - robot.shift, lowest["y"] - robot.y) - 7.0 * math.cos(math.radians(15.0))
+    ends = np.array([(p.x, p.y, p.z) for p in marker.points])
+    ok = (
+        fields["names"] == ["x", "y", "z", "variance", "range"]
+        and cloud.width == 360
+        and cloud.header.frame_id == marker.header.frame_id == "odom"
+        and np.abs(off).max() < 1.0
+        and lowest["variance"].max() < 0.3
+        and abs(np.median(lowest["range"]) - 3.1) < 0.8
+        and marker.type == Marker.LINE_LIST
+        and len(marker.points) == len(marker.colors) > 600
+        and np.abs(ends[:, 2] - ends[:, 2].mean()).max() < 0.7
+    )
+    median = 1e3 * delays[len(delays) // 2] if delays else float("nan")
+    for subscription in kept:
+        robot.destroy_subscription(subscription)
+    return ok, f"{cloud.height} rows, {len(marker.points) // 2} lines; {len(delays)} of {len(sent)} clouds answered, median {median:.1f} ms"
+
+
 def in_order(robot):
     """Takes every fault back, and resets."""
     robot.is_scanning = robot.is_turning_wheels = robot.is_feeling = robot.is_cloud_whole = True
@@ -278,10 +369,12 @@ CHECKS = (
     the_emergency_stop_is_pressed,
     a_release_moves_nothing,
     it_arrives,
+    parameters_are_told_and_set,
     a_suspended_process_goes_on_standing,
     another_publisher_is_noticed,
     killed_it_stands_until_a_goal,
     it_ends_with_zero,
+    skyline_and_variance_are_shown,
     stamps_ahead_of_the_simulated_clock_stop_it,
 )
 

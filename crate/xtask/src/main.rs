@@ -9,6 +9,7 @@ mod bench;
 mod browser;
 mod count;
 mod fuzz;
+mod notices;
 mod package;
 mod page;
 mod physics;
@@ -17,6 +18,7 @@ mod python;
 mod results;
 mod robot;
 mod setup;
+mod static_programs;
 mod test;
 mod work;
 

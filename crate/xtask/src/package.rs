@@ -6,7 +6,7 @@ use anyhow::{Context as _, ensure};
 use clap::ValueEnum;
 use xshell::{Shell, cmd};
 
-use crate::setup;
+use crate::{notices, setup, static_programs};
 
 const SOURCES: &str = "crate/node";
 /// What dpkg runs.
@@ -49,8 +49,8 @@ impl Arch {
 
     const fn target(self) -> &'static str {
         match self {
-            Self::Amd64 => "x86_64-unknown-linux-musl",
-            Self::Arm64 => "aarch64-unknown-linux-musl",
+            Self::Amd64 => static_programs::X86_64,
+            Self::Arm64 => static_programs::AARCH64,
         }
     }
 }
@@ -69,12 +69,9 @@ pub(crate) fn run(sh: &Shell, distro: Distro, arch: Arch) -> anyhow::Result<()> 
 fn build(sh: &Shell, distro: Distro, arch: Arch) -> anyhow::Result<PathBuf> {
     let (distro, target) = (distro.name(), arch.target());
     setup::target(sh, target)?;
-    // rust-lld comes with Rust, and so does what a static program needs of musl.
-    let linker = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"));
-    cmd!(sh, "cargo build --release --package mapless-node --no-default-features")
-        .args(["--features", distro, "--target", target])
-        .env(linker, "rust-lld")
-        .run()?;
+    let build =
+        cmd!(sh, "cargo build --release --package mapless-node --no-default-features --features {distro}");
+    static_programs::linked(build, target).run()?;
     let program = setup::target_dir(sh).join(target).join("release/mapless-node");
 
     let version = env!("CARGO_PKG_VERSION");
@@ -93,6 +90,9 @@ fn build(sh: &Shell, distro: Distro, arch: Arch) -> anyhow::Result<PathBuf> {
     put(&source("package/mapless-node.service"), "usr/lib/systemd/system/mapless-node.service")?;
     put(Path::new("docs/ROBOT.md"), "usr/share/doc/mapless-node/ROBOT.md")?;
     put(Path::new("LICENSE-MIT"), "usr/share/doc/mapless-node/copyright")?;
+    put(&source("foxglove/mapless.json"), "usr/share/doc/mapless-node/foxglove.json")?;
+    let notices = notices::of(sh, "mapless-node", target, distro)?;
+    sh.write_file(root.join("usr/share/doc/mapless-node/LICENSES-of-linked-crates.txt"), notices)?;
     sh.write_file(root.join("DEBIAN/control"), control(distro, version, arch))?;
     sh.write_file(root.join("DEBIAN/conffiles"), "/etc/mapless/robot.yaml\n")?;
     for script in SCRIPTS {

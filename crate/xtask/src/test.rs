@@ -13,7 +13,7 @@ use xshell::{Cmd, Shell, cmd};
 use crate::browser::Browser;
 use crate::count::{Count, Runner, count};
 use crate::python::Environment;
-use crate::{page, physics, robot, setup};
+use crate::{page, physics, robot, setup, static_programs};
 
 /// A part of the tests that can run alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -22,6 +22,8 @@ pub(crate) enum Part {
     Lint,
     /// Rust tests on this machine.
     Native,
+    /// Two routes as static programs for x86-64, and for AArch64 where qemu-aarch64 is on PATH.
+    Static,
     /// Rust tests as wasm in a headless browser.
     Wasm,
     /// Unit and browser tests of the page.
@@ -74,6 +76,7 @@ const STAGES: &[Stage] = &[
     Stage { title: "build of the page", parts: &[Part::Lint, Part::Page], run: build_page },
     Stage { title: "lint and types of the page", parts: &[Part::Lint], run: check_page },
     Stage { title: "native tests", parts: &[Part::Native], run: test_native },
+    Stage { title: "static programs", parts: &[Part::Static], run: static_programs::test },
     Stage { title: "reports", parts: &[Part::Reports], run: test_reports },
     Stage { title: "wasm tests", parts: &[Part::Wasm], run: test_wasm },
     Stage { title: "unit tests of the page", parts: &[Part::Page], run: test_page_units },
