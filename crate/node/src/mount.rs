@@ -57,11 +57,15 @@ impl From<RosError> for MountError {
     }
 }
 
-/// Waits until tf tells the mount, as long as the configuration says.
+/// Waits until tf tells the mount, as long as the configuration says or until `is_ending`.
 ///
 /// # Errors
 /// [`MountError`], the last one when time is up.
-pub(crate) fn wait(config: &NodeConfig, entities: &mut Entities) -> Result<Mount, MountError> {
+pub(crate) fn wait(
+    config: &NodeConfig,
+    entities: &mut Entities,
+    is_ending: impl Fn() -> bool,
+) -> Result<Mount, MountError> {
     let (moving, fixed) = entities.subscribe_tf(config)?;
     let end = Instant::now() + Duration::from_secs_f64(config.sensor_mount.timeout_s);
     let (mut tree, base, sensor) = (Tree::default(), &config.frames.base, &config.frames.scan);
@@ -71,7 +75,9 @@ pub(crate) fn wait(config: &NodeConfig, entities: &mut Entities) -> Result<Mount
             loop {
                 match subscription.take() {
                     Ok(Some((message, _))) => {
-                        message.transforms.iter().for_each(|one| tree.take(one, is_fixed))
+                        for transform in &message.transforms {
+                            tree.take(transform, is_fixed);
+                        }
                     }
                     Ok(None) => break,
                     Err(error) => log::warn!("tf: {error}"),
@@ -80,7 +86,7 @@ pub(crate) fn wait(config: &NodeConfig, entities: &mut Entities) -> Result<Mount
         }
         match tree.find(base, sensor, Time::now()) {
             Ok(way) => return Ok(mount(way, config.estimator.base_height_m)),
-            Err(error) if Instant::now() > end => return Err(error),
+            Err(error) if Instant::now() > end || is_ending() => return Err(error),
             Err(_) => entities.wait(WAIT),
         }
     }

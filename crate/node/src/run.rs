@@ -74,7 +74,9 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     let config = match config.sensor_mount.source {
         MountSource::File => config,
         MountSource::Tf => {
-            mounted = config.mounted(&mount::wait(config, &mut entities)?).map_err(RunError::Sensor)?;
+            let is_ending = || signal.load(Ordering::Relaxed) != 0;
+            let mount = mount::wait(config, &mut entities, is_ending)?;
+            mounted = config.mounted(&mount).map_err(RunError::Sensor)?;
             log::info!("the sensor's mount by tf: {}", mounted.planner.sensor.offset_m());
             &mounted
         }

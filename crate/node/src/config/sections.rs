@@ -92,8 +92,8 @@ parameters! {
     pub struct SensorMount {
         /// In the file's section `sensor`, or by tf from `frames.base` to `frames.scan`.
         source: MountSource = MountSource::File;
-        /// How long the node waits for tf before it ends.
-        timeout_s: f64 = 30.0, unit "s", range [5.0, 120.0], check Within(1.0, 3600.0);
+        /// How long the node waits for tf before it ends. systemd gives it 30 s to begin.
+        timeout_s: f64 = 20.0, unit "s", range [5.0, 120.0], check Within(1.0, 3600.0);
     }
 }
 

@@ -31,7 +31,8 @@ fn every_parameter_is_listed_once_and_has_value_and_description() {
     let told = parameters.describe("planner.perception.variance_threshold");
     assert!(!told.read_only && told.additional_constraints.contains("a share between 0 and 1"));
     assert!(parameters.describe("sensor.rings").read_only);
-    assert_eq!(parameters.describe("navigation.timeout_s").floating_point_range[0].from_value, 1.0);
+    let ranges = parameters.describe("navigation.timeout_s").floating_point_range;
+    assert!(ranges[0].from_value < 1.1 && ranges[0].to_value > 86_399.0);
     assert_eq!(parameters.describe("no.such").r#type, ParameterType::NOT_SET);
 }
 
@@ -62,7 +63,7 @@ fn a_value_is_set_and_its_neighbours_stay() {
     let mut expected = PlannerConfig::default();
     (expected.perception.variance_threshold, expected.goal_tolerance_m) = (0.25, 1.0);
     assert_eq!(parameters.planner, expected);
-    assert_eq!(parameters.get("supervisor.max_speed_m_s").double_value, 0.3);
+    assert!((parameters.supervisor.max_speed_m_s - 0.3).abs() < 1e-12);
 }
 
 #[test]
@@ -90,13 +91,13 @@ fn each_refusal_has_its_reason_and_changes_nothing() {
         assert!(refused.starts_with(reason), "{refused}\nexpected: {reason}");
     }
     let mut parameters = parameters();
-    let before = parameters.get("navigation.timeout_s").double_value;
+    let before = parameters.navigation;
     let changes = [
         change("navigation.timeout_s", Value::Number(60.0)),
         change("navigation.feedback_hz", Value::Number(-1.0)),
     ];
     parameters.set(&changes, false).unwrap_err();
-    assert_eq!(parameters.get("navigation.timeout_s").double_value, before, "all or none");
+    assert_eq!(parameters.navigation, before, "all or none");
 }
 
 #[test]

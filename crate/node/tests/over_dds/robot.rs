@@ -51,7 +51,7 @@ struct Sensors {
 
 /// How scans are sent.
 enum Scans {
-    Clouds(Publisher<PointCloud2>),
+    Clouds(Box<Publisher<PointCloud2>>),
     Packets(Velodyne),
 }
 
@@ -78,7 +78,7 @@ impl Robot {
     /// Its scans are clouds.
     pub(crate) fn start(mut node: Node) -> Self {
         let scan = publisher(&mut node, "sensors/lidar3d_0/points", "sensor_msgs", "PointCloud2");
-        Self::start_with(node, Scans::Clouds(scan))
+        Self::start_with(node, Scans::Clouds(Box::new(scan)))
     }
 
     /// Its scans are packets.
