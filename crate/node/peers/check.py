@@ -22,7 +22,7 @@ from geometry_msgs.msg import TwistStamped  # noqa: E402
 import numpy as np  # noqa: E402
 from rclpy.parameter import Parameter  # noqa: E402
 from rclpy.parameter_client import AsyncParameterClient  # noqa: E402
-from rclpy.qos import ReliabilityPolicy  # noqa: E402
+from rclpy.qos import ReliabilityPolicy, qos_profile_sensor_data  # noqa: E402
 from sensor_msgs.msg import PointCloud2  # noqa: E402
 from std_msgs.msg import Bool  # noqa: E402
 from visualization_msgs.msg import Marker, MarkerArray  # noqa: E402
@@ -305,7 +305,7 @@ def skyline_and_variance_are_shown(robot, node):
     node.configure("node_name: mapless", "node_name: mapless\n    visualise: true")
     got = {}
     kept = [
-        robot.create_subscription(PointCloud2, "mapless/variance", lambda m: got.update(variance=m), 10),
+        robot.create_subscription(PointCloud2, "mapless/variance", lambda m: got.update(variance=m), qos_profile_sensor_data),
         robot.create_subscription(MarkerArray, "mapless/skyline", lambda m: got.update(skyline=m), 10),
     ]
     node.start()

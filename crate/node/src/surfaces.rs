@@ -13,7 +13,7 @@ use crate::frames::FrameChange;
 use crate::messages::{
     ColorRgba, Header, Marker, MarkerArray, Point, PointCloud2, PointField, Time, Vector3,
 };
-use crate::ros::{Entities, RosError, published_qos};
+use crate::ros::{Entities, RosError, published_qos, streamed_qos};
 
 const OPEN: ColorRgba = ColorRgba { r: 0.1, g: 0.8, b: 0.2, a: 1.0 };
 const CLOSED: ColorRgba = ColorRgba { r: 0.9, g: 0.5, b: 0.1, a: 1.0 };
@@ -33,8 +33,8 @@ impl Surfaces {
     pub(crate) fn new(config: &NodeConfig, entities: &mut Entities) -> Result<Self, RosError> {
         let (topics, qos) = (&config.topics, published_qos());
         Ok(Self {
-            skyline: entities.publisher(&topics.skyline, "visualization_msgs/MarkerArray", qos.clone())?,
-            variance: entities.publisher(&topics.variance, "sensor_msgs/PointCloud2", qos)?,
+            skyline: entities.publisher(&topics.skyline, "visualization_msgs/MarkerArray", qos)?,
+            variance: entities.publisher(&topics.variance, "sensor_msgs/PointCloud2", streamed_qos())?,
             frame_id: config.frames.odom.clone(),
         })
     }

@@ -1,12 +1,12 @@
-//! Static programs for Linux, built without a C toolchain: what they need of musl comes with Rust, and so does
-//! their linker.
+//! Static programs for Linux, built without a C toolchain: what they need of musl comes with Rust, and so
+//! does their linker.
 
 use xshell::{Cmd, Shell, cmd};
 
 use crate::count::{Count, Runner, count};
 use crate::setup;
 
-/// Their targets, this machine's last.
+/// Their targets.
 pub(crate) const AARCH64: &str = "aarch64-unknown-linux-musl";
 pub(crate) const X86_64: &str = "x86_64-unknown-linux-musl";
 /// Runs programs for AArch64.

@@ -55,6 +55,12 @@ pub(crate) fn published_qos() -> QosProfile {
         .durability(Durability::Volatile)
 }
 
+/// What is published for viewers alone and is large: best effort, as sensors are. A slow viewer that asked for
+/// lost parts again would ask for what is gone.
+pub(crate) fn streamed_qos() -> QosProfile {
+    published_qos().reliability(RosReliability::BestEffort)
+}
+
 impl Entities {
     /// Joins the domain as the node that the configuration names.
     pub(crate) fn join(config: &NodeConfig) -> Result<Self, RosError> {
