@@ -55,8 +55,8 @@ pub(crate) fn published_qos() -> QosProfile {
         .durability(Durability::Volatile)
 }
 
-/// What is published for viewers alone and is large: best effort, as sensors are. A slow viewer that asked for
-/// lost parts again would ask for what is gone.
+/// What is large and published for viewers alone: best effort, as sensors are. A slow viewer would ask again
+/// for parts that are gone.
 pub(crate) fn streamed_qos() -> QosProfile {
     published_qos().reliability(RosReliability::BestEffort)
 }
