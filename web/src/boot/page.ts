@@ -57,12 +57,14 @@ const help = byId('help-sheet', HTMLDialogElement);
 /** The drawer with parameters, comparison and seeds: loaded when it is first opened. */
 let lab: Lab | undefined;
 
+async function loadLab(): Promise<Lab> {
+  const { Lab } = await import('../lab/lab.ts');
+  lab ??= new Lab(app, stage, byId('lab', HTMLButtonElement));
+  return lab;
+}
+
 async function openLab(): Promise<void> {
-  if (!lab) {
-    const { Lab } = await import('../lab/lab.ts');
-    lab ??= new Lab(app, stage, byId('lab', HTMLButtonElement));
-  }
-  lab.toggle();
+  (await loadLab()).toggle();
 }
 
 function labCount(count: number): void {
@@ -261,7 +263,7 @@ const actions = {
 const brushPanel = new BrushPanel((setting) => tools?.brush(setting));
 const groundKey = new GroundKey((colouring) => stage?.colouring(colouring));
 const undoButtons = new UndoButtons(app);
-const terrainsSheet = new TerrainsSheet(app);
+const terrainsSheet = new TerrainsSheet(app, async ({ name, bytes }) => (await loadLab()).planner(name, bytes));
 const shareSheet = new ShareSheet(app);
 const autosave = new Autosave((why) => notice.show(why));
 const addressBar = new AddressBar((experiment) => app.attempt(app.run({ experiment })));
