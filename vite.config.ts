@@ -1,15 +1,9 @@
-import { createHash } from 'node:crypto';
-import { readFileSync } from 'node:fs';
 import { defineConfig, type Plugin } from 'vite';
 import { offline } from './web/build/offline.ts';
-
-/** The one script that is inline: that of the frame in which somebody's own planner is kept. */
-const BOX = createHash('sha256').update(readFileSync('web/src/guest/box.js')).digest('base64');
 
 /**
  * Nothing leaves the page's own origin: scripts, the worker, wasm and styles come from `self` and nothing else is
  * allowed. Only the built page carries the policy, because the development server injects inline styles.
- * A frame takes over the policy of its page, so what `blob:` allows there it must allow here.
  */
 const contentSecurityPolicy: Plugin = {
   name: 'content-security-policy',
@@ -22,11 +16,13 @@ const contentSecurityPolicy: Plugin = {
         'http-equiv': 'Content-Security-Policy',
         content: [
           "default-src 'none'",
-          `script-src 'self' 'wasm-unsafe-eval' blob: 'sha256-${BOX}'`,
+          "script-src 'self' 'wasm-unsafe-eval'",
           "style-src 'self'",
           "img-src 'self' data: blob:",
           "connect-src 'self'",
-          "worker-src 'self' blob:",
+          "worker-src 'self'",
+          // planner.html has a policy of its own: there somebody's own planner is kept.
+          "frame-src 'self'",
           "manifest-src 'self'",
           "base-uri 'none'",
           "form-action 'none'",

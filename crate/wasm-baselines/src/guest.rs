@@ -61,6 +61,7 @@ pub struct GuestOptions {
 
 /// What the planner is told once: the tables `sensor` and `robot` of scenario files.
 #[derive(Debug, Serialize, Tsify)]
+#[tsify(hashmap_as_object)]
 pub struct GuestModel {
     #[tsify(type = "Readonly<Record<string, number>>")]
     sensor: BTreeMap<&'static str, Value>,

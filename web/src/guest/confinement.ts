@@ -1,9 +1,8 @@
 /**
- * Keeps somebody's own planner where it can do no harm: in a worker of a frame without origin, whose policy allows no
- * request at all. Whatever it answers comes through one port.
+ * Keeps somebody's own planner where it can do no harm: in a worker of a frame without origin, which has no storage of the
+ * page, under a policy that allows no request at all (`web/public/planner.html`). It answers through one port.
  */
 
-import box from './box.js?raw';
 import script from './guestWorker.js?raw';
 
 /** A module in JavaScript as text, or in WebAssembly as bytes. */
@@ -18,17 +17,16 @@ export interface Confined {
   end(): void;
 }
 
-const POLICY = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:";
-
 export function confine({ code }: OwnPlanner): Confined {
   const { port1, port2 } = new MessageChannel();
   const frame = document.createElement('iframe');
-  frame.sandbox.add('allow-scripts');
   frame.hidden = true;
   frame.title = 'Your own planner';
-  frame.srcdoc = `<meta http-equiv="Content-Security-Policy" content="${POLICY}"><script>${box}</script>`;
-  frame.addEventListener('load', () => frame.contentWindow?.postMessage({ script, code, port: port2 }, '*', [port2]), {
-    once: true,
+  frame.src = './planner.html';
+  frame.addEventListener('load', () => {
+    const inner = frame.contentWindow?.frames[0];
+    if (inner) inner.postMessage({ script, code, port: port2 }, '*', [port2]);
+    else port2.postMessage({ fault: 'planner.html could not be loaded' });
   });
   document.body.append(frame);
   return { port: port1, end: () => frame.remove() };

@@ -1,9 +1,9 @@
 /*
  * A planner of your own. It is asked once for each scan and answers with a command.
  * World: x east, y north, z up. Robot and sensor: x ahead, y left, z up. Metres, radians, seconds.
- * This one drives towards the goal, around whatever rises steeply within 4 m.
+ * This one drives towards the goal, around whatever rises steeply within 5 m.
  */
-const [SECTORS, REACH_M, STEEPEST, LEAST_RISE_M] = [72, 4, 0.45, 0.25];
+const [SECTORS, REACH_M, STEEPEST, LEAST_RISE_M] = [72, 5, 0.3, 0.25];
 const WIDTH = (2 * Math.PI) / SECTORS;
 
 export default class Planner {
@@ -37,7 +37,9 @@ export default class Planner {
     const cost = (sector) => {
       const angle = sector * WIDTH;
       const turns = Math.abs(wrapped(angle - bearing)) + 0.3 * Math.abs(wrapped(angle - this.#heading));
-      return turns + (steepness[sector] > STEEPEST ? 10 : steepness[sector]);
+      // How far the robot would lean to the side there, on ground as steep as here.
+      const lean = Math.abs(pose.roll * Math.cos(angle) - pose.pitch * Math.sin(angle));
+      return turns + 4 * lean + (steepness[sector] > STEEPEST ? 10 : 3 * steepness[sector]);
     };
     const best = [...steepness.keys()].reduce((one, other) => (cost(other) < cost(one) ? other : one));
     this.#heading = wrapped(best * WIDTH);

@@ -3,14 +3,16 @@
  * in WebAssembly with the functions of crate/planner-template. It answers each question through a port.
  */
 
+/** By which its lines are found in the trace of an error. */
+const NAME = 'own-planner';
 /** In the order in which WebAssembly is told them. */
 const ROBOT = ['max_speed_m_s', 'max_turn_rate_rad_s', 'length_m', 'width_m', 'roll_limit_rad', 'pitch_limit_rad'];
 const SENSOR = ['height_m', 'forward_m', 'left_m', 'roll_rad', 'pitch_rad', 'yaw_rad'];
 const FUNCTIONS = ['points', 'decide', 'linear_m_s', 'angular_rad_s'];
 
 async function inJavaScript(source, model) {
-  const address = URL.createObjectURL(new Blob([source], { type: 'text/javascript' }));
-  const { default: given } = await import(address);
+  const named = `${source}\n//# sourceURL=${NAME}`;
+  const { default: given } = await import(`data:text/javascript;charset=utf-8,${encodeURIComponent(named)}`);
   if (typeof given !== 'function') throw new Error('no default export: expected a class with decide(), or a function');
   if (typeof given.prototype?.decide === 'function') {
     const planner = new given(model);
@@ -37,7 +39,7 @@ async function inWebAssembly(bytes, { robot, sensor }) {
 
 /** What went wrong, and in which line of the code where that is known. */
 function faultOf(error) {
-  const [, line] = /blob:[^\s)]*?:(\d+):\d+/.exec(error?.stack ?? '') ?? [];
+  const [, line] = /own-planner:(\d+):\d+/.exec(error?.stack ?? '') ?? [];
   const what = error instanceof Error ? `${error.name}: ${error.message}` : `thrown: ${String(error)}`;
   return line ? `${what} (line ${line})` : what;
 }

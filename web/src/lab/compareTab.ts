@@ -137,16 +137,14 @@ export class CompareTab implements Tab {
   #choose(): void {
     this.#app.touch();
     this.#chosen = this.#boxes.filter(({ box }) => box.checked).map(({ rival }) => rival);
+    if (this.#chosen.includes(OWN_RIVAL)) this.#own ??= this.#card.written;
     this.#tellChoice();
     this.#begin();
   }
 
   #tellChoice(): void {
     const full = this.#chosen.length >= MOST;
-    for (const { rival, box, label } of this.#boxes) {
-      box.disabled = full && !box.checked;
-      label.hidden = rival === OWN_RIVAL && !this.#own;
-    }
+    for (const { box } of this.#boxes) box.disabled = full && !box.checked;
     const how = `They drive the same course from its start, with the same seed and parameters. At most ${MOST} at once. One that is still catching up is compared with the robot in view at the time it has got to.`;
     setText(this.#note, how);
     this.#choiceChanged?.();

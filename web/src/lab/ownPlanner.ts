@@ -37,7 +37,7 @@ export class OwnPlannerCard {
       if (chosen) this.#opened(chosen);
       file.value = '';
     });
-    const drives = button('lab-action', 'Drive it', () => this.#drive({ name: WRITTEN, code: this.#code.value }));
+    const drives = button('lab-action', 'Drive it', () => this.#drive(this.written));
     const open = button('plain', 'Open a file', () => file.click());
     const anew = button('plain', 'The example', () => this.#write(example));
     setText(
@@ -63,6 +63,11 @@ export class OwnPlannerCard {
       this.#write(new TextDecoder().decode(bytes));
       this.#drive({ name, code: this.#code.value });
     }
+  }
+
+  /** What stands in the field. */
+  get written(): OwnPlanner {
+    return { name: WRITTEN, code: this.#code.value };
   }
 
   say(words: string): void {

@@ -33,6 +33,6 @@ export const RIVALS: readonly Rival[] = [
 export const OWN_RIVAL: Rival = {
   planner: OWN_PLANNER,
   name: 'Yours',
-  meaning: 'your own planner, below',
+  meaning: 'your own planner, written or opened below',
   colour: '#f0e442',
 };
