@@ -1,6 +1,7 @@
 /** Puts the page together. */
 
 import { App } from '../app/app.ts';
+import { answerFrame } from '../app/framed.ts';
 import { publish } from '../app/windowApi.ts';
 import { byId, setText } from '../base/dom.ts';
 import { readTheme, watchTheme } from '../colours/theme.ts';
@@ -296,5 +297,6 @@ publish(app);
 app.attempt(
   begin(app, notice, begun, beginAt).then(async (beginning) => {
     if (beginning?.from === 'last visit' && beginning.own) await autosave.goOnWith(beginning.own);
+    if (window.mapless && document.documentElement.hasAttribute('data-embed')) answerFrame(window.mapless);
   }),
 );
