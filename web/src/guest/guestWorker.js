@@ -30,7 +30,9 @@ async function inWebAssembly(bytes, { robot, sensor }) {
   own.begin?.(...ROBOT.map((name) => robot[name]), ...SENSOR.map((name) => sensor[name]));
   return ({ points, time_s, elapsed_s, pose, goal }) => {
     const count = points.length / 3;
-    new Float32Array(own.memory.buffer, own.points(count), points.length).set(points);
+    // Making room may make the memory another one.
+    const room = own.points(count);
+    new Float32Array(own.memory.buffer, room, points.length).set(points);
     const { x, y, z, roll, pitch, yaw } = pose;
     own.decide(count, time_s, elapsed_s, x, y, z, roll, pitch, yaw, goal.x, goal.y, goal.heading_rad ?? Number.NaN);
     return { linear_m_s: own.linear_m_s(), angular_rad_s: own.angular_rad_s() };
