@@ -1,5 +1,5 @@
 /**
- * The simulation and the planner by themselves, in Node, a notebook or a page: the WebAssembly core with the scenarios of
+ * The simulation and the planner by themselves, in Node or a page: the WebAssembly core with the scenarios of
  * the page.
  *
  * SI units and radians. World: x east, y north, z up. Robot and sensor: x forward, y left, z up.
