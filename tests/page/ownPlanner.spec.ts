@@ -135,6 +135,7 @@ test('links and files of the run say nothing of it; what was written is there at
   await page.keyboard.type('export default () => ({ linear_m_s: 0.5, angular_rad_s: 0 }); // grcdb');
   await card(page).getByRole('button', { name: 'Drive it' }).focus();
   await page.keyboard.press('Enter');
+  await page.evaluate(() => window.mapless?.play());
   await driveTo(page, 20);
   await expect(own(page, 'Time')).toHaveText(/^0:0[2-9]/);
   expect(await page.evaluate(() => window.mapless?.link())).toBe(before);
