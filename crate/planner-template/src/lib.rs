@@ -44,7 +44,8 @@ pub extern "C" fn begin(
     own.sensor_height_m = sensor_height_m;
 }
 
-/// Room for so many returns: x, y, z of each in the sensor frame, as `f32`. They are there when `decide` is called.
+/// Room for so many returns: x, y, z of each in the sensor frame, as `f32`. They are there when `decide` is
+/// called.
 #[unsafe(no_mangle)]
 pub extern "C" fn points(count: usize) -> *mut f32 {
     let mut own = planner();

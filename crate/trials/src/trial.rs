@@ -298,8 +298,8 @@ impl<N: Navigator> Trial<N> {
     }
 
     /// What the navigator is asked on the last scan; `None` if none has arrived, and the last decision holds.
-    /// [`Trial::plan`] asks and has the navigator answer at once. A navigator that first asks somebody else is
-    /// given time between this and [`Trial::decide`].
+    /// [`Trial::plan`] asks and has the navigator answer at once. A navigator that first asks somebody else
+    /// is given time between this and [`Trial::decide`].
     pub fn question(&mut self) -> Option<Question> {
         let sees = self.navigator.sight_m() > 0.0;
         let Some((pose, periods)) = self.reality.begin_decision(self.tick, sees) else {

@@ -1,7 +1,11 @@
 /*
- * A planner of your own. It is asked once for each scan and answers with a command.
- * World: x east, y north, z up. Robot and sensor: x ahead, y left, z up. Metres, radians, seconds.
- * This one drives towards the goal, around whatever rises steeply within 5 m.
+ * A planner of your own. For each scan it is asked
+ * once, and answers with a command.
+ * World: x east, y north, z up.
+ * Robot and sensor: x ahead, y left, z up.
+ * Metres, radians, seconds.
+ * This one drives towards the goal, around
+ * whatever rises steeply within 5 m.
  */
 const [SECTORS, REACH_M, STEEPEST, LEAST_RISE_M] = [72, 5, 0.3, 0.25];
 const WIDTH = (2 * Math.PI) / SECTORS;
@@ -9,12 +13,13 @@ const WIDTH = (2 * Math.PI) / SECTORS;
 export default class Planner {
   #heading = 0;
 
-  /** `sensor` and `robot` have the names of a scenario file's tables. */
+  /** Both with the names of a scenario file. */
   constructor({ sensor, robot }) {
     [this.sensor, this.robot] = [sensor, robot];
   }
 
-  /** `points`: x, y, z of each return in the sensor's frame, one after the other. `goal.heading_rad` may be absent. */
+  /** `points`: x, y, z of each return, in the
+   * sensor's frame, one after the other. */
   decide({ points, pose, goal }) {
     const wrapped = (angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
     const bearing = wrapped(Math.atan2(goal.y - pose.y, goal.x - pose.x) - pose.yaw);
@@ -23,7 +28,8 @@ export default class Planner {
       const [x, y, z] = [points[at], points[at + 1], points[at + 2]];
       const distance = Math.hypot(x, y);
       if (distance > REACH_M) continue;
-      // The robot tilts with the ground it stands on; the slope is counted from the horizontal.
+      // The robot tilts with its ground; slopes
+      // are counted from the horizontal.
       const rise = z + this.sensor.height_m + x * Math.sin(pose.pitch) + y * Math.sin(pose.roll);
       if (Math.abs(rise) < LEAST_RISE_M) continue;
       // As wide as the robot seen from there.
@@ -37,7 +43,8 @@ export default class Planner {
     const cost = (sector) => {
       const angle = sector * WIDTH;
       const turns = Math.abs(wrapped(angle - bearing)) + 0.3 * Math.abs(wrapped(angle - this.#heading));
-      // How far the robot would lean to the side there, on ground as steep as here.
+      // How far it would lean to the side there,
+      // on ground as steep as here.
       const lean = Math.abs(pose.roll * Math.cos(angle) - pose.pitch * Math.sin(angle));
       return turns + 4 * lean + (steepness[sector] > STEEPEST ? 10 : 3 * steepness[sector]);
     };
