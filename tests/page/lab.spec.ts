@@ -58,7 +58,6 @@ test('a refused choice goes back to what holds, and an unusual value is called s
 });
 
 test('one press gives the paper as written, and what departs from it is said', async ({ mapless: page }) => {
-  await page.evaluate(() => window.mapless?.pause());
   await openLab(page, 'Parameters');
   const summary = page.getByRole('tabpanel', { name: 'Parameters' }).locator('.lab-note').first();
   await page.getByRole('button', { name: 'The paper as written' }).click();

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { departures, withPaperValues } from '../src/experiment/paperValues.ts';
+import { departures } from '../src/experiment/paperValues.ts';
 import type { ParameterGroup } from '../src/experiment/parameters.ts';
 
 const parameter = (name: string, value: number | string | boolean, paper: number | string | boolean | undefined) => ({
@@ -26,12 +26,4 @@ const names = (overrides: object, learning: 'fixed' | 'every_scan') =>
 test('what holds is compared with the paper where the paper says something', () => {
   assert.deepEqual(names({}, 'fixed'), ['mode', 'isotropic']);
   assert.deepEqual(names({ sensor: { period_s: 0.2, columns: 90 } }, 'every_scan'), ['isotropic', 'period_s']);
-});
-
-test('the paper takes the place of what departs from it, and the rest stays', () => {
-  const overrides = { sensor: { columns: 90 } };
-  const found = departures(groups, { overrides, learning: 'fixed' });
-  const paper = withPaperValues(overrides, found);
-  assert.deepEqual(paper, { sensor: { columns: 90 }, planner: { perception: { learning: { isotropic: true } } } });
-  assert.deepEqual(departures(groups, { overrides: paper, learning: 'every_scan' }), []);
 });

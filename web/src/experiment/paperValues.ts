@@ -1,6 +1,6 @@
 /** Where what holds departs from what the paper gives. */
 
-import { type Overrides, override, withOverride } from './overrides.ts';
+import { override } from './overrides.ts';
 import type { Parameter, ParameterGroup } from './parameters.ts';
 import type { Setup } from './setting.ts';
 
@@ -25,11 +25,4 @@ export function departures(
       return JSON.stringify(chosen ?? value) === JSON.stringify(paper) ? [] : [{ table, parameter }];
     }),
   );
-}
-
-/** The overrides with the paper's value in place of each departure. */
-export function withPaperValues(overrides: Overrides, found: readonly Departure[]): Overrides {
-  return found
-    .filter(({ table, parameter }) => !(table === LEARNING && parameter.name === 'mode'))
-    .reduce((all, { table, parameter: { name, paper } }) => withOverride(all, table, name, paper), overrides);
 }

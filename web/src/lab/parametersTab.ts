@@ -4,7 +4,7 @@ import type { App } from '../app/app.ts';
 import { button, html, setText } from '../base/dom.ts';
 import { messageOf } from '../base/messageOf.ts';
 import { countOverrides, type Overrides, type OverrideValue, override, withOverride } from '../experiment/overrides.ts';
-import { departures, withPaperValues } from '../experiment/paperValues.ts';
+import { departures } from '../experiment/paperValues.ts';
 import { complaintAbout, label, type ParameterGroup } from '../experiment/parameters.ts';
 import { isEffects, isOn, withReality } from '../experiment/reality.ts';
 import type { Learning } from '../experiment/setting.ts';
@@ -166,17 +166,11 @@ export class ParametersTab implements Tab {
     if (overrides) await this.#apply(withReality(overrides, preset), undefined);
   }
 
-  /** Its preset, its learning, and whatever else it gives; what it leaves open stays as in the preset. */
+  /** Its preset and its learning, with nothing of the planner changed. */
   async #asWritten(): Promise<void> {
     this.#app.touch();
-    const { planner: _, ...others } = this.#app.info?.overrides ?? {};
-    await this.#app.change({ preset: 'paper', learning: 'fixed' });
-    await this.#app.adjust({ overrides: others });
-    const { info } = this.#app;
-    if (!info) return;
-    const overrides = withPaperValues(info.overrides, departures(info.parameters, info));
-    await this.#app.adjust({ overrides });
-    await this.#app.change({ learning: 'every_scan' });
+    const { planner: _, ...overrides } = this.#app.info?.overrides ?? {};
+    await this.#app.adjust({ preset: 'paper', learning: 'every_scan', overrides });
   }
 
   #showGhost(): void {
