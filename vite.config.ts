@@ -21,6 +21,8 @@ const contentSecurityPolicy: Plugin = {
           "img-src 'self' data: blob:",
           "connect-src 'self'",
           "worker-src 'self'",
+          // planner.html has a policy of its own: there somebody's own planner is kept.
+          "frame-src 'self'",
           "manifest-src 'self'",
           "base-uri 'none'",
           "form-action 'none'",

@@ -57,6 +57,16 @@ test('a refused choice goes back to what holds, and an unusual value is called s
   await expect(field.getByText('Outside what is usual')).toBeVisible();
 });
 
+test('one press gives the paper as written, and what departs from it is said', async ({ mapless: page }) => {
+  await openLab(page, 'Parameters');
+  const summary = page.getByRole('tabpanel', { name: 'Parameters' }).locator('.lab-note').first();
+  await page.getByRole('button', { name: 'The paper as written' }).click();
+  await until(page, (now) => now.preset === 'paper' && now.learning === 'every_scan');
+  await expect(summary).toContainText('The paper as written.');
+  await page.locator('#learning').selectOption('fixed');
+  await expect(summary).toContainText('The paper has another mode.');
+});
+
 test('one trial has no deviation', async ({ mapless: page }) => {
   await shortCourse(page, 3);
   await openLab(page, 'Seeds');

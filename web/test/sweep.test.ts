@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { campaignFile, trialsCsv } from '../src/trials/batchFiles.ts';
+import { campaignRows } from '../src/trials/campaignRows.ts';
 import { overridesWith, valuesIn } from '../src/trials/sweep.ts';
-import { campaignFile } from '../src/trials/sweepFiles.ts';
 
 test('values are read as people write them, each once, or refused with the word that is none', () => {
   assert.deepEqual(valuesIn(' 0.5, 0.7;1e-3 0.5', false, 20), [0.5, 0.7, 0.001]);
@@ -28,8 +29,27 @@ test('a campaign says planner, route, seeds and values, numbers with their point
     values: [1, 0.5],
     seeds: [1, 2],
   };
-  const text = campaignFile(sweep);
+  const text = campaignFile(sweep, sweep);
   for (const line of ['planners = ["paper"]', 'routes = ["ht.toml"]', 'seeds = [1, 2]', 'values = [1.0, 0.5]']) {
     assert.ok(text.split('\n').includes(line), text);
   }
+});
+
+test('a table says with which parameters each trial was driven, as the page reads it back', () => {
+  const metrics = {
+    distance_m: 1,
+    max_abs_roll_rad: 0,
+    max_abs_pitch_rad: 0,
+    mean_vibration_rad_s: 0,
+    mean_elevation_rate_cm_s: 0,
+    curvature_change_rad_m: 0,
+  };
+  const result = { planner: 'paper', seed: 3, outcome: 'reached', tick: 9, time_s: 0.9, metrics, digest: 'd' } as const;
+  const overrides = {
+    sensor: { columns: 900 },
+    planner: { decision: { cost_model: 'paper' }, perception: { kernel: { length_scales_rad: [0.12, 0.05] } } },
+  };
+  const csv = trialsCsv({ planner: 'paper', route: 'ht', seeds: [3] }, [{ overrides, result }]);
+  const [row] = campaignRows('trials.csv', csv, () => true);
+  assert.deepEqual(row?.replay, { scenario: 'ht', preset: 'paper', overrides, seed: 3 });
 });

@@ -29,4 +29,4 @@ pub use reality::{PoseConfig, RealityConfig, RealityPreset};
 pub use scenario::LoadedScenario;
 pub use scenario::renamed_keys::{current_path, current_value};
 pub use scenario::{Preset, Scenario, ScenarioError, ScenarioFault, planner_config_for};
-pub use trial::{Moved, Stance, Trial, TrialError};
+pub use trial::{Moved, Question, Stance, Trial, TrialError};

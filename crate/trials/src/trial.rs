@@ -59,6 +59,17 @@ pub struct Moved {
     pub judged: Attitude,
 }
 
+/// What a navigator is asked on a scan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Question {
+    /// The robot's pose in the world, as it believes.
+    pub pose: Pose,
+    /// Its present target.
+    pub goal: Goal,
+    /// Since the last decision.
+    pub elapsed: Duration,
+}
+
 /// A running trial, driven by this planner or by another navigator.
 #[derive(Clone, Debug)]
 pub struct Trial<N = Planner> {
@@ -280,15 +291,30 @@ impl<N: Navigator> Trial<N> {
 
     /// Lets the navigator decide on the last scan. If none has arrived, the last decision holds.
     pub fn plan(&mut self) -> Decision {
+        if let Some(question) = self.question() {
+            self.decide(&question);
+        }
+        self.decision
+    }
+
+    /// What the navigator is asked on the last scan; `None` if none has arrived, and the last decision holds.
+    /// [`Trial::plan`] asks and has the navigator answer at once. A navigator that first asks somebody else
+    /// is given time between this and [`Trial::decide`].
+    pub fn question(&mut self) -> Option<Question> {
         let sees = self.navigator.sight_m() > 0.0;
         let Some((pose, periods)) = self.reality.begin_decision(self.tick, sees) else {
             if self.decision.activity == Activity::Arrived {
                 self.decision.activity = Activity::Searching;
             }
-            return self.decision;
+            return None;
         };
         let elapsed = Duration::from_secs_f64(self.period_s() * f64::from(periods));
-        self.decision = self.navigator.navigate(&self.scan.points, &pose, &self.target(), elapsed);
+        Some(Question { pose, goal: self.target(), elapsed })
+    }
+
+    /// Lets the navigator answer.
+    pub fn decide(&mut self, Question { pose, goal, elapsed }: &Question) -> Decision {
+        self.decision = self.navigator.navigate(&self.scan.points, pose, goal, *elapsed);
         self.decision
     }
 
@@ -495,6 +521,11 @@ impl<N: Navigator> Trial<N> {
     /// The navigator that drives the robot.
     pub fn navigator(&self) -> &N {
         &self.navigator
+    }
+
+    /// The navigator, to tell it something between question and answer.
+    pub fn navigator_mut(&mut self) -> &mut N {
+        &mut self.navigator
     }
 
     /// The last scan that arrived, in the sensor frame of the pose before the last motion, unless scans are

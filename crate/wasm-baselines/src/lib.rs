@@ -1,9 +1,11 @@
 //! Whole trials of every navigator, for the page's ghosts and batches, and generated tasks. A module of its
 //! own: the page opens without it.
 
+mod guest;
 #[path = "../../wasm/src/shared/mod.rs"]
 mod shared;
 
+pub use guest::{GuestGoal, GuestModel, GuestOptions, GuestQuestion, GuestRunner};
 use mapless_baselines::{NavigatorKind, Task};
 use mapless_trials::{Navigator, Scenario, Trial, statistics};
 use mapless_world::HeightField;
@@ -119,6 +121,18 @@ pub struct TrialStatus {
     outcome: Outcome,
 }
 
+impl TrialStatus {
+    fn of<N: Navigator>(trial: &Trial<N>) -> Self {
+        Self {
+            tick: trial.ticks(),
+            time_s: trial.time_s(),
+            pose: Pose::of(trial),
+            metrics: Metrics::of(trial),
+            outcome: Outcome::of(trial),
+        }
+    }
+}
+
 /// One trial of one navigator.
 #[wasm_bindgen]
 #[allow(missing_debug_implementations)]
@@ -151,13 +165,7 @@ impl Runner {
     /// # Errors
     /// None, unless JavaScript runs out of memory.
     pub fn status(&self) -> Result<Ts<TrialStatus>, JsError> {
-        give(&TrialStatus {
-            tick: self.trial.ticks(),
-            time_s: self.trial.time_s(),
-            pose: Pose::of(&self.trial),
-            metrics: Metrics::of(&self.trial),
-            outcome: Outcome::of(&self.trial),
-        })
+        give(&TrialStatus::of(&self.trial))
     }
 
     /// Digest of the trajectory so far.

@@ -41,8 +41,9 @@ fn bindings(sh: &Shell) -> anyhow::Result<()> {
     let cargo_home = env::var_os("CARGO_HOME").map_or(home, PathBuf::from);
     let flags = ["--remap-path-prefix".to_owned(), format!("{}=cargo", cargo_home.display())];
     let flags = format!("target.wasm32-unknown-unknown.rustflags={flags:?}");
-    let packages = ["mapless-wasm", "mapless-wasm-baselines", "mapless-wasm-heights"]
-        .map(|package| format!("--package={package}"));
+    let packages =
+        ["mapless-wasm", "mapless-wasm-baselines", "mapless-wasm-heights", "mapless-planner-template"]
+            .map(|package| format!("--package={package}"));
     cmd!(sh, "cargo build --config {flags} --profile page {packages...} --target wasm32-unknown-unknown")
         .run()?;
     let built = setup::target_dir(sh).join("wasm32-unknown-unknown/page");
@@ -53,6 +54,8 @@ fn bindings(sh: &Shell) -> anyhow::Result<()> {
         let module = built.join(module);
         cmd!(sh, "{wasm_bindgen} --target web {strip...} --out-dir web/src/wasm {module}").run()?;
     }
+    // Exports plain functions, so it needs no bindings.
+    sh.copy_file(built.join("mapless_planner_template.wasm"), "web/src/wasm/planner_template.wasm")?;
     report_size(sh, "web/src/wasm/mapless_wasm_bg.wasm")
 }
 

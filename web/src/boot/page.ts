@@ -1,6 +1,7 @@
 /** Puts the page together. */
 
 import { App } from '../app/app.ts';
+import { answerFrame } from '../app/framed.ts';
 import { publish } from '../app/windowApi.ts';
 import { byId, setText } from '../base/dom.ts';
 import { readTheme, watchTheme } from '../colours/theme.ts';
@@ -57,12 +58,14 @@ const help = byId('help-sheet', HTMLDialogElement);
 /** The drawer with parameters, comparison and seeds: loaded when it is first opened. */
 let lab: Lab | undefined;
 
+async function loadLab(): Promise<Lab> {
+  const { Lab } = await import('../lab/lab.ts');
+  lab ??= new Lab(app, stage, byId('lab', HTMLButtonElement));
+  return lab;
+}
+
 async function openLab(): Promise<void> {
-  if (!lab) {
-    const { Lab } = await import('../lab/lab.ts');
-    lab ??= new Lab(app, stage, byId('lab', HTMLButtonElement));
-  }
-  lab.toggle();
+  (await loadLab()).toggle();
 }
 
 function labCount(count: number): void {
@@ -261,7 +264,7 @@ const actions = {
 const brushPanel = new BrushPanel((setting) => tools?.brush(setting));
 const groundKey = new GroundKey((colouring) => stage?.colouring(colouring));
 const undoButtons = new UndoButtons(app);
-const terrainsSheet = new TerrainsSheet(app);
+const terrainsSheet = new TerrainsSheet(app, async ({ name, bytes }) => (await loadLab()).planner(name, bytes));
 const shareSheet = new ShareSheet(app);
 const autosave = new Autosave((why) => notice.show(why));
 const addressBar = new AddressBar((experiment) => app.attempt(app.run({ experiment })));
@@ -294,5 +297,6 @@ publish(app);
 app.attempt(
   begin(app, notice, begun, beginAt).then(async (beginning) => {
     if (beginning?.from === 'last visit' && beginning.own) await autosave.goOnWith(beginning.own);
+    if (window.mapless && document.documentElement.hasAttribute('data-embed')) answerFrame(window.mapless);
   }),
 );

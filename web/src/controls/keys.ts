@@ -89,7 +89,7 @@ const WRITTEN = ['number', 'search', 'text'];
 /** Whether the focused control has its own use for the key. */
 function takesKey(event: KeyboardEvent): boolean {
   const { target } = event;
-  if (target instanceof HTMLSelectElement) return true;
+  if (target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement) return true;
   if (target instanceof HTMLInputElement)
     return (
       WRITTEN.includes(target.type) || (event.key === ' ' && (target.type === 'radio' || target.type === 'checkbox'))

@@ -29,6 +29,7 @@ export interface TerrainActions {
 
 export class TerrainsSheet {
   readonly #actions: TerrainActions;
+  readonly #planner: (file: NamedFile) => Promise<void>;
   readonly #sheet = byId('terrains-sheet', HTMLDialogElement);
   readonly #cards = byId('terrain-cards', HTMLElement);
   readonly #generated = byId('generated-cards', HTMLElement);
@@ -38,8 +39,9 @@ export class TerrainsSheet {
   readonly #works = byId('earlier-work', HTMLElement);
   readonly #holes = byId('holes', HTMLSelectElement);
 
-  constructor(actions: TerrainActions) {
-    this.#actions = actions;
+  /** `planner` has somebody's own planner drive. */
+  constructor(actions: TerrainActions, planner: (file: NamedFile) => Promise<void>) {
+    [this.#actions, this.#planner] = [actions, planner];
     byId('generate', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
     for (const input of [this.#family, this.#seed]) input.addEventListener('change', () => this.#generate());
     byId('more-terrains', HTMLButtonElement).addEventListener('click', () => {
@@ -147,6 +149,10 @@ export class TerrainsSheet {
     const [first] = files;
     if (files.length === 1 && first && /\.csv$/i.test(first.name)) {
       await this.#openTable(first);
+      return;
+    }
+    if (files.length === 1 && first && /\.(m?js|wasm)$/i.test(first.name)) {
+      await this.#planner(first);
       return;
     }
     const head = files.length === 1 && first && pngHead(first.bytes);

@@ -2,16 +2,19 @@
 
 import type { App } from '../app/app.ts';
 import { html, setText } from '../base/dom.ts';
+import { fixed } from '../base/format.ts';
+import { type Confined, confine, type OwnPlanner } from '../guest/confinement.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { courseOf } from '../trials/course.ts';
 import { GhostRun } from '../trials/ghostRun.ts';
 import { type RunningJob, startJob } from '../trials/trialsClient.ts';
-import type { FromTrials } from '../trials/trialsProtocol.ts';
+import { type FromTrials, type Job, OWN_PLANNER } from '../trials/trialsProtocol.ts';
 import type { Stage } from '../view/stage.ts';
 import { ComparisonTable } from './comparisonTable.ts';
 import { GhostTrails } from './ghostTrails.ts';
 import type { Tab } from './lab.ts';
-import { RIVALS, type Rival } from './planners.ts';
+import { OwnPlannerCard } from './ownPlanner.ts';
+import { OWN_RIVAL, RIVALS, type Rival } from './planners.ts';
 
 /** More at once would starve each other, and the table would not fit. */
 const MOST = 3;
@@ -31,7 +34,12 @@ export class CompareTab implements Tab {
   readonly #note = html('p', 'lab-note');
   readonly #fault = html('p', 'parameter-fault');
   readonly #table = new ComparisonTable();
-  #job: RunningJob | undefined;
+  readonly #card = new OwnPlannerCard((planner) => this.#drive(planner));
+  #own: OwnPlanner | undefined;
+  #confined: Confined | undefined;
+  /** Those that broke off: what they have driven stays in sight. */
+  readonly #broken = new Set<string>();
+  #jobs: RunningJob[] = [];
   #chosen: readonly Rival[] = [];
   #runs = new Map<string, GhostRun>();
   #course = '';
@@ -41,14 +49,14 @@ export class CompareTab implements Tab {
   constructor(app: App, stage: Stage | undefined) {
     this.#app = app;
     this.#stage = stage;
-    this.#boxes = RIVALS.map((rival) => this.#box(rival));
+    this.#boxes = [...RIVALS, OWN_RIVAL].map((rival) => this.#box(rival));
     const choice = html('fieldset', 'rivals', [
       html('legend', 'hidden-text', ['Planners to compare with']),
       ...this.#boxes.map(({ label }) => label),
     ]);
     this.#fault.setAttribute('role', 'alert');
     this.#fault.hidden = true;
-    this.element.append(choice, this.#note, this.#fault, this.#table.element);
+    this.element.append(choice, this.#note, this.#fault, this.#table.element, this.#card.element);
     this.#tellChoice();
   }
 
@@ -70,7 +78,7 @@ export class CompareTab implements Tab {
   frame(frame: Frame): void {
     this.#frame = frame;
     const ended = frame.outcome !== 'running';
-    this.#job?.send({ type: 'until', tick: ended ? TO_THE_END : frame.timeline.end });
+    for (const job of this.#jobs) job.send({ type: 'until', tick: ended ? TO_THE_END : frame.timeline.end });
     this.#show();
   }
 
@@ -110,9 +118,26 @@ export class CompareTab implements Tab {
     this.#choose();
   }
 
+  /** A file with a planner that was dropped on the page. */
+  open(name: string, bytes: Uint8Array<ArrayBuffer>): void {
+    this.#card.open(name, bytes);
+  }
+
+  /** Has somebody's own planner drive from the start, in place of the one before. */
+  #drive(planner: OwnPlanner): void {
+    const { chosen, room } = this.stateOf(OWN_RIVAL);
+    if (!chosen && !room) {
+      this.#card.fault(`${MOST} others are driving: take one away first.`);
+      return;
+    }
+    this.#own = planner;
+    this.pick(OWN_RIVAL, true);
+  }
+
   #choose(): void {
     this.#app.touch();
     this.#chosen = this.#boxes.filter(({ box }) => box.checked).map(({ rival }) => rival);
+    if (this.#chosen.includes(OWN_RIVAL)) this.#own ??= this.#card.written;
     this.#tellChoice();
     this.#begin();
   }
@@ -127,20 +152,34 @@ export class CompareTab implements Tab {
 
   /** All ghosts from the start of the course as it is now. */
   #begin(): void {
-    this.#job?.stop();
-    this.#job = undefined;
+    for (const job of this.#jobs) job.stop();
+    this.#confined?.end();
+    [this.#jobs, this.#confined] = [[], undefined];
     this.#runs = new Map();
+    this.#broken.clear();
     this.#fault.hidden = true;
     this.#showGhosts();
     const { info, field } = this.#app;
     if (info && field && this.#chosen.length > 0) {
-      const course = courseOf(info, field);
-      const planners = this.#chosen.map(({ planner }) => planner);
-      this.#job = startJob({ type: 'ghosts', course, planners, seed: info.seed }, (message) => this.#hear(message));
-      if (this.#frame) this.#job.send({ type: 'until', tick: this.#frame.timeline.end });
+      const [course, { seed }] = [courseOf(info, field), info];
+      const planners = this.#chosen.filter((rival) => rival !== OWN_RIVAL).map(({ planner }) => planner);
+      if (planners.length > 0) this.#start({ type: 'ghosts', course, planners, seed });
+      if (this.#own && this.#chosen.includes(OWN_RIVAL)) {
+        this.#confined = confine(this.#own);
+        this.#card.say(`${this.#own.name} is opened.`);
+        this.#start({ type: 'own', course, seed, port: this.#confined.port });
+      }
     }
     this.#table.choose(this.#chosen);
     this.#show();
+  }
+
+  #start(given: Job): void {
+    const job = startJob(given, (message) => this.#hear(message));
+    this.#jobs.push(job);
+    if (!this.#frame) return;
+    const ended = this.#frame.outcome !== 'running';
+    job.send({ type: 'until', tick: ended ? TO_THE_END : this.#frame.timeline.end });
   }
 
   #hear(message: FromTrials): void {
@@ -149,6 +188,13 @@ export class CompareTab implements Tab {
       const run = this.#runs.get(planner);
       if (run) run.extend(message.rows, message.result);
       else this.#enter(planner, new GhostRun(message.rows, message.result));
+      this.#show();
+    } else if (message.type === 'took') {
+      this.#card.say(`${this.#own?.name} takes ${fixed(message.decision_ms, 1)} ms for a decision.`);
+    } else if (message.type === 'refused' && message.planner === OWN_PLANNER) {
+      this.#confined?.end();
+      this.#broken.add(OWN_PLANNER);
+      this.#card.fault(`${this.#own?.name} ${message.message}`);
       this.#show();
     } else if (message.type === 'refused' || message.type === 'failed') {
       setText(this.#fault, message.message);
@@ -185,6 +231,6 @@ export class CompareTab implements Tab {
     this.#stage?.ghostSteps(this.#trails.steps(running.map(([, run]) => shown(run))));
     if (this.element.hidden) return;
     const results = new Map(running.map(([rival, run]) => [rival.planner, run.at(shown(run))]));
-    this.#table.show(frame, this.#app.record, results);
+    this.#table.show(frame, this.#app.record, results, this.#broken);
   }
 }

@@ -44,8 +44,8 @@ export class ComparisonTable {
     this.element.replaceChildren(caption, html('thead', '', [head]), html('tbody', '', rows));
   }
 
-  /** A ghost that is behind is compared with what `record` has of its own last tick. */
-  show(frame: Frame, record: RunRecord, results: ReadonlyMap<string, TrialResult>): void {
+  /** A ghost that is behind is compared with what `record` has of its own last tick. `broken` are those that broke off. */
+  show(frame: Frame, record: RunRecord, results: ReadonlyMap<string, TrialResult>, broken: ReadonlySet<string>): void {
     for (const { planner, cells } of this.#columns) {
       if (planner === undefined) {
         fill(cells, frame.outcome, clock(frame.time_s), (key, decimals) => fixed(frame.metrics[key], decimals));
@@ -54,8 +54,9 @@ export class ComparisonTable {
       const ghost = results.get(planner);
       if (!ghost) continue;
       const own = counterpart(ghost, frame, record);
-      const time = `${clock(ghost.time_s)}${isBehind(ghost, frame) ? ', catching up' : ''}`;
-      fill(cells, ghost.outcome, time, (key, decimals) => {
+      const stands = broken.has(planner);
+      const time = `${clock(ghost.time_s)}${isBehind(ghost, frame) && !stands ? ', catching up' : ''}`;
+      fill(cells, stands ? 'broken' : ghost.outcome, time, (key, decimals) => {
         const difference = own ? ghost.metrics[key] - own[key] : Number.NaN;
         const gap = Number.isNaN(difference) ? '–' : `${difference > 0 ? '+' : ''}${fixed(difference, decimals)}`;
         return `${fixed(ghost.metrics[key], decimals)} (${gap})`;
@@ -66,12 +67,12 @@ export class ComparisonTable {
 
 function fill(
   [outcomeCell, timeCell, ...cells]: readonly HTMLElement[],
-  outcome: Outcome,
+  outcome: Outcome | 'broken',
   time: string,
   metric: (key: keyof Metrics, decimals: number) => string,
 ): void {
   if (outcomeCell) {
-    setText(outcomeCell, OUTCOME_WORDS[outcome]);
+    setText(outcomeCell, outcome === 'broken' ? 'Broke off' : OUTCOME_WORDS[outcome]);
     outcomeCell.dataset.outcome = outcome;
   }
   if (timeCell) setText(timeCell, time);

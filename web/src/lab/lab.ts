@@ -27,10 +27,12 @@ export class Lab {
   readonly #drawer = html('section', 'lab');
   readonly #tabs: readonly Tab[];
   readonly #buttons: readonly HTMLButtonElement[];
+  readonly #compare: CompareTab;
 
   constructor(app: App, stage: Stage | undefined, opener: HTMLButtonElement) {
     this.#opener = opener;
     const compare = new CompareTab(app, stage);
+    this.#compare = compare;
     this.#tabs = [new ParametersTab(app, compare), compare, new SeedsTab(app), new SweepTab(app)];
     this.#buttons = this.#tabs.map((tab, index) => this.#button(tab, index));
     const list = html('div', 'lab-tabs', this.#buttons);
@@ -63,6 +65,13 @@ export class Lab {
     this.#opener.setAttribute('aria-expanded', String(open));
     if (open) this.#buttons.find((button) => button.tabIndex === 0)?.focus();
     else this.#opener.focus();
+  }
+
+  /** Has somebody's own planner drive beside the robot in view. */
+  planner(name: string, bytes: Uint8Array<ArrayBuffer>): void {
+    this.#select(this.#tabs.indexOf(this.#compare));
+    if (this.#drawer.hidden) this.toggle();
+    this.#compare.open(name, bytes);
   }
 
   session(info: SessionInfo): void {

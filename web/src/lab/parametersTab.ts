@@ -1,10 +1,11 @@
 /** Every parameter of sensor, robot and planner, made from the core's own table. A change is tried at the pose, or begins the run anew. */
 
 import type { App } from '../app/app.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { messageOf } from '../base/messageOf.ts';
 import { countOverrides, type Overrides, type OverrideValue, override, withOverride } from '../experiment/overrides.ts';
-import { complaintAbout, type ParameterGroup } from '../experiment/parameters.ts';
+import { departures } from '../experiment/paperValues.ts';
+import { complaintAbout, label, type ParameterGroup } from '../experiment/parameters.ts';
 import { isEffects, isOn, withReality } from '../experiment/reality.ts';
 import type { Learning } from '../experiment/setting.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
@@ -57,7 +58,8 @@ export class ParametersTab implements Tab {
     this.#resetAll.addEventListener('click', () => void this.#apply({}, undefined));
     this.#fault.setAttribute('role', 'alert');
     this.#fault.hidden = true;
-    const top = html('div', 'lab-row', [this.#search, this.#resetAll]);
+    const asWritten = button('plain', 'The paper as written', () => this.#app.attempt(this.#asWritten()));
+    const top = html('div', 'lab-row', [this.#search, asWritten, this.#resetAll]);
     this.element.append(top, this.#summary, this.#fault, this.#list);
   }
 
@@ -85,9 +87,11 @@ export class ParametersTab implements Tab {
     const total = countOverrides(info.overrides);
     this.#resetAll.disabled = total === 0;
     const kept = total === 0 ? 'All values are the defaults.' : `${total} changed.`;
+    const other = departures(info.parameters, info).map(({ parameter }) => label(parameter.name));
+    const paper = other.length === 0 ? 'The paper as written' : `The paper has another ${other.join(', ')}`;
     setText(
       this.#summary,
-      `${kept} While the run is paused, a change is tried where the robot stands; while it drives, the run begins anew with the same seed.`,
+      `${kept} ${info.preset === 'paper' ? `${paper}. ` : ''}While the run is paused, a change is tried where the robot stands; while it drives, the run begins anew with the same seed.`,
     );
     this.#complain(undefined);
   }
@@ -160,6 +164,13 @@ export class ParametersTab implements Tab {
   async #chooseReality(preset: string): Promise<void> {
     const overrides = this.#app.info?.overrides;
     if (overrides) await this.#apply(withReality(overrides, preset), undefined);
+  }
+
+  /** Its preset and its learning, with nothing of the planner changed. */
+  async #asWritten(): Promise<void> {
+    this.#app.touch();
+    const { planner: _, ...overrides } = this.#app.info?.overrides ?? {};
+    await this.#app.adjust({ preset: 'paper', learning: 'every_scan', overrides });
   }
 
   #showGhost(): void {

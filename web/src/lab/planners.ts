@@ -1,6 +1,6 @@
 /** What can drive beside the page's own planner: names, words and colours that colour-blind readers tell apart. */
 
-import { IDEAL_WORLD } from '../trials/trialsProtocol.ts';
+import { IDEAL_WORLD, OWN_PLANNER } from '../trials/trialsProtocol.ts';
 
 export interface Rival {
   readonly planner: string;
@@ -28,3 +28,11 @@ export const RIVALS: readonly Rival[] = [
   { planner: 'oracle', name: 'Oracle', meaning: 'the shortest safe path over the known ground', colour: '#0072b2' },
   IDEAL_RIVAL,
 ];
+
+/** Somebody's own planner. */
+export const OWN_RIVAL: Rival = {
+  planner: OWN_PLANNER,
+  name: 'Yours',
+  meaning: 'your own planner, written or opened below',
+  colour: '#f0e442',
+};

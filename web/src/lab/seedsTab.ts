@@ -3,13 +3,16 @@
 import type { App } from '../app/app.ts';
 import { button, html, setText } from '../base/dom.ts';
 import { clock, fixed } from '../base/format.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { MAX_SEED } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
+import { download } from '../files/download.ts';
 import { OUTCOME_WORDS } from '../inspector/status.ts';
 import { METRIC_ROWS } from '../measurements/metrics.ts';
-import type { SessionInfo } from '../protocol/simulationProtocol.ts';
+import type { NamedFile, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { Batch, type FromBatch, workersFor } from '../trials/batch.ts';
-import { courseKey, courseOf } from '../trials/course.ts';
+import { campaignArchive, type Drawn, routeOf, trialsCsv } from '../trials/batchFiles.ts';
+import { courseKey, courseOf, drivenWith } from '../trials/course.ts';
 import type { Summary, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
@@ -31,6 +34,13 @@ export class SeedsTab implements Tab {
   readonly #summary = html('table', 'comparison seeds-summary');
   readonly #rows = html('tbody');
   readonly #table = html('table', 'comparison trials-table');
+  readonly #saves = html('div', 'lab-row', [
+    button('plain', 'Save as CSV', () => this.#saveCsv()),
+    button('plain', 'Save as campaign', () => this.#saveCampaign()),
+  ]);
+  /** What is saved: the trials in the order of the seeds, and the files of the experiment as it was when they began. */
+  #drawn: (Drawn & { readonly overrides: Overrides; readonly files: Promise<NamedFile[]> }) | undefined;
+  #results: TrialResult[] = [];
   #batch: Batch | undefined;
   /** The course that the table stands for. */
   #course: { key: string; overrides: Overrides } | undefined;
@@ -49,7 +59,16 @@ export class SeedsTab implements Tab {
     });
     this.#table.append(html('thead', '', [html('tr', '', head)]), this.#rows);
     const row = html('div', 'lab-row', [...labelled(this.#count), ...labelled(this.#first), this.#start, this.#cancel]);
-    this.element.append(row, this.#progress, this.#note, this.#stand, this.#fault, this.#summary, this.#table);
+    this.element.append(
+      row,
+      this.#progress,
+      this.#note,
+      this.#stand,
+      this.#fault,
+      this.#summary,
+      this.#saves,
+      this.#table,
+    );
     this.#idle();
     setText(this.#note, 'Each seed is another noise of the sensor. They run beside the page, which stays as it is.');
   }
@@ -72,18 +91,25 @@ export class SeedsTab implements Tab {
   #idle(): void {
     for (const part of [this.#cancel, this.#progress]) part.hidden = true;
     const empty = this.#done === 0;
-    for (const part of [this.#summary, this.#table]) part.hidden = empty;
+    for (const part of [this.#summary, this.#table, this.#saves]) part.hidden = empty;
     this.#start.disabled = false;
   }
 
   #begin(): void {
     if (![this.#count, this.#first].every((input) => input.reportValidity())) return;
-    const { info, field } = this.#app;
-    if (!info || !field) return;
+    const { info, field, editor } = this.#app;
+    if (!info || !field || !editor.experiment) return;
     const course = courseOf(info, field);
     this.#app.touch();
     const first = this.#first.valueAsNumber;
     const seeds = Array.from({ length: this.#count.valueAsNumber }, (_, index) => (first + index) % (MAX_SEED + 1));
+    const overrides = drivenWith(info);
+    const files = this.#app.files({ ...editor.experiment, overrides });
+    files.catch(() => undefined);
+    const route = routeOf(info.scenario, editor.experiment, editor.asItComes);
+    this.#drawn = { planner: info.preset, route, seeds, overrides, files };
+    this.#results = [];
+    this.#saves.hidden = true;
     this.#rows.replaceChildren();
     this.#summary.replaceChildren();
     this.#fault.replaceChildren();
@@ -107,6 +133,7 @@ export class SeedsTab implements Tab {
   #hear(message: FromBatch): void {
     switch (message.type) {
       case 'trial':
+        this.#results.splice(message.place, 0, message.result);
         this.#rows.insertBefore(this.#row(message.result), this.#rows.children[message.place] ?? null);
         this.#progress.value = this.#done;
         setText(this.#note, `${this.#done} of ${this.#total} done.`);
@@ -123,6 +150,24 @@ export class SeedsTab implements Tab {
         this.#end(this.#done === 0 ? '' : `${done} trials. Press a seed to see it driven.`);
         break;
       }
+    }
+  }
+
+  #saveCsv(): void {
+    const drawn = this.#drawn;
+    if (!drawn) return;
+    const rows = this.#results.map((result) => ({ overrides: drawn.overrides, result }));
+    download(`mapless-${drawn.route}-seeds.csv`, new Blob([trialsCsv(drawn, rows)], { type: 'text/csv' }));
+  }
+
+  async #saveCampaign(): Promise<void> {
+    const drawn = this.#drawn;
+    if (!drawn) return;
+    try {
+      download(`mapless-${drawn.route}-seeds.zip`, campaignArchive(await drawn.files, drawn));
+    } catch (error) {
+      setText(this.#fault, messageOf(error));
+      this.#fault.hidden = false;
     }
   }
 

@@ -4,16 +4,14 @@ import type { App } from '../app/app.ts';
 import { button, html, setText } from '../base/dom.ts';
 import { clock, fixed } from '../base/format.ts';
 import { messageOf } from '../base/messageOf.ts';
-import { withOverride } from '../experiment/overrides.ts';
 import { label, type Parameter } from '../experiment/parameters.ts';
-import { zip } from '../files/archive.ts';
-import { download, plainName } from '../files/download.ts';
+import { download } from '../files/download.ts';
 import { OUTCOME_WORDS } from '../inspector/status.ts';
 import { METRIC_ROWS } from '../measurements/metrics.ts';
 import type { NamedFile, SessionInfo } from '../protocol/simulationProtocol.ts';
-import { courseKey, courseOf } from '../trials/course.ts';
+import { campaignArchive, routeOf, trialsCsv } from '../trials/batchFiles.ts';
+import { courseKey, courseOf, drivenWith } from '../trials/course.ts';
 import { overridesWith, type Sweep, SweepRun, type SweptTrial, valuesIn } from '../trials/sweep.ts';
-import { campaignFile, trialsCsv } from '../trials/sweepFiles.ts';
 import type { Summary } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
@@ -127,8 +125,8 @@ export class SweepTab implements Tab {
     try {
       const values = valuesIn(this.#values.value, whole, MOST_VALUES);
       const seeds = Array.from({ length: this.#count.valueAsNumber }, (_, index) => index + 1);
-      const [path, name] = [this.#parameter.value, plainName(info.scenario)];
-      const route = name === 'terrain' ? 'scenario' : name;
+      const path = this.#parameter.value;
+      const route = routeOf(info.scenario, experiment, this.#app.editor.asItComes);
       this.#sweep = { course: courseOf(info, field), planner: info.preset, route, path, whole, values, seeds };
     } catch (error) {
       setText(this.#fault, messageOf(error));
@@ -137,9 +135,7 @@ export class SweepTab implements Tab {
     }
     this.#app.touch();
     [this.#trials, this.#summaries, this.#course] = [[], new Map(), sweepKey(info)];
-    // A campaign knows no learning but that of its scenario.
-    const overrides = withOverride(info.overrides, 'planner.perception.learning', 'mode', info.learning);
-    this.#files = this.#app.files({ ...experiment, overrides });
+    this.#files = this.#app.files({ ...experiment, overrides: drivenWith(info) });
     this.#files.catch(() => undefined);
     this.#rows.replaceChildren();
     this.#tellCount();
@@ -222,21 +218,20 @@ export class SweepTab implements Tab {
   }
 
   #saveCsv(): void {
-    if (!this.#sweep) return;
-    const csv = trialsCsv(this.#sweep, this.#trials);
-    download(`mapless-${this.#sweep.route}-sweep.csv`, new Blob([csv], { type: 'text/csv' }));
+    const sweep = this.#sweep;
+    if (!sweep) return;
+    const rows = this.#trials.map(({ value, result }) => ({
+      overrides: overridesWith({ overrides: drivenWith(sweep.course) }, sweep.path, value),
+      result,
+    }));
+    download(`mapless-${sweep.route}-sweep.csv`, new Blob([trialsCsv(sweep, rows)], { type: 'text/csv' }));
   }
 
-  /** A campaign, the scenario and its terrain, with which `mapless trials` drives the same trials. */
   async #saveCampaign(): Promise<void> {
     const sweep = this.#sweep;
     if (!sweep || !this.#files) return;
     try {
-      const files = (await this.#files).map((one) =>
-        one.name === 'scenario.toml' ? { ...one, name: `${sweep.route}.toml` } : one,
-      );
-      const campaign = { name: 'campaign.toml', bytes: new TextEncoder().encode(campaignFile(sweep)) };
-      download(`mapless-${sweep.route}-sweep.zip`, zip([campaign, ...files]));
+      download(`mapless-${sweep.route}-sweep.zip`, campaignArchive(await this.#files, sweep, sweep));
     } catch (error) {
       setText(this.#fault, messageOf(error));
     }

@@ -1,5 +1,6 @@
 /** The course that the page shows now, for other trials on it. */
 
+import { type Overrides, withOverride } from '../experiment/overrides.ts';
 import type { Ground, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Course } from './trialsProtocol.ts';
 
@@ -12,4 +13,10 @@ export function courseOf(info: SessionInfo, ground: Ground): Course {
 /** All that trials with other seeds have in common but for the ground, a change of which the page tells by itself. */
 export function courseKey({ scenario, preset, learning, overrides, start, waypoints, goal, objects }: SessionInfo) {
   return JSON.stringify([scenario, preset, learning, overrides, start, waypoints, goal, objects]);
+}
+
+/** The parameters with the learning among them: a campaign knows no learning but that of its scenario. */
+export function drivenWith({ overrides, learning }: Pick<Course, 'overrides' | 'learning'>): Overrides {
+  const mode = learning === 'fixed' ? undefined : learning;
+  return withOverride(overrides, 'planner.perception.learning', 'mode', mode);
 }

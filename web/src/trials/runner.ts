@@ -6,7 +6,7 @@ import { inIdealWorld } from '../experiment/reality.ts';
 import { scenarioFile } from '../experiment/scenarioFiles.ts';
 import type { Metrics } from '../protocol/simulationProtocol.ts';
 import { METRICS } from '../run/columns.ts';
-import type { Runner as CoreRunner, Ground } from '../wasm/mapless_wasm_baselines.js';
+import type { Runner as CoreRunner, Ground, GuestRunner } from '../wasm/mapless_wasm_baselines.js';
 import { type Course, IDEAL_WORLD, rowOf, type Summary, type TrialResult } from './trialsProtocol.ts';
 
 export class Runner {
@@ -67,6 +67,12 @@ export class RunnerFactory {
       seed,
     };
     return new Runner(new this.#module.Runner(this.#ground, options), planner, seed);
+  }
+
+  /** A trial for a planner that is asked. */
+  guest(seed: number): GuestRunner {
+    const { overrides } = this.#course;
+    return new this.#module.GuestRunner(this.#ground, { scenario: this.#scenario, overrides, seed });
   }
 }
 

@@ -2,19 +2,12 @@
 
 import { withOverride } from '../experiment/overrides.ts';
 import { Batch, workersFor } from './batch.ts';
+import type { Drawn, Swept } from './batchFiles.ts';
 import type { Course, Summary, TrialResult } from './trialsProtocol.ts';
 
 /** What is driven. */
-export interface Sweep {
+export interface Sweep extends Drawn, Swept {
   readonly course: Course;
-  readonly planner: string;
-  /** The scenario's name, as a file's. */
-  readonly route: string;
-  /** The parameter's table and name, as one path. */
-  readonly path: string;
-  readonly whole: boolean;
-  readonly values: readonly number[];
-  readonly seeds: readonly number[];
 }
 
 export interface SweptTrial {

@@ -16,7 +16,7 @@ export function startJob(job: Job, hear: (message: FromTrials) => void): Running
     const message = event.message || 'The other planners could not be loaded.';
     hear({ type: 'failed', message, panicked: false });
   };
-  worker.postMessage(job);
+  worker.postMessage(job, job.type === 'own' ? [job.port] : []);
   return {
     send: (message) => worker.postMessage(message),
     stop() {

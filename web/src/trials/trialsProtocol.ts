@@ -11,6 +11,9 @@ import type { Spread, TrialStatus } from '../wasm/mapless_wasm_baselines.js';
 /** In place of a planner's name: the planner of the course, where nothing goes wrong. */
 export const IDEAL_WORLD = 'ideal';
 
+/** In place of a planner's name: somebody's own, which is asked through a port. */
+export const OWN_PLANNER = 'own';
+
 /** Everything that all trials of a job have in common. */
 export interface Course {
   readonly preset: Preset;
@@ -36,6 +39,8 @@ export interface TrialResult {
 export type Job =
   /** Several planners on the course, no farther than asked for. */
   | { type: 'ghosts'; course: Course; planners: readonly string[]; seed: number }
+  /** Somebody's own planner on the course, no farther than asked for. */
+  | { type: 'own'; course: Course; seed: number; port: MessagePort }
   /** One planner with the seeds that are then given, each to its end. */
   | { type: 'seeds'; course: Course; planner: string };
 
@@ -66,6 +71,8 @@ export interface Summary {
 export type FromTrials =
   /** A ghost's rows since the message before, and how it stands now. */
   | { type: 'ghost'; rows: Float64Array<ArrayBuffer>; result: TrialResult }
+  /** How long somebody's own planner takes for a decision in the mean. */
+  | { type: 'took'; decision_ms: number }
   | { type: 'trial'; result: TrialResult }
   | { type: 'summary'; summary: Summary }
   /** A planner that cannot drive this course. */

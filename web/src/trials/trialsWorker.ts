@@ -2,8 +2,9 @@
 
 import { messageOf } from '../base/messageOf.ts';
 import { loadTrials, type TrialsModule } from '../bindings/trialsModule.ts';
+import { GuestRun } from './guestRun.ts';
 import { type Runner, RunnerFactory, summary } from './runner.ts';
-import type { FromTrials, Job, ToTrials } from './trialsProtocol.ts';
+import { type FromTrials, type Job, OWN_PLANNER, type ToTrials } from './trialsProtocol.ts';
 
 /** How long it runs before it listens and tells again, in milliseconds. */
 const SLICE_MS = 40;
@@ -18,6 +19,13 @@ function post(message: FromTrials, transfer: Transferable[] = []): void {
 /** Lets messages in. */
 function rest(): Promise<void> {
   return new Promise((resolve) => setTimeout(resolve));
+}
+
+/** Until more ticks are asked for. */
+function woken(): Promise<void> {
+  return new Promise((resolve) => {
+    wake = resolve;
+  });
 }
 
 async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' }>): Promise<void> {
@@ -38,9 +46,7 @@ async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' 
     running.sort((a, b) => a.tick - b.tick);
     const [next] = running;
     if (!next || next.tick >= until) {
-      await new Promise<void>((resolve) => {
-        wake = resolve;
-      });
+      await woken();
       continue;
     }
     const began_ms = performance.now();
@@ -53,6 +59,32 @@ async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' 
     post({ type: 'ghost', rows: new Float64Array(rows), result: next.runner.result });
     running = running.filter(({ runner }) => runner.running);
     await rest();
+  }
+}
+
+/** What is wrong with the planner is said; the trial stands where it then was. */
+async function own({ course, seed, port }: Extract<Job, { type: 'own' }>): Promise<void> {
+  const run = new GuestRun(new RunnerFactory(await loadTrials(), course).guest(seed), seed, port);
+  try {
+    await run.begin();
+    post({ type: 'ghost', rows: new Float64Array(run.row), result: run.result });
+    while (run.running) {
+      if (run.ticks >= until) await woken();
+      const began_ms = performance.now();
+      const rows: number[] = [];
+      try {
+        while (run.running && run.ticks < until && performance.now() - began_ms < SLICE_MS) {
+          await run.tick();
+          rows.push(...run.row);
+        }
+      } finally {
+        post({ type: 'ghost', rows: new Float64Array(rows), result: run.result });
+      }
+      post({ type: 'took', decision_ms: run.decision_ms });
+    }
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) throw error;
+    post({ type: 'refused', planner: OWN_PLANNER, message: messageOf(error) });
   }
 }
 
@@ -86,6 +118,8 @@ function carryOut(message: ToTrials): Promise<void> | undefined {
       return;
     case 'ghosts':
       return ghosts(message);
+    case 'own':
+      return own(message);
     case 'seeds':
       batch = opened(message);
       return;

@@ -754,7 +754,7 @@ export type Activity = "driving" | "arrived" | "searching" | "stopped" | "backtr
  */
 export interface ThinkingWith {
     overrides: Overrides;
-    preset: PresetName;
+    preset: Preset;
     /**
      * The scenario's own without it.
      */

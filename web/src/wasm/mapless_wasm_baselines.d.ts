@@ -34,6 +34,21 @@ export interface RunnerOptions {
 }
 
 /**
+ * All that such a trial is begun with, on a ground.
+ */
+export interface GuestOptions {
+    /**
+     * The text of a scenario file, whose terrain is left unread.
+     */
+    scenario: string;
+    /**
+     * Set from the beginning.
+     */
+    overrides: Overrides;
+    seed: number;
+}
+
+/**
  * How a trial stands.
  */
 export interface TrialStatus {
@@ -81,6 +96,37 @@ export interface Metrics {
 export type OverrideValue = number | string | boolean | readonly (OverrideValue | Overrides)[];
 
 /**
+ * What the planner is asked on each scan, besides its points.
+ */
+export interface GuestQuestion {
+    time_s: number;
+    /**
+     * Since the last question.
+     */
+    elapsed_s: number;
+    /**
+     * As the robot believes.
+     */
+    pose: Pose;
+    /**
+     * The next waypoint, or the goal.
+     */
+    goal: GuestGoal;
+}
+
+/**
+ * What the planner is told once: the tables `sensor` and `robot` of scenario files.
+ */
+export interface GuestModel {
+    sensor: Readonly<Record<string, number>>;
+    robot: Readonly<Record<string, number>>;
+    /**
+     * The goal is reached within this distance.
+     */
+    goal_tolerance_m: number;
+}
+
+/**
  * Where a rate lies.
  */
 export interface Interval {
@@ -103,6 +149,18 @@ export interface Pose {
     yaw: number;
 }
 
+/**
+ * Where to.
+ */
+export interface GuestGoal {
+    x: number;
+    y: number;
+    /**
+     * The heading to end with; any where there is none.
+     */
+    heading_rad: number | undefined;
+}
+
 
 /**
  * The ground that trials run on, as the page has it now.
@@ -117,6 +175,66 @@ export class Ground {
      * Heights that make no field.
      */
     constructor(columns: number, rows: number, cell_m: number, heights_m: Float32Array | number[]);
+}
+
+/**
+ * One trial of somebody's own planner. Each tick is `look`, then `question`, `points` and `answer` if that
+ * gave true, then `act`.
+ */
+export class GuestRunner {
+    free(): void;
+    [Symbol.dispose](): void;
+    /**
+     * Drives on until the next scan; returns whether the trial goes on.
+     */
+    act(): boolean;
+    /**
+     * Takes the answer.
+     *
+     * # Errors
+     * Nothing is to be decided now, or the command is not finite.
+     */
+    answer(linear_m_s: number, angular_rad_s: number): void;
+    /**
+     * Digest of the trajectory so far.
+     */
+    digest(): string;
+    /**
+     * Takes a scan; returns whether there is something to decide.
+     */
+    look(): boolean;
+    /**
+     * Sensor and robot.
+     *
+     * # Errors
+     * None, unless JavaScript runs out of memory.
+     */
+    model(): GuestModel;
+    /**
+     * Puts the scenario's robot on the ground.
+     *
+     * # Errors
+     * A fault in the scenario or a value that makes no sense, with its place and what was expected.
+     */
+    constructor(ground: Ground, options: GuestOptions);
+    /**
+     * x, y, z of each return of the scan, in the sensor frame.
+     */
+    points(): Float32Array;
+    /**
+     * What is to be decided on.
+     *
+     * # Errors
+     * Nothing is to be decided now.
+     */
+    question(): GuestQuestion;
+    /**
+     * How the trial stands.
+     *
+     * # Errors
+     * None, unless JavaScript runs out of memory.
+     */
+    status(): TrialStatus;
 }
 
 /**
@@ -188,9 +306,19 @@ export type InitInput = RequestInfo | URL | Response | BufferSource | WebAssembl
 export interface InitOutput {
     readonly memory: WebAssembly.Memory;
     readonly __wbg_ground_free: (a: number, b: number) => void;
+    readonly __wbg_guestrunner_free: (a: number, b: number) => void;
     readonly __wbg_runner_free: (a: number, b: number) => void;
     readonly generated_task: (a: number, b: number) => [number, number, number];
     readonly ground_new: (a: number, b: number, c: number, d: number, e: number) => [number, number, number];
+    readonly guestrunner_act: (a: number) => number;
+    readonly guestrunner_answer: (a: number, b: number, c: number) => [number, number];
+    readonly guestrunner_digest: (a: number) => [number, number];
+    readonly guestrunner_look: (a: number) => number;
+    readonly guestrunner_model: (a: number) => [number, number, number];
+    readonly guestrunner_new: (a: number, b: any) => [number, number, number];
+    readonly guestrunner_points: (a: number) => [number, number];
+    readonly guestrunner_question: (a: number) => [number, number, number];
+    readonly guestrunner_status: (a: number) => [number, number, number];
     readonly mean_and_deviation: (a: number, b: number) => [number, number, number];
     readonly planners: () => [number, number];
     readonly runner_digest: (a: number) => [number, number];

@@ -23,6 +23,7 @@ const BARE_CELL_M: f64 = 1.0;
 #[derive(Debug, Deserialize, Tsify)]
 pub struct ThinkingWith {
     overrides: Overrides,
+    #[tsify(type = "Preset")]
     preset: PresetName,
     /// The scenario's own without it.
     #[tsify(optional)]

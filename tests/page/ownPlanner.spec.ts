@@ -1,0 +1,148 @@
+/** Somebody's own planner drives beside the robot of the page, and whatever is wrong with it harms nothing. */
+
+import { readFileSync } from 'node:fs';
+import type { Page } from '@playwright/test';
+import { DEVICES, faults } from './axe.ts';
+import { driveTo, expect, file, openLab, ownOf, shortCourse, state, test, until } from './page.ts';
+
+const tab = (page: Page) => page.getByRole('tabpanel', { name: 'Compare' });
+const card = (page: Page) => tab(page).locator('.own-planner');
+const fault = (page: Page) => card(page).getByRole('alert');
+const code = (page: Page) => tab(page).getByLabel('Your planner, in JavaScript');
+/** Of the planner alone; the robot in view has the first column. */
+const own = (page: Page, row: string) =>
+  tab(page)
+    .getByRole('row', { name: new RegExp(`^${row}`) })
+    .locator('td')
+    .last();
+
+async function open(page: Page, press: 'click' | 'tap' = 'click'): Promise<void> {
+  await openLab(page, 'Compare', press);
+  await card(page).getByRole('heading', { name: 'Your own planner' })[press]();
+}
+
+async function drive(page: Page, source: string, press: 'click' | 'tap' = 'click'): Promise<void> {
+  await code(page).fill(source);
+  await card(page).getByRole('button', { name: 'Drive it' })[press]();
+}
+
+/** Straight at the goal, with a line of its own in each decision. */
+const straight = (line: string) => `export default ({ pose, goal, time_s }) => {
+  ${line}
+  const bearing = Math.atan2(goal.y - pose.y, goal.x - pose.x) - pose.yaw;
+  return { linear_m_s: 0.8, angular_rad_s: Math.atan2(Math.sin(bearing), Math.cos(bearing)) };
+};`;
+
+const WASM = readFileSync('web/src/wasm/planner_template.wasm');
+
+for (const [device, options] of Object.entries(DEVICES)) {
+  test.describe(device, () => {
+    test.use(options);
+    const press = device === 'phone' ? 'tap' : 'click';
+
+    test('the example drives to the goal, by the same metrics', async ({ mapless: page }) => {
+      await shortCourse(page, 4);
+      await open(page, press);
+      await card(page).getByRole('button', { name: 'Drive it' })[press]();
+      await expect(tab(page).getByRole('checkbox', { name: /^Yours/ })).toBeChecked();
+      await page.evaluate(() => window.mapless?.play());
+      await until(page, (now) => now.outcome === 'reached');
+      await expect(own(page, 'Outcome')).toHaveText('Goal reached');
+      await expect(own(page, 'Distance')).toHaveText(/^3\.\d+ \([+-]?\d\.\d+\)$/);
+      await expect(card(page).getByRole('status')).toHaveText(/^planner\.js takes \d+\.\d ms for a decision\.$/);
+      expect(await faults(page)).toEqual([]);
+    });
+
+    test('what goes wrong in a decision is said with its time, and the run goes on', async ({ mapless: page }) => {
+      await shortCourse(page, 4);
+      await open(page, press);
+      for (const [line, said] of [
+        [
+          'if (time_s > 0.35) throw new RangeError("no way");',
+          /^planner\.js at 0\.4 s: RangeError: no way \(line 2\)$/,
+        ],
+        ['return { linear_m_s: 0 / 0, angular_rad_s: 0 };', /at 0\.0 s: linear_m_s = NaN: expected a finite number/],
+        ['return 7;', /at 0\.0 s: linear_m_s = absent: expected a finite number/],
+        ['return { linear_m_s: 1 };', /at 0\.0 s: angular_rad_s = absent: expected a finite number/],
+        ['return { linear_m_s: () => 1, angular_rad_s: 0 };', /at 0\.0 s: DataCloneError/],
+        ['for (;;);', /at 0\.0 s: a decision took longer than 5 s: it was stopped/],
+      ] as const) {
+        await drive(page, straight(line), press);
+        await page.evaluate(() => window.mapless?.restart());
+        await page.evaluate(() => window.mapless?.play());
+        await expect(fault(page)).toHaveText(said);
+        await until(page, (now) => now.outcome === 'reached');
+        await expect(own(page, 'Outcome')).toHaveText('Broke off');
+      }
+      await drive(page, straight(''), press);
+      await expect(own(page, 'Outcome')).toHaveText('Goal reached');
+      await expect(fault(page)).toBeHidden();
+    });
+  });
+}
+
+test('what is no planner is said, and code gets nowhere else', async ({ page, baseURL }) => {
+  await page.goto('/');
+  await page.waitForFunction(() => window.mapless?.state() !== undefined);
+  const fetched: string[] = [];
+  page.on('response', (response) => fetched.push(response.url()));
+  await shortCourse(page, 4);
+  await open(page);
+  for (const [source, said] of [
+    ['export const planner = 1;', /no default export: expected a class with decide\(\), or a function/],
+    ['export default (', /SyntaxError/],
+    ['for (;;);', /opening it took longer than 15 s/],
+    [`import "${baseURL}/favicon.svg?imported";`, /Failed to fetch/],
+    [`await fetch("${baseURL}/favicon.svg?fetched", { mode: "no-cors" });`, /TypeError: Failed to fetch/],
+    ['indexedDB.open("mapless");', /SecurityError/],
+    ['new Function("1")();', /EvalError/],
+  ] as const) {
+    await drive(page, source);
+    await expect(fault(page)).toHaveText(said);
+  }
+  expect(fetched.filter((url) => /\?(imported|fetched)$/.test(url))).toEqual([]);
+});
+
+test('the template in WebAssembly drives when it is dropped; what lacks a function or traps is said', async ({
+  mapless: page,
+}) => {
+  await shortCourse(page, 4);
+  const input = page.locator('#files');
+  await input.setInputFiles(file('template.wasm', WASM));
+  await expect(tab(page).getByRole('checkbox', { name: /^Yours/ })).toBeChecked();
+  await page.evaluate(() => window.mapless?.play());
+  await expect(own(page, 'Outcome')).toHaveText('Goal reached');
+  await expect(card(page).getByRole('status')).toHaveText(/^template\.wasm takes/);
+  await input.setInputFiles(file('empty.wasm', Buffer.from([0, 97, 115, 109, 1, 0, 0, 0])));
+  await expect(fault(page)).toHaveText(/^empty\.wasm .*no export points, decide, linear_m_s, angular_rad_s, memory/);
+  await input.setInputFiles(file('cut.wasm', WASM.subarray(0, 5000)));
+  await expect(fault(page)).toHaveText(/^cut\.wasm .*CompileError/);
+});
+
+test('links and files of the run say nothing of it; what was written is there at the next visit', async ({
+  mapless: page,
+}) => {
+  await shortCourse(page, 4);
+  const before = await page.evaluate(() => window.mapless?.link());
+  const experiment = await ownOf(page);
+  await page.keyboard.press('p');
+  await page.keyboard.press('ArrowRight');
+  await card(page).locator('summary').focus();
+  await page.keyboard.press('Enter');
+  await code(page).focus();
+  await page.keyboard.press('Control+A');
+  // With letters that are keys of the page elsewhere.
+  await page.keyboard.type('export default () => ({ linear_m_s: 0.5, angular_rad_s: 0 }); // grcdb');
+  await card(page).getByRole('button', { name: 'Drive it' }).focus();
+  await page.keyboard.press('Enter');
+  await page.evaluate(() => window.mapless?.play());
+  await driveTo(page, 20);
+  await expect(own(page, 'Time')).toHaveText(/^0:0[2-9]/);
+  expect(await page.evaluate(() => window.mapless?.link())).toBe(before);
+  expect(await ownOf(page)).toEqual(experiment);
+  expect((await state(page)).preset).toBe('default');
+  await page.reload();
+  await page.waitForFunction(() => window.mapless?.state() !== undefined);
+  await open(page);
+  await expect(code(page)).toHaveValue(/grcdb$/);
+});
