@@ -6,26 +6,13 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use mapless::glam::Vec3;
 use mapless::{Pose, Status};
+use mapless_robot::senses::{Arrival, Scan};
 use mapless_robot::supervisor::{Decision, Inputs, Proposal};
 
-use crate::messages::Time;
+use crate::messages::{self, Time};
 use crate::navigation::Task;
 use crate::slot::{Slot, lock};
-
-/// A scan for the planner.
-#[derive(Debug)]
-pub(crate) struct Scan {
-    /// When it arrived, on the clock of [`Hub::now`].
-    pub(crate) arrived: Duration,
-    /// Its stamp.
-    pub(crate) stamp: Time,
-    /// Its returns in the sensor frame, metres.
-    pub(crate) points_m: Vec<Vec3>,
-    /// The robot's pose for it.
-    pub(crate) pose: Pose,
-}
 
 /// What the planner last made of a scan.
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +85,12 @@ impl Hub {
 
     /// The stamp of what is sent now.
     pub(crate) fn stamp(&self) -> Time {
-        self.clock.as_ref().map_or_else(Time::now, |clock| *lock(clock))
+        self.clock.as_ref().map_or_else(messages::now, |clock| *lock(clock))
+    }
+
+    /// A message arrives now.
+    pub(crate) fn arrival(&self) -> Arrival {
+        Arrival { at: self.now(), clock_ns: self.stamp().nanoseconds() }
     }
 
     /// The simulation's clock says this.
@@ -106,13 +98,13 @@ impl Hub {
         if let Some(clock) = &self.clock {
             *lock(clock) = time;
         }
-        self.tell(|inputs| inputs.clock = u64::try_from(time.nanoseconds()).ok().map(Duration::from_nanos));
+        self.tell(|inputs| inputs.hear_clock(time));
     }
 
-    /// The localisation jumped: what the planner remembers of the ground lies elsewhere now.
+    /// The localisation jumped: what the planner remembers of the ground lies elsewhere now. The supervisor is
+    /// told by the message that showed it.
     pub(crate) fn jump(&self) {
         self.has_jumped.store(true, Ordering::Relaxed);
-        self.tell(|inputs| inputs.has_jumped = true);
     }
 
     /// Whether the localisation jumped since this was last asked.
@@ -137,17 +129,7 @@ impl Hub {
 
     /// What the supervisor was told since it last asked. Messages and events are told once; what is so stays.
     pub(crate) fn take_inputs(&self) -> Inputs {
-        let mut inputs = lock(&self.inputs);
-        let taken = *inputs;
-        *inputs = Inputs {
-            attitude_rad: taken.attitude_rad,
-            wheels_disagree: taken.wheels_disagree,
-            has_peer: taken.has_peer,
-            other_publishers: taken.other_publishers,
-            goal: taken.goal,
-            ..Inputs::default()
-        };
-        taken
+        lock(&self.inputs).take()
     }
 
     /// The supervisor's last decision; `None` before the first.
@@ -187,7 +169,7 @@ impl Hub {
     }
 
     /// Something is wrong with a message about `what`. It is logged now and then, and told in diagnostics.
-    pub(crate) fn complain(&self, what: &'static str, error: &impl Display) {
+    pub(crate) fn complain(&self, what: &'static str, error: &(impl Display + ?Sized)) {
         let (text, at) = (error.to_string(), self.now());
         let mut complaints = lock(&self.complaints);
         let last = complaints.get(what).map(|complaint| complaint.logged);

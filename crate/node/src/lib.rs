@@ -12,7 +12,6 @@
 
 pub mod config;
 mod diagnostics;
-mod frames;
 mod hub;
 pub mod messages;
 pub mod navigation;

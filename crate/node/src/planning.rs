@@ -1,28 +1,23 @@
 //! The planner's thread. A panic in it is a fault that the supervisor is told of.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-use mapless::{ConfigError, Planner, PlannerConfig, Status};
-use mapless_robot::supervisor::{Outcome, Proposal};
+use mapless::{ConfigError, PlannerConfig};
+use mapless_robot::pilot::Pilot;
+use mapless_robot::senses::Scan;
+use mapless_robot::supervisor::Outcome;
 use ros2_client::Publisher;
 
-use crate::hub::{Hub, Planned, Scan};
+use crate::hub::{Hub, Planned};
 use crate::messages::{Header, TwistStamped, Vector3};
-use crate::navigation::Task;
 use crate::picture::Picture;
 
 /// How long a wait for a scan may be, so that the end of the node is noticed.
 const WAIT: Duration = Duration::from_millis(100);
 
-/// The planner, and what it remembers of the goal.
+/// The planner, and who hears of its answers.
 pub(crate) struct Planning {
-    config: PlannerConfig,
-    planner: Planner,
-    task: Option<u64>,
-    stepped: Option<Duration>,
-    status: Option<Status>,
-    recoveries: i16,
+    pilot: Pilot,
     decisions: Publisher<TwistStamped>,
     picture: Picture,
 }
@@ -34,71 +29,30 @@ impl Planning {
         decisions: Publisher<TwistStamped>,
         picture: Picture,
     ) -> Result<Self, ConfigError> {
-        let planner = Planner::new(config.clone())?;
-        Ok(Self {
-            config,
-            planner,
-            task: None,
-            stepped: None,
-            status: None,
-            recoveries: 0,
-            decisions,
-            picture,
-        })
+        Ok(Self { pilot: Pilot::new(config)?, decisions, picture })
     }
 
     /// Answers scans until the node ends.
     pub(crate) fn run(mut self, hub: &Hub) {
         while !hub.is_ending() {
             let Some(scan) = hub.scan.take(WAIT) else { continue };
-            let Some(task) = hub.task() else {
-                self.task = None;
-                continue;
-            };
-            // The planner is made anew after a panic: half a step may have been done.
-            let step = catch_unwind(AssertUnwindSafe(|| self.step(hub, &scan, task)));
-            let outcome = step.unwrap_or_else(|_| {
-                log::error!("the planner panicked");
-                self.task = None;
-                match Planner::new(self.config.clone()) {
-                    Ok(planner) => self.planner = planner,
-                    Err(error) => log::error!("the planner cannot be made anew: {error}"),
+            let Some(task) = hub.task() else { continue };
+            let has_jumped = hub.take_jump();
+            let began = Instant::now();
+            let picture = &self.picture;
+            let answer = self.pilot.answer(&scan, task, has_jumped, |step, recoveries| {
+                let took = began.elapsed();
+                hub.plan(Planned { goal: task.number, status: step.status, recoveries, took });
+                if let Some(poses) = hub.poses() {
+                    picture.publish(step, poses, scan.stamp);
                 }
-                Outcome::Panicked
             });
-            hub.proposal.put(Proposal { goal: task.number, scan_arrived: scan.arrived, outcome });
-            self.publish(&scan, outcome);
+            if answer.proposal.outcome == Outcome::Panicked {
+                log::error!("the planner panicked");
+            }
+            hub.proposal.put(answer.proposal);
+            self.publish(&scan, answer.proposal.outcome);
         }
-    }
-
-    fn step(&mut self, hub: &Hub, scan: &Scan, task: Task) -> Outcome {
-        if hub.take_jump() {
-            self.planner.reset();
-            self.task = None;
-        }
-        if self.task != Some(task.number) {
-            self.planner.set_goal(task.goal);
-            (self.task, self.status, self.recoveries) = (Some(task.number), None, 0);
-        }
-        let began = Instant::now();
-        let elapsed = self.stepped.map_or(Duration::ZERO, |stepped| scan.arrived.saturating_sub(stepped));
-        self.stepped = Some(scan.arrived);
-        let step = self.planner.step(&scan.points_m, &scan.pose, elapsed);
-        let recovers = |status| matches!(status, Status::Backtracking | Status::Searching);
-        if recovers(step.status) && !self.status.is_some_and(recovers) {
-            self.recoveries = self.recoveries.saturating_add(1);
-        }
-        self.status = Some(step.status);
-        hub.plan(Planned {
-            goal: task.number,
-            status: step.status,
-            recoveries: self.recoveries,
-            took: began.elapsed(),
-        });
-        if let Some(poses) = hub.poses() {
-            self.picture.publish(&step, poses, scan.stamp);
-        }
-        Outcome::from(&step)
     }
 
     /// One answer to each scan, with the scan's stamp: what the planner proposed, before any limit.

@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use mapless_parameters::ConfigError;
-use mapless_robot::estimator::Estimator;
 use mapless_robot::supervisor::Supervisor;
 use ros2_client::NodeName;
 
@@ -57,7 +56,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     let hub = Hub::new(config.use_sim_time);
     let service = Service::default();
     let supervisor = Supervisor::new(config.supervisor)?;
-    let estimator = Estimator::new(config.estimator, config.imu.base_from_imu())?;
+    let senses = Senses::new(config.drive().senses()?);
 
     let mut entities = Entities::join(config)?;
     let spin = Spin::start(&mut entities.node)?;
@@ -77,7 +76,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             published_qos(),
         )?,
         presence: Presence::on(&config.topics.cmd_vel, &name, commands.gid())?,
-        senses: Senses::new(estimator, config.frames.clone(), config.planner.sensor),
+        senses,
         navigation: Navigation::new(Duration::from_secs_f64(config.navigation.timeout_s)),
         diagnosed: Duration::ZERO,
         fed_back: Duration::ZERO,

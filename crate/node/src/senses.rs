@@ -1,191 +1,52 @@
-//! Messages of sensors as estimator, planner and supervisor take them.
+//! Messages of sensors on their way to estimator, planner and supervisor.
 
-use std::hash::{DefaultHasher, Hasher};
-use std::time::Duration;
+use mapless_robot::senses::{Heard, Senses as Meanings};
 
-use mapless::glam::DVec3;
-use mapless::{Pose, SensorModel};
-use mapless_robot::cloud::{self, CloudError, Field, PointCloud, Returns, ViewError, check_view};
-use mapless_robot::deskew::deskew;
-use mapless_robot::estimator::{self, Estimator, ReadingError};
-use mapless_robot::supervisor::Message;
-
-use crate::config::Frames;
-use crate::hub::{Hub, Scan};
-use crate::messages::{Header, Imu, Odometry, PointCloud2, Vector3};
-
-/// Half a turn of a sensor that turns at 10 Hz.
-const HALF_SWEEP: Duration = Duration::from_millis(50);
-
-/// Why a message was not used.
-#[derive(Debug, thiserror::Error)]
-pub(crate) enum Unusable {
-    #[error("frame {found:?}: expected {expected:?}")]
-    Frame { found: String, expected: String },
-    #[error(transparent)]
-    Reading(#[from] ReadingError),
-    #[error(transparent)]
-    Cloud(#[from] CloudError),
-    #[error(transparent)]
-    View(#[from] ViewError),
-}
+use crate::hub::Hub;
+use crate::messages::{Imu, Odometry, PointCloud2};
 
 /// Follows the robot's pose, and tells supervisor and planner of every message.
 pub(crate) struct Senses {
-    estimator: Estimator,
-    frames: Frames,
-    sensor: SensorModel,
-}
-
-fn vector(vector: Vector3) -> DVec3 {
-    DVec3::new(vector.x, vector.y, vector.z)
+    meanings: Meanings,
 }
 
 impl Senses {
-    pub(crate) fn new(estimator: Estimator, frames: Frames, sensor: SensorModel) -> Self {
-        Self { estimator, frames, sensor }
+    pub(crate) fn new(meanings: Meanings) -> Self {
+        Self { meanings }
     }
 
     /// Takes a scan: to the planner, if it can be used and the pose is known.
     pub(crate) fn take_scan(&mut self, hub: &Hub, cloud: &PointCloud2) {
-        let arrived = hub.now();
-        let returns =
-            in_frame(&cloud.header.frame_id, &self.frames.scan).and_then(|()| returns(cloud, &self.sensor));
-        let mut content = DefaultHasher::new();
-        content.write(&cloud.data);
-        let message = message(hub, arrived, &cloud.header, content, &returns, "scan");
-        hub.tell(|inputs| inputs.scan = Some(message));
-        if let Ok(mut returns) = returns
-            && let Some(pose) = self.placed(hub, &mut returns, arrived)
-        {
-            hub.scan.put(Scan { arrived, stamp: cloud.header.stamp, points_m: returns.points_m, pose });
-        }
-    }
-
-    /// The pose for a scan that arrived now: of the end of the sweep, once its points are corrected for
-    /// motion since; of its middle, if they have no times. Sensors' clocks lie, so a sweep ends when it
-    /// arrives.
-    fn placed(&self, hub: &Hub, returns: &mut Returns, arrived: Duration) -> Option<Pose> {
-        let trajectory = self.estimator.trajectory();
-        if let Some(times_s) = &returns.since_stamp_s {
-            let end_s = times_s.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let until_end_s: Vec<f64> = times_s.iter().map(|time_s| time_s - end_s).collect();
-            match deskew(&mut returns.points_m, &until_end_s, arrived, trajectory, &self.sensor) {
-                Ok(pose) => return Some(pose),
-                Err(error) => hub.complain("motion compensation", &error),
-            }
-        }
-        arrived.checked_sub(HALF_SWEEP).and_then(|at| trajectory.pose_at(at)).or(self.estimator.pose())
+        let heard = self.meanings.take_scan(hub.arrival(), cloud);
+        hear(hub, heard);
     }
 
     /// Takes odometry.
     pub(crate) fn take_odometry(&mut self, hub: &Hub, odometry: &Odometry) {
-        let arrived = hub.now();
-        let (pose, twist) = (&odometry.pose, &odometry.twist.twist);
-        let reading = estimator::Odometry {
-            at: arrived,
-            position_m: vector(pose.pose.position),
-            orientation: pose.pose.orientation.to_glam(),
-            variances: std::array::from_fn(|axis| pose.covariance[axis][axis]),
-            linear_m_s: vector(twist.linear),
-            angular_rad_s: vector(twist.angular),
-        };
-        let taken = in_frame(&odometry.header.frame_id, &self.frames.odom)
-            .and_then(|()| in_frame(&odometry.child_frame_id, &self.frames.base))
-            .and_then(|()| Ok(self.estimator.take_odometry(&reading)?));
-        let mut content = DefaultHasher::new();
-        hash(&mut content, &reading.position_m.to_array());
-        hash(&mut content, &reading.orientation.to_array());
-        hash(&mut content, &[twist.linear.x, twist.angular.z]);
-        let message = message(hub, arrived, &odometry.header, content, &taken, "odometry");
-        if let Ok(Some(jump)) = taken {
-            log::warn!("the odometry jumped from {} to {}", jump.before.position_m, jump.after.position_m);
-            hub.jump();
-        }
-        let wheels_disagree = self.estimator.wheels_disagree();
-        hub.tell(|inputs| {
-            inputs.odometry = Some(message);
-            inputs.wheels_disagree = wheels_disagree;
-        });
-        if let (true, Some(believed)) = (message.is_well_formed, self.estimator.pose()) {
-            let told = Pose::from_quaternion(reading.position_m, reading.orientation);
-            hub.set_poses(believed, told);
-        }
+        let heard = self.meanings.take_odometry(hub.arrival(), odometry);
+        hear(hub, heard);
     }
 
     /// Takes a message of the IMU.
     pub(crate) fn take_imu(&mut self, hub: &Hub, imu: &Imu) {
-        let arrived = hub.now();
-        let reading = estimator::Imu {
-            at: arrived,
-            orientation: imu.orientation.to_glam(),
-            orientation_variance: imu.orientation_covariance[0],
-            angular_rad_s: vector(imu.angular_velocity),
-        };
-        let taken = in_frame(&imu.header.frame_id, &self.frames.imu)
-            .and_then(|()| Ok(self.estimator.take_imu(&reading)?));
-        let mut content = DefaultHasher::new();
-        hash(&mut content, &reading.orientation.to_array());
-        hash(&mut content, &reading.angular_rad_s.to_array());
-        hash(&mut content, &vector(imu.linear_acceleration).to_array());
-        let message = message(hub, arrived, &imu.header, content, &taken, "IMU");
-        let attitude_rad = self.estimator.attitude_rad();
-        hub.tell(|inputs| {
-            inputs.imu = Some(message);
-            inputs.attitude_rad = attitude_rad;
-        });
+        let heard = self.meanings.take_imu(hub.arrival(), imu);
+        hear(hub, heard);
     }
 }
 
-fn in_frame(found: &str, expected: &str) -> Result<(), Unusable> {
-    if found == expected {
-        return Ok(());
+fn hear(hub: &Hub, heard: Heard) {
+    for (what, complaint) in &heard.complaints {
+        hub.complain(what, complaint);
     }
-    Err(Unusable::Frame { found: found.to_owned(), expected: expected.to_owned() })
-}
-
-fn hash(content: &mut DefaultHasher, numbers: &[f64]) {
-    numbers.iter().for_each(|number| content.write_u64(number.to_bits()));
-}
-
-/// What the supervisor is told of a message.
-fn message<T>(
-    hub: &Hub,
-    arrived: Duration,
-    header: &Header,
-    content: DefaultHasher,
-    taken: &Result<T, Unusable>,
-    what: &'static str,
-) -> Message {
-    if let Err(error) = taken {
-        hub.complain(what, error);
+    if let Some(jump) = heard.jump {
+        log::warn!("the odometry jumped from {} to {}", jump.before.position_m, jump.after.position_m);
+        hub.jump();
     }
-    Message {
-        arrived,
-        clock_ns: hub.stamp().nanoseconds(),
-        stamp_ns: header.stamp.nanoseconds(),
-        fingerprint: content.finish(),
-        is_well_formed: taken.is_ok(),
+    hub.tell(|inputs| heard.tell(inputs));
+    if let Some([believed, told]) = heard.poses {
+        hub.set_poses(believed, told);
     }
-}
-
-/// The returns of a cloud, if it looks like one of the sensor.
-fn returns(cloud: &PointCloud2, sensor: &SensorModel) -> Result<Returns, Unusable> {
-    let fields: Vec<Field> = cloud
-        .fields
-        .iter()
-        .map(|field| Field { name: field.name.clone(), offset: field.offset, datatype: field.datatype })
-        .collect();
-    let returns = cloud::read(&PointCloud {
-        height: cloud.height,
-        width: cloud.width,
-        fields: &fields,
-        is_big_endian: cloud.is_bigendian,
-        point_step: cloud.point_step,
-        row_step: cloud.row_step,
-        data: &cloud.data,
-        stamp_ns: cloud.header.stamp.nanoseconds(),
-    })?;
-    check_view(&returns.points_m, sensor)?;
-    Ok(returns)
+    if let Some(scan) = heard.scan {
+        hub.scan.put(scan);
+    }
 }

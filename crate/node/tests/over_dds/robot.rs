@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use mapless_node::messages::{
-    Bool, Header, Imu, Odometry, PointCloud2, PointField, Quaternion, Time, Twist, TwistStamped,
+    Bool, Header, Imu, Odometry, PointCloud2, PointField, Quaternion, Twist, TwistStamped, now,
 };
 use ros2_client::{MessageTypeName, Name, Node, Publisher, QosProfile, Subscription};
 use serde::Serialize;
@@ -140,7 +140,7 @@ fn go(state: &Mutex<State>, sensors: &Sensors) {
 }
 
 fn header(frame_id: &str) -> Header {
-    Header { stamp: Time::now(), frame_id: frame_id.to_owned() }
+    Header { stamp: now(), frame_id: frame_id.to_owned() }
 }
 
 fn imu(state: &State, noise: f64) -> Imu {
