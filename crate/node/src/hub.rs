@@ -7,11 +7,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use mapless::{Pose, Status};
+use mapless_recording::{Content, Entry, GoalMessage, TickMessage};
 use mapless_robot::senses::{Arrival, Scan};
-use mapless_robot::supervisor::{Decision, Inputs, Proposal};
+use mapless_robot::supervisor::{Decision, Inputs, Proposal, Supervisor};
 
-use crate::messages::{self, Time};
+use crate::messages::{self, Clock, Time};
 use crate::navigation::Task;
+use crate::recording::Recorder;
 use crate::slot::{Slot, lock};
 
 /// What the planner last made of a scan.
@@ -57,6 +59,8 @@ pub(crate) struct Hub {
     /// The pose that the estimator believes, and that of the last odometry.
     poses: Mutex<Option<[Pose; 2]>>,
     complaints: Mutex<BTreeMap<&'static str, Complaint>>,
+    /// Where everything is left that a replay needs, in the order in which it takes effect.
+    pub(crate) recorder: Option<Recorder>,
 }
 
 impl Hub {
@@ -75,12 +79,19 @@ impl Hub {
             task: Mutex::default(),
             poses: Mutex::default(),
             complaints: Mutex::default(),
+            recorder: None,
         }
     }
 
     /// Monotonic time since the node began; nothing else measures ages.
     pub(crate) fn now(&self) -> Duration {
         self.began.elapsed()
+    }
+
+    /// When the node began, on the system's clock, nanoseconds.
+    pub(crate) fn began_ns(&self) -> u64 {
+        let now_ns = u64::try_from(messages::now().nanoseconds()).unwrap_or(0);
+        now_ns.saturating_sub(u64::try_from(self.now().as_nanos()).unwrap_or(0))
     }
 
     /// The stamp of what is sent now.
@@ -98,7 +109,8 @@ impl Hub {
         if let Some(clock) = &self.clock {
             *lock(clock) = time;
         }
-        self.tell(|inputs| inputs.hear_clock(time));
+        let told = || Content::Clock(Clock { clock: time });
+        self.tell_of(self.arrival(), told, |inputs| inputs.hear_clock(time));
     }
 
     /// The localisation jumped: what the planner remembers of the ground lies elsewhere now. The supervisor is
@@ -127,9 +139,45 @@ impl Hub {
         change(&mut lock(&self.inputs));
     }
 
-    /// What the supervisor was told since it last asked. Messages and events are told once; what is so stays.
-    pub(crate) fn take_inputs(&self) -> Inputs {
-        lock(&self.inputs).take()
+    /// Tells the supervisor something that is recorded.
+    pub(crate) fn tell_of(
+        &self,
+        arrival: Arrival,
+        content: impl FnOnce() -> Content,
+        change: impl FnOnce(&mut Inputs),
+    ) {
+        let entry = self.recorder.as_ref().map(|recorder| (recorder, Entry { arrival, content: content() }));
+        let mut inputs = lock(&self.inputs);
+        change(&mut inputs);
+        if let Some((recorder, entry)) = entry {
+            recorder.record(entry);
+        }
+    }
+
+    /// Records something that the supervisor is not told.
+    pub(crate) fn record(&self, content: impl FnOnce() -> Content) {
+        if let Some(recorder) = &self.recorder {
+            recorder.record(Entry { arrival: self.arrival(), content: content() });
+        }
+    }
+
+    /// A tick of the supervisor with what it was told since the last one.
+    pub(crate) fn tick(
+        &self,
+        now: Duration,
+        supervisor: &mut Supervisor,
+        proposal: Option<&Proposal>,
+    ) -> Decision {
+        let arrival = Arrival { at: now, clock_ns: self.stamp().nanoseconds() };
+        // Nothing is told in between, so a replay knows what was told before.
+        let mut inputs = lock(&self.inputs);
+        let taken = inputs.take();
+        let decision = supervisor.tick(now, &taken, proposal);
+        if let Some(recorder) = &self.recorder {
+            let content = Content::Tick(TickMessage::new(&taken, proposal, &decision));
+            recorder.record(Entry { arrival, content });
+        }
+        decision
     }
 
     /// The supervisor's last decision; `None` before the first.
@@ -195,8 +243,12 @@ impl Hub {
 
     /// Sets or ends the goal in service, for planner and supervisor alike.
     pub(crate) fn set_task(&self, task: Option<Task>) {
+        if self.task() == task {
+            return;
+        }
+        let told = || Content::Goal(GoalMessage::new(task.as_ref()));
+        self.tell_of(self.arrival(), told, |inputs| inputs.goal = task.map(|task| task.number));
         *lock(&self.task) = task;
-        self.tell(|inputs| inputs.goal = task.map(|task| task.number));
     }
 }
 
@@ -215,9 +267,9 @@ mod tests {
             inputs.emergency_stop = Some(true);
             inputs.wheels_disagree = true;
         });
-        let told = hub.take_inputs();
+        let told = lock(&hub.inputs).take();
         assert!(told.has_jumped && told.reset && told.publish_failed && told.emergency_stop == Some(true));
-        let later = hub.take_inputs();
+        let later = lock(&hub.inputs).take();
         assert!(!later.has_jumped && !later.reset && !later.publish_failed && later.emergency_stop.is_none());
         assert!(later.has_peer && later.other_publishers == 2 && later.attitude_rad == Some([0.1, 0.2]));
         assert!(later.wheels_disagree, "the estimator finds so until its next word");

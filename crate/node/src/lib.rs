@@ -9,6 +9,7 @@
 //! | planner | answers each scan; a panic is a fault |
 //! | supervisor | at 50 Hz, and at once when the planner answers; it alone publishes commands |
 //! | spin | follows who is on the network |
+//! | recording | writes what the others leave for it, if the file asks for a recording |
 
 pub mod config;
 mod diagnostics;
@@ -18,6 +19,7 @@ pub mod navigation;
 mod picture;
 mod planning;
 mod receiving;
+mod recording;
 mod ros;
 mod run;
 mod senses;

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use mapless::{ConfigError, PlannerConfig};
+use mapless_recording::{AnswerMessage, Content};
 use mapless_robot::pilot::Pilot;
 use mapless_robot::senses::Scan;
 use mapless_robot::supervisor::Outcome;
@@ -50,6 +51,8 @@ impl Planning {
             if answer.proposal.outcome == Outcome::Panicked {
                 log::error!("the planner panicked");
             }
+            // Before it is put: the supervisor's tick that takes it is recorded later.
+            hub.record(|| Content::Answer(AnswerMessage::new(&answer, has_jumped)));
             hub.proposal.put(answer.proposal);
             self.publish(&scan, answer.proposal.outcome);
         }

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use mapless::Goal;
 use mapless::glam::DVec3;
+use mapless_recording::Content;
 use mapless_robot::navigation::{End, Outcome, code, goal_of};
 use ros2_client::{Publisher, Subscription};
 use serde::de::DeserializeOwned;
@@ -57,9 +58,12 @@ impl Receiving<'_> {
             each(hub, clock, "clock", |message| hub.set_clock(message.clock));
         }
         each(hub, &incoming.emergency_stop, "emergency stop", |message| {
-            hub.tell(|inputs| inputs.hear_emergency_stop(message.data));
+            let told = || Content::EmergencyStop(message);
+            hub.tell_of(hub.arrival(), told, |inputs| inputs.hear_emergency_stop(message.data));
         });
-        each(hub, &incoming.reset, "reset", |message| hub.tell(|inputs| inputs.reset |= message.data));
+        each(hub, &incoming.reset, "reset", |message| {
+            hub.tell_of(hub.arrival(), || Content::Reset(message), |inputs| inputs.reset |= message.data);
+        });
         each(hub, &incoming.imu, "IMU", |message| senses.take_imu(hub, &message));
         each(hub, &incoming.odometry, "odometry", |message| senses.take_odometry(hub, &message));
         each(hub, &incoming.scan, "scan", |message| senses.take_scan(hub, &message));
@@ -86,6 +90,7 @@ impl Receiving<'_> {
         let mut poses = Vec::new();
         each(self.hub, &self.incoming.goal_pose, "goal", |pose| poses.push(pose));
         for pose in poses {
+            self.hub.record(|| Content::GoalPose(pose.clone()));
             match self.goal(&pose) {
                 Ok(goal) => {
                     let before = self.navigation.accept(goal, None, self.hub.now());

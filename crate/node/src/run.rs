@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use mapless_parameters::ConfigError;
+use mapless_recording::Head;
 use mapless_robot::supervisor::Supervisor;
 use ros2_client::NodeName;
 
@@ -14,6 +15,7 @@ use crate::navigation::Navigation;
 use crate::picture::Picture;
 use crate::planning::Planning;
 use crate::receiving::Receiving;
+use crate::recording::{Recorder, record};
 use crate::ros::{ActionServer, Alive, Entities, Presence, RosError, Spin, making, published_qos};
 use crate::senses::Senses;
 use crate::service::Service;
@@ -53,7 +55,15 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     for number in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
         signal_hook::flag::register_usize(number, Arc::clone(&signal), 1)?;
     }
-    let hub = Hub::new(config.use_sim_time);
+    let mut hub = Hub::new(config.use_sim_time);
+    let recording = config.recording.as_ref().map(|recording| {
+        let (recorder, waiting) = Recorder::new();
+        hub.recorder = Some(recorder);
+        let head =
+            Head { began_ns: hub.began_ns(), config: config.drive(), topics: config.recorded_topics() };
+        (recording, head, waiting)
+    });
+    let hub = hub;
     let service = Service::default();
     let supervisor = Supervisor::new(config.supervisor)?;
     let senses = Senses::new(config.drive().senses()?);
@@ -86,6 +96,10 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     log::info!("{}/{} has begun in domain {}", config.namespace, config.node_name, config.domain_id);
 
     let ended = std::thread::scope(|scope| {
+        let recording = recording.map(|(config, head, waiting)| {
+            let hub = &hub;
+            scope.spawn(move || record(hub, config, &head, waiting))
+        });
         let threads = [
             ("supervisor", scope.spawn(|| supervise(&hub, supervisor, &commands, &service))),
             ("planner", scope.spawn(|| planning.run(&hub))),
@@ -100,6 +114,10 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             is_whole = alive.is_whole();
         }
         hub.end();
+        // Whatever became of it, the robot was driven.
+        if recording.is_some_and(|recording| recording.join().is_err()) {
+            log::error!("the recording panicked");
+        }
         let joined = threads.map(|(name, thread)| thread.join().map_err(|_| RunError::Panicked(name)));
         joined.into_iter().collect::<Result<(), RunError>>()?;
         if is_whole { Ok(()) } else { Err(RunError::MiddlewareEnded) }

@@ -1,6 +1,7 @@
 //! Messages of sensors on their way to estimator, planner and supervisor.
 
-use mapless_robot::senses::{Heard, Senses as Meanings};
+use mapless_recording::Content;
+use mapless_robot::senses::{Arrival, Heard, Senses as Meanings};
 
 use crate::hub::Hub;
 use crate::messages::{Imu, Odometry, PointCloud2};
@@ -17,24 +18,27 @@ impl Senses {
 
     /// Takes a scan: to the planner, if it can be used and the pose is known.
     pub(crate) fn take_scan(&mut self, hub: &Hub, cloud: &PointCloud2) {
-        let heard = self.meanings.take_scan(hub.arrival(), cloud);
-        hear(hub, heard);
+        let arrival = hub.arrival();
+        let heard = self.meanings.take_scan(arrival, cloud);
+        hear(hub, arrival, heard, || Content::Scan(cloud.clone()));
     }
 
     /// Takes odometry.
     pub(crate) fn take_odometry(&mut self, hub: &Hub, odometry: &Odometry) {
-        let heard = self.meanings.take_odometry(hub.arrival(), odometry);
-        hear(hub, heard);
+        let arrival = hub.arrival();
+        let heard = self.meanings.take_odometry(arrival, odometry);
+        hear(hub, arrival, heard, || Content::Odometry(Box::new(odometry.clone())));
     }
 
     /// Takes a message of the IMU.
     pub(crate) fn take_imu(&mut self, hub: &Hub, imu: &Imu) {
-        let heard = self.meanings.take_imu(hub.arrival(), imu);
-        hear(hub, heard);
+        let arrival = hub.arrival();
+        let heard = self.meanings.take_imu(arrival, imu);
+        hear(hub, arrival, heard, || Content::Imu(Box::new(imu.clone())));
     }
 }
 
-fn hear(hub: &Hub, heard: Heard) {
+fn hear(hub: &Hub, arrival: Arrival, heard: Heard, content: impl FnOnce() -> Content) {
     for (what, complaint) in &heard.complaints {
         hub.complain(what, complaint);
     }
@@ -42,7 +46,7 @@ fn hear(hub: &Hub, heard: Heard) {
         log::warn!("the odometry jumped from {} to {}", jump.before.position_m, jump.after.position_m);
         hub.jump();
     }
-    hub.tell(|inputs| heard.tell(inputs));
+    hub.tell_of(arrival, content, |inputs| heard.tell(inputs));
     if let Some([believed, told]) = heard.poses {
         hub.set_poses(believed, told);
     }

@@ -76,8 +76,7 @@ pub(crate) fn supervise(
             // After a pause of the process, ticks that were missed are not made up for.
             due = (due + PERIOD).max(now);
         }
-        let inputs = hub.take_inputs();
-        let decision = supervisor.tick(now, &inputs, proposal.as_ref());
+        let decision = hub.tick(now, &mut supervisor, proposal.as_ref());
         match publisher.publish(decision.command, hub.stamp()) {
             Ok(()) => service.fed(),
             Err(error) => {

@@ -1,6 +1,7 @@
 //! The node's configuration: one file in the form of ROS 2's parameter files.
 
 mod merge;
+mod recording;
 mod sections;
 mod topics;
 mod yaml;
@@ -21,6 +22,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use merge::merged;
+pub use recording::RecordingConfig;
 pub use sections::{Frames, ImuMount, NavigationConfig, PlannerPreset, RobotPreset};
 pub use topics::{CommandType, Distro, Reliability, Topics};
 pub use yaml::ConfigFileError;
@@ -61,6 +63,8 @@ pub struct NodeConfig {
     pub planner: PlannerConfig,
     /// Limits of the supervisor.
     pub supervisor: SupervisorConfig,
+    /// Where drives are recorded, if they are.
+    pub recording: Option<RecordingConfig>,
 }
 
 /// A parameter file.
@@ -109,6 +113,7 @@ struct Parameters {
     navigation: NavigationConfig,
     #[serde(default)]
     supervisor: SupervisorConfig,
+    recording: Option<RecordingConfig>,
     #[serde(default, rename = "robot")]
     _robot: RobotModel,
     #[serde(default, rename = "sensor")]
@@ -198,6 +203,9 @@ impl NodeConfig {
         checked(&yaml, given.imu.validate("imu"))?;
         checked(&yaml, given.estimator.validate("estimator"))?;
         checked(&yaml, given.navigation.validate("navigation"))?;
+        if let Some(recording) = &given.recording {
+            checked(&yaml, recording.validate())?;
+        }
         let planner = planner_config(&yaml, &given)?;
         let supervisor = supervisor_config(&yaml, &given, &planner.robot)?;
         let by_distro = match given.distro {
@@ -218,6 +226,7 @@ impl NodeConfig {
             navigation: given.navigation,
             planner,
             supervisor,
+            recording: given.recording,
         })
     }
 }

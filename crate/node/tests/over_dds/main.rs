@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use mapless_node::config::NodeConfig;
 use mapless_node::messages::{Feedback, Header, NavigateGoal, NavigateResult, Point, Pose, PoseStamped};
 use mapless_node::navigation::code;
+use mapless_recording::{Options, replay};
 use robot::Robot;
 use ros2_client::action::{ActionClient, ActionClientQosPolicies, GoalId, GoalStatusEnum};
 use ros2_client::dds::ServiceMapping;
@@ -110,7 +111,9 @@ fn a_robot_is_driven_by_the_action_and_stopped() {
     let text = text.replace("domain_id: 0", &format!("domain_id: {domain_id}"));
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("robot.yaml");
-    std::fs::write(&file, text).unwrap();
+    let drives = folder.path().join("drives");
+    let recording = format!("    recording:\n      folder: {}\n", drives.display());
+    std::fs::write(&file, text + &recording).unwrap();
     NodeConfig::open(&file).unwrap();
     let mut process = Process(Command::new(env!("CARGO_BIN_EXE_mapless-node")).arg(&file).spawn().unwrap());
     let robot = Robot::start(peer(domain_id, "robot"));
@@ -172,4 +175,15 @@ fn a_robot_is_driven_by_the_action_and_stopped() {
     assert!(Command::new("kill").arg(&id).status().unwrap().success());
     let status = until(Duration::from_secs(10), || process.0.try_wait().unwrap()).expect("it does not end");
     assert!(status.success() && !robot.is_driven());
+
+    // The whole drive was recorded, and is decided again to the bit.
+    let recorded: Vec<_> = std::fs::read_dir(&drives).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(recorded.len(), 1);
+    let mut news = Vec::new();
+    let bytes = std::fs::File::open(&recorded[0]).unwrap();
+    let report = replay(bytes, &Options::default(), |told| news.push(format!("{told:?}"))).unwrap();
+    assert!(report.ticks > 500 && report.answers > 20 && !report.is_cut, "{report:?}");
+    assert_eq!((report.different_ticks, report.different_answers, report.lost), (0, 0, 0), "{news:#?}");
+    assert_eq!(report.recorded_digest.as_ref(), Some(&report.digest));
+    assert!(news.iter().any(|told| told.contains("tilted")), "{news:#?}");
 }
