@@ -113,8 +113,8 @@ impl Hub {
         self.tell_of(self.arrival(), told, |inputs| inputs.hear_clock(time));
     }
 
-    /// The localisation jumped: what the planner remembers of the ground lies elsewhere now. The supervisor is
-    /// told by the message that showed it.
+    /// The localisation jumped: what the planner remembers of the ground lies elsewhere now. The supervisor
+    /// is told by the message that showed it.
     pub(crate) fn jump(&self) {
         self.has_jumped.store(true, Ordering::Relaxed);
     }

@@ -21,7 +21,7 @@ pub enum Fault {
     Io(#[from] std::io::Error),
     /// It is no MCAP file, or a broken one.
     #[error("{0}: expected an MCAP file")]
-    Mcap(#[from] mcap::McapError),
+    Mcap(#[source] mcap::McapError),
     /// A message cannot be decoded.
     #[error("{topic}: {error}: expected {expected} in CDR")]
     Message {
@@ -43,14 +43,16 @@ pub enum Fault {
         expected: &'static str,
     },
     /// Two topics could be the same.
-    #[error("{} and {} are both {schema}: expected one of them to be named, as --topic {role}={}", topics[0], topics[1], topics[0])]
+    #[error("{first} and {second} are both {schema}: expected one to be named, as --topic {role}={first}")]
     Ambiguous {
         /// What they could be.
         role: &'static str,
         /// The type of both.
         schema: &'static str,
-        /// The topics.
-        topics: [String; 2],
+        /// A topic.
+        first: String,
+        /// Another topic.
+        second: String,
     },
     /// A topic that was named is not there.
     #[error("topic {topic} for {role} is not in the file")]
@@ -90,4 +92,13 @@ pub enum Fault {
         /// What is wrong with it.
         error: String,
     },
+}
+
+impl From<mcap::McapError> for Fault {
+    fn from(error: mcap::McapError) -> Self {
+        match error {
+            mcap::McapError::Io(error) => Self::Io(error),
+            error => Self::Mcap(error),
+        }
+    }
 }

@@ -5,10 +5,10 @@
 //! stand in the order in which they took effect, so a replay in that order makes the same decisions, to the
 //! bit, on every target.
 //!
-//! - [`Writer`] writes a recording, [`Reader`] reads one, or a `rosbag2` MCAP of a robot, compressed or not, up
-//!   to where the file ends.
-//! - [`replay()`] drives estimator, motion compensation, supervisor and planner with it, and tells where their
-//!   decisions differ from those that were recorded.
+//! - [`Writer`] writes a recording, [`Reader`] reads one, or a `rosbag2` MCAP of a robot, compressed or not,
+//!   up to where the file ends.
+//! - [`replay()`] drives estimator, motion compensation, supervisor and planner with it, and tells where
+//!   their decisions differ from those that were recorded.
 //!
 //! The crate opens no file, reads no clock and starts no thread. It builds natively and for
 //! wasm32-unknown-unknown.

@@ -152,7 +152,8 @@ impl Roles {
                     return Err(Fault::Ambiguous {
                         role: role.name(),
                         schema: role.schema(),
-                        topics: [first.clone(), channel.topic.clone()],
+                        first: first.clone(),
+                        second: channel.topic.clone(),
                     });
                 }
                 _ => {

@@ -145,8 +145,9 @@ impl<Id: Copy + PartialEq> Navigation<Id> {
     }
 }
 
-/// The goal of a message, in the estimator's frame. `poses` are the robot's there and in the odometry's frame,
-/// `odom`: the two part as odometry drifts, so a goal is taken as it lies to the robot when it is accepted.
+/// The goal of a message, in the estimator's frame. `poses` are the robot's there and in the odometry's
+/// frame, `odom`: the two part as odometry drifts, so a goal is taken as it lies to the robot when it is
+/// accepted.
 ///
 /// # Errors
 /// Why it is refused: another frame, a stopped robot, or numbers that are not finite.

@@ -53,7 +53,5 @@ impl Replayed {
 #[wasm_bindgen]
 pub fn replay_recording(file: &str, bytes: &[u8]) -> Result<Replayed, JsError> {
     let report = replay(bytes, &Options::default(), |_| {});
-    report
-        .map(|report| Replayed { report })
-        .map_err(|error| JsError::new(&format!("{file}: {error}")))
+    report.map(|report| Replayed { report }).map_err(|error| JsError::new(&format!("{file}: {error}")))
 }

@@ -185,6 +185,6 @@ fn topics_that_cannot_be_told_apart_are_asked_for() {
     writer.finish().unwrap();
     let text = refusal(&writer.into_inner().into_inner(), &sensor());
     let expected = "/front/points and /rear/points are both sensor_msgs/msg/PointCloud2: \
-        expected one of them to be named, as --topic scan=/front/points";
+        expected one to be named, as --topic scan=/front/points";
     assert!(text.contains(expected), "{text}");
 }
