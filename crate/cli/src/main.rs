@@ -1,7 +1,8 @@
 //! `mapless`: drives trials from scenario files, and perceives recorded scans.
 //!
 //! Exit code of a trial: 0 when the goal was reached, 2 for any other outcome, 1 for an error. Exit code of a
-//! scan: 0 when it was read, 1 for an error.
+//! scan: 0 when it was read, 1 for an error. Exit code of a replay: 0 when every decision is the recorded one,
+//! 2 when one differs, 1 for an error.
 
 mod any_trial;
 mod generate;
@@ -13,6 +14,7 @@ mod perceive;
 mod picture;
 mod profile;
 mod progress;
+mod replay;
 mod results;
 mod run;
 mod setup;
@@ -53,6 +55,9 @@ enum Command {
     /// Show what the planner perceives in one recorded scan. Exit code: 0 = perceived or stopped with a
     /// reason, 1 = error.
     Perceive(perceive::Args),
+    /// Run estimator, supervisor and planner of the node over a recording, and tell what they decide
+    /// otherwise. Exit code: 0 = nothing, 2 = something, 1 = error.
+    Replay(replay::Args),
 }
 
 fn main() -> ExitCode {
@@ -72,6 +77,10 @@ fn main() -> ExitCode {
         Command::Import(args) => import::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Terrain(args) => terrain::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Perceive(args) => perceive::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Replay(args) => replay::run(&args).map(|is_same| match is_same {
+            true => ExitCode::SUCCESS,
+            false => ExitCode::from(2),
+        }),
     };
     result.unwrap_or_else(|error| {
         eprintln!("error: {error:#}");

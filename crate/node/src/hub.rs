@@ -6,37 +6,23 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use mapless::glam::Vec3;
 use mapless::{PlannerConfig, Pose, Status};
-use mapless_robot::supervisor::{Decision, Inputs, Proposal, SupervisorConfig};
-use mapless_scans::Revolution;
+use mapless_recording::{Content, Entry, GoalMessage, TickMessage};
+use mapless_robot::senses::{Arrival, Scan};
+use mapless_robot::supervisor::{Decision, Inputs, Proposal, Supervisor, SupervisorConfig};
 
-use crate::messages::Time;
+use crate::messages::{self, Clock, PointCloud2, Time};
 use crate::navigation::Task;
+use crate::recording::Recorder;
 use crate::slot::{Slot, lock};
-
-/// A scan for the planner.
-#[derive(Debug)]
-pub(crate) struct Scan {
-    /// When it arrived, on the clock of [`Hub::now`].
-    pub(crate) arrived: Duration,
-    /// Its stamp.
-    pub(crate) stamp: Time,
-    /// Its returns in the sensor frame, metres.
-    pub(crate) points_m: Vec<Vec3>,
-    /// The robot's pose for it.
-    pub(crate) pose: Pose,
-}
 
 /// A revolution of a sensor that sends packets.
 #[derive(Debug)]
-pub(crate) struct Arrived {
-    /// When its last packet arrived, on the clock of [`Hub::now`], and what the node's clock said then.
-    pub(crate) at: Duration,
-    pub(crate) stamp: Time,
-    /// The same on the sensor's clock, nanoseconds from an instant of no meaning.
-    pub(crate) sensor_ns: i64,
-    pub(crate) revolution: Revolution,
+pub(crate) struct Revolution {
+    /// When its last packet arrived.
+    pub(crate) arrival: Arrival,
+    /// Its returns, stamped by the sensor's clock.
+    pub(crate) cloud: PointCloud2,
 }
 
 /// What the planner last made of a scan.
@@ -72,7 +58,7 @@ pub(crate) struct Hub {
     /// The simulation's clock, if time is simulated.
     clock: Option<Mutex<Time>>,
     /// From the LiDAR, if it sends packets, to the middleware.
-    pub(crate) revolution: Slot<Arrived>,
+    pub(crate) revolution: Slot<Revolution>,
     /// From the middleware to the planner.
     pub(crate) scan: Slot<Scan>,
     /// From the planner to the supervisor.
@@ -87,6 +73,8 @@ pub(crate) struct Hub {
     /// The pose that the estimator believes, and that of the last odometry.
     poses: Mutex<Option<[Pose; 2]>>,
     complaints: Mutex<BTreeMap<&'static str, Complaint>>,
+    /// Where everything is left that a replay needs, in the order in which it takes effect.
+    pub(crate) recorder: Option<Recorder>,
 }
 
 impl Hub {
@@ -108,6 +96,7 @@ impl Hub {
             task: Mutex::default(),
             poses: Mutex::default(),
             complaints: Mutex::default(),
+            recorder: None,
         }
     }
 
@@ -116,9 +105,20 @@ impl Hub {
         self.began.elapsed()
     }
 
+    /// When the node began, on the system's clock, nanoseconds.
+    pub(crate) fn began_ns(&self) -> u64 {
+        let now_ns = u64::try_from(messages::now().nanoseconds()).unwrap_or(0);
+        now_ns.saturating_sub(u64::try_from(self.now().as_nanos()).unwrap_or(0))
+    }
+
     /// The stamp of what is sent now.
     pub(crate) fn stamp(&self) -> Time {
-        self.clock.as_ref().map_or_else(Time::now, |clock| *lock(clock))
+        self.clock.as_ref().map_or_else(messages::now, |clock| *lock(clock))
+    }
+
+    /// A message arrives now.
+    pub(crate) fn arrival(&self) -> Arrival {
+        Arrival { at: self.now(), clock_ns: self.stamp().nanoseconds() }
     }
 
     /// The simulation's clock says this.
@@ -126,13 +126,14 @@ impl Hub {
         if let Some(clock) = &self.clock {
             *lock(clock) = time;
         }
-        self.tell(|inputs| inputs.clock = u64::try_from(time.nanoseconds()).ok().map(Duration::from_nanos));
+        let told = || Content::Clock(Clock { clock: time });
+        self.tell_of(self.arrival(), told, |inputs| inputs.hear_clock(time));
     }
 
-    /// The localisation jumped: what the planner remembers of the ground lies elsewhere now.
+    /// The localisation jumped: what the planner remembers of the ground lies elsewhere now. The supervisor
+    /// is told by the message that showed it.
     pub(crate) fn jump(&self) {
         self.has_jumped.store(true, Ordering::Relaxed);
-        self.tell(|inputs| inputs.has_jumped = true);
     }
 
     /// Whether the localisation jumped since this was last asked.
@@ -155,19 +156,45 @@ impl Hub {
         change(&mut lock(&self.inputs));
     }
 
-    /// What the supervisor was told since it last asked. Messages and events are told once; what is so stays.
-    pub(crate) fn take_inputs(&self) -> Inputs {
+    /// Tells the supervisor something that is recorded.
+    pub(crate) fn tell_of(
+        &self,
+        arrival: Arrival,
+        content: impl FnOnce() -> Content,
+        change: impl FnOnce(&mut Inputs),
+    ) {
+        let entry = self.recorder.as_ref().map(|recorder| (recorder, Entry { arrival, content: content() }));
         let mut inputs = lock(&self.inputs);
-        let taken = *inputs;
-        *inputs = Inputs {
-            attitude_rad: taken.attitude_rad,
-            wheels_disagree: taken.wheels_disagree,
-            has_peer: taken.has_peer,
-            other_publishers: taken.other_publishers,
-            goal: taken.goal,
-            ..Inputs::default()
-        };
-        taken
+        change(&mut inputs);
+        if let Some((recorder, entry)) = entry {
+            recorder.record(entry);
+        }
+    }
+
+    /// Records something that the supervisor is not told.
+    pub(crate) fn record(&self, content: impl FnOnce() -> Content) {
+        if let Some(recorder) = &self.recorder {
+            recorder.record(Entry { arrival: self.arrival(), content: content() });
+        }
+    }
+
+    /// A tick of the supervisor with what it was told since the last one.
+    pub(crate) fn tick(
+        &self,
+        now: Duration,
+        supervisor: &mut Supervisor,
+        proposal: Option<&Proposal>,
+    ) -> Decision {
+        let arrival = Arrival { at: now, clock_ns: self.stamp().nanoseconds() };
+        // Nothing is told in between, so a replay knows what was told before.
+        let mut inputs = lock(&self.inputs);
+        let taken = inputs.take();
+        let decision = supervisor.tick(now, &taken, proposal);
+        if let Some(recorder) = &self.recorder {
+            let content = Content::Tick(TickMessage::new(&taken, proposal, &decision));
+            recorder.record(Entry { arrival, content });
+        }
+        decision
     }
 
     /// The supervisor's last decision; `None` before the first.
@@ -207,7 +234,7 @@ impl Hub {
     }
 
     /// Something is wrong with a message about `what`. It is logged now and then, and told in diagnostics.
-    pub(crate) fn complain(&self, what: &'static str, error: &impl Display) {
+    pub(crate) fn complain(&self, what: &'static str, error: &(impl Display + ?Sized)) {
         let (text, at) = (error.to_string(), self.now());
         let mut complaints = lock(&self.complaints);
         let last = complaints.get(what).map(|complaint| complaint.logged);
@@ -233,8 +260,12 @@ impl Hub {
 
     /// Sets or ends the goal in service, for planner and supervisor alike.
     pub(crate) fn set_task(&self, task: Option<Task>) {
+        if self.task() == task {
+            return;
+        }
+        let told = || Content::Goal(GoalMessage::new(task.as_ref()));
+        self.tell_of(self.arrival(), told, |inputs| inputs.goal = task.map(|task| task.number));
         *lock(&self.task) = task;
-        self.tell(|inputs| inputs.goal = task.map(|task| task.number));
     }
 }
 
@@ -253,9 +284,9 @@ mod tests {
             inputs.emergency_stop = Some(true);
             inputs.wheels_disagree = true;
         });
-        let told = hub.take_inputs();
+        let told = lock(&hub.inputs).take();
         assert!(told.has_jumped && told.reset && told.publish_failed && told.emergency_stop == Some(true));
-        let later = hub.take_inputs();
+        let later = lock(&hub.inputs).take();
         assert!(!later.has_jumped && !later.reset && !later.publish_failed && later.emergency_stop.is_none());
         assert!(later.has_peer && later.other_publishers == 2 && later.attitude_rad == Some([0.1, 0.2]));
         assert!(later.wheels_disagree, "the estimator finds so until its next word");

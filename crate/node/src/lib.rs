@@ -10,10 +10,10 @@
 //! | supervisor | at 50 Hz, and at once when the planner answers; it alone publishes commands |
 //! | spin | follows who is on the network |
 //! | LiDAR | if the sensor sends packets: puts them together |
+//! | recording | writes what the others leave for it, if the file asks for a recording |
 
 pub mod config;
 mod diagnostics;
-mod frames;
 mod hub;
 mod lidar;
 pub mod messages;
@@ -23,6 +23,7 @@ mod parameters;
 mod picture;
 mod planning;
 mod receiving;
+mod recording;
 mod ros;
 mod run;
 mod senses;

@@ -4,12 +4,13 @@ use std::io::ErrorKind;
 use std::net::{IpAddr, SocketAddr, UdpSocket};
 use std::time::Duration;
 
-use mapless_robot::supervisor::Message;
+use mapless_recording::{Content, SpoiltMessage};
 use mapless_scans::PacketReceiver;
 use rustdds::mio1::Waker;
 
 use crate::config::Velodyne;
-use crate::hub::{Arrived, Hub};
+use crate::hub::{Hub, Revolution};
+use crate::messages::{Header, PointCloud2, PointField, Time};
 
 /// The longest wait for a packet, so that the end of the node is noticed.
 const WAIT: Duration = Duration::from_millis(100);
@@ -17,6 +18,13 @@ const WAIT: Duration = Duration::from_millis(100);
 const LONGEST_BYTES: usize = 2048;
 /// The sensor's clock begins again with each hour.
 const HOUR_US: f64 = 3.6e9;
+
+const FLOAT32: u8 = 7;
+const FLOAT64: u8 = 8;
+/// What a point of the cloud holds: name, offset and type.
+const FIELDS: [(&str, u32, u8); 4] =
+    [("x", 0, FLOAT32), ("y", 4, FLOAT32), ("z", 8, FLOAT32), ("time", 12, FLOAT64)];
+const POINT_BYTES: u32 = 20;
 
 /// The node cannot listen for packets.
 #[derive(Debug, thiserror::Error)]
@@ -33,11 +41,12 @@ pub(crate) struct Lidar {
     waker: Waker,
     receiver: PacketReceiver,
     clock: SensorClock,
+    frame_id: String,
 }
 
 impl Lidar {
-    /// Listens. `waker` has the middleware's thread look for revolutions.
-    pub(crate) fn listen(config: &Velodyne, waker: Waker) -> Result<Self, LidarError> {
+    /// Listens. `waker` has the middleware's thread look for revolutions; `frame_id` is the sensor's frame.
+    pub(crate) fn listen(config: &Velodyne, waker: Waker, frame_id: &str) -> Result<Self, LidarError> {
         let address = SocketAddr::new(config.address, config.port.get());
         let listen = || {
             let socket = UdpSocket::bind(address)?;
@@ -47,7 +56,7 @@ impl Lidar {
         let socket = listen().map_err(|error| LidarError { address, error })?;
         log::info!("packets of {} are taken at {address}", config.from);
         let (receiver, clock) = (PacketReceiver::new(), SensorClock::default());
-        Ok(Self { socket, from: config.from, waker, receiver, clock })
+        Ok(Self { socket, from: config.from, waker, receiver, clock, frame_id: frame_id.to_owned() })
     }
 
     /// Takes packets until the node ends.
@@ -78,9 +87,10 @@ impl Lidar {
             spoilt(hub, &gap);
         }
         let Some(revolution) = whole else { return };
-        let (at, stamp) = (hub.now(), hub.stamp());
-        let sensor_ns = self.clock.take(revolution.end_us, stamp.nanoseconds());
-        hub.revolution.put(Arrived { at, stamp, sensor_ns, revolution });
+        let arrival = hub.arrival();
+        let stamp = Time::from_nanoseconds(self.clock.take(revolution.end_us, arrival.clock_ns));
+        let cloud = cloud(&revolution, Header { stamp, frame_id: self.frame_id.clone() });
+        hub.revolution.put(Revolution { arrival, cloud });
         if let Err(error) = self.waker.wake() {
             hub.complain("packets", &error);
         }
@@ -90,12 +100,35 @@ impl Lidar {
 /// A revolution is left out; a good one that the supervisor does not know yet stays.
 fn spoilt(hub: &Hub, why: &str) {
     hub.complain("packets", &why);
-    let clock_ns = hub.stamp().nanoseconds();
-    let message =
-        Message { arrived: hub.now(), clock_ns, stamp_ns: 0, fingerprint: 0, is_well_formed: false };
-    hub.tell(|inputs| {
-        inputs.scan.get_or_insert(message);
-    });
+    let (arrival, told) = (hub.arrival(), || Content::Spoilt(SpoiltMessage { why: why.to_owned() }));
+    hub.tell_of(arrival, told, |inputs| inputs.hear_spoilt_scan(arrival));
+}
+
+/// A revolution as a driver would publish it, with the times of its points in seconds since its stamp.
+fn cloud(revolution: &mapless_scans::Revolution, header: Header) -> PointCloud2 {
+    let width = revolution.points_m.len() as u32;
+    let mut data = Vec::with_capacity((width * POINT_BYTES) as usize);
+    for (point_m, time_s) in revolution.points_m.iter().zip(&revolution.since_end_s) {
+        point_m.to_array().iter().for_each(|axis_m| data.extend(axis_m.to_le_bytes()));
+        data.extend(time_s.to_le_bytes());
+    }
+    let field = |(name, offset, datatype): (&str, u32, u8)| PointField {
+        name: name.to_owned(),
+        offset,
+        datatype,
+        count: 1,
+    };
+    PointCloud2 {
+        header,
+        height: 1,
+        width,
+        fields: FIELDS.map(field).to_vec(),
+        is_bigendian: false,
+        point_step: POINT_BYTES,
+        row_step: POINT_BYTES * width,
+        data: data.into(),
+        is_dense: true,
+    }
 }
 
 /// The sensor's clock, counted on past the hour.
@@ -120,6 +153,13 @@ impl SensorClock {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use mapless_robot::supervisor::Message;
+
+    fn taken(hub: &Hub) -> Option<Message> {
+        let mut scan = None;
+        hub.tell(|inputs| scan = inputs.take().scan);
+        scan
+    }
 
     #[test]
     fn the_sensor_s_clock_goes_on_past_the_hour_and_back_if_it_was_set() {
@@ -133,12 +173,12 @@ mod tests {
     fn a_spoilt_revolution_is_told_unless_a_good_one_waits() {
         let hub = Hub::new(false);
         spoilt(&hub, "a packet was lost");
-        let told = hub.take_inputs().scan;
+        let told = taken(&hub);
         assert!(told.is_some_and(|message| !message.is_well_formed));
         assert_eq!(hub.complaints(), [("packets", "a packet was lost".to_owned())]);
         let good = Message { is_well_formed: true, ..told.unwrap() };
         hub.tell(|inputs| inputs.scan = Some(good));
         spoilt(&hub, "another one");
-        assert_eq!(hub.take_inputs().scan, Some(good));
+        assert_eq!(taken(&hub), Some(good));
     }
 }

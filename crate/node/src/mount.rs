@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use mapless::glam::{DAffine3, DQuat, DVec3, EulerRot};
 
 use crate::config::{Mount, NodeConfig};
-use crate::messages::{Time, TransformStamped};
+use crate::messages::{self, Time, TransformStamped};
 use crate::ros::{Entities, RosError};
 
 /// A transform on the topic `tf` that is older does not hold.
@@ -84,7 +84,7 @@ pub(crate) fn wait(
                 }
             }
         }
-        match tree.find(base, sensor, Time::now()) {
+        match tree.find(base, sensor, messages::now()) {
             Ok(way) => return Ok(mount(way, config.estimator.base_height_m)),
             Err(error) if Instant::now() > end || is_ending() => return Err(error),
             Err(_) => entities.wait(WAIT),

@@ -1,10 +1,10 @@
 //! What the planner decided, for RViz, Foxglove and Lichtblick.
 
 use mapless::{Pose, Step};
+use mapless_robot::frames::FrameChange;
 use ros2_client::Publisher;
 
 use crate::config::NodeConfig;
-use crate::frames::FrameChange;
 use crate::messages::{
     ColorRgba, Header, Marker, MarkerArray, Path, Point, Pose as PoseMessage, PoseStamped, Quaternion, Time,
     Vector3,

@@ -2,16 +2,17 @@
 
 use std::time::Duration;
 
-use mapless::{Goal, Pose};
+use mapless::Goal;
+use mapless_recording::Content;
+use mapless_robot::navigation::{End, Outcome, code, goal_of};
 use ros2_client::{Publisher, Subscription};
 use serde::de::DeserializeOwned;
 
 use crate::config::NodeConfig;
 use crate::diagnostics::diagnose;
-use crate::frames::FrameChange;
 use crate::hub::Hub;
-use crate::messages::{DiagnosticArray, Feedback, Header, Outcome, PoseStamped, Quaternion};
-use crate::navigation::{End, Ended, Navigation, code};
+use crate::messages::{DiagnosticArray, Feedback, Header, PoseStamped, Quaternion};
+use crate::navigation::{Ended, Navigation};
 use crate::parameters::Parameters;
 use crate::ros::{ActionServer, Entities, Incoming, ParameterServices, Presence};
 use crate::senses::Senses;
@@ -59,19 +60,19 @@ impl Receiving<'_> {
             each(hub, clock, "clock", |message| hub.set_clock(message.clock));
         }
         each(hub, &incoming.emergency_stop, "emergency stop", |message| {
-            // Pressed once is pressed, even if it is released before the next tick.
-            hub.tell(|inputs| {
-                inputs.emergency_stop = Some(inputs.emergency_stop == Some(true) || message.data);
-            });
+            let told = || Content::EmergencyStop(message);
+            hub.tell_of(hub.arrival(), told, |inputs| inputs.hear_emergency_stop(message.data));
         });
-        each(hub, &incoming.reset, "reset", |message| hub.tell(|inputs| inputs.reset |= message.data));
+        each(hub, &incoming.reset, "reset", |message| {
+            hub.tell_of(hub.arrival(), || Content::Reset(message), |inputs| inputs.reset |= message.data);
+        });
         each(hub, &incoming.imu, "IMU", |message| senses.take_imu(hub, &message));
         each(hub, &incoming.odometry, "odometry", |message| senses.take_odometry(hub, &message));
         if let Some(scan) = &incoming.scan {
             each(hub, scan, "scan", |message| senses.take_scan(hub, &message));
         }
-        if let Some(arrived) = hub.revolution.take(Duration::ZERO) {
-            senses.take_revolution(hub, arrived);
+        if let Some(revolution) = hub.revolution.take(Duration::ZERO) {
+            senses.take_revolution(hub, revolution);
         }
         self.presence.look(&self.entities.participant);
         let (readers, writers) = (self.presence.readers, self.presence.writers);
@@ -96,6 +97,7 @@ impl Receiving<'_> {
         let mut poses = Vec::new();
         each(self.hub, &self.incoming.goal_pose, "goal", |pose| poses.push(pose));
         for pose in poses {
+            self.hub.record(|| Content::GoalPose(pose.clone()));
             match self.goal(&pose) {
                 Ok(goal) => {
                     let before = self.navigation.accept(goal, None, self.hub.now());
@@ -146,28 +148,9 @@ impl Receiving<'_> {
 
     /// The goal of a message, or why it is refused.
     fn goal(&self, pose: &PoseStamped) -> Result<Goal, String> {
-        let (found, expected) = (&pose.header.frame_id, &self.config.frames.odom);
-        if found != expected {
-            return Err(format!("a goal in frame {found:?}: expected {expected:?}"));
-        }
-        let decision = self.hub.decision().ok_or("the supervisor has not begun")?;
-        if !decision.takes_goals {
-            let reason = decision.cause.or(decision.reason);
-            return Err(reason.map_or_else(|| "the robot is stopped".to_owned(), |reason| reason.to_string()));
-        }
-        let asked = Pose::from_quaternion(pose.pose.position.into(), pose.pose.orientation.to_glam());
-        let [believed, told] = self.hub.poses().ok_or("the robot's pose is not known yet")?;
-        let change = FrameChange::new(told, believed);
-        let goal = Goal::at(change.place_m(asked.plan_m()));
-        let goal = match self.parameters.navigation.final_heading {
-            true => goal.facing(change.heading_rad(asked.yaw_rad)),
-            false => goal,
-        };
-        if goal.is_valid() && asked.is_finite() {
-            Ok(goal)
-        } else {
-            Err("a goal with a pose that is not finite".to_owned())
-        }
+        let (decision, poses) = (self.hub.decision(), self.hub.poses());
+        let has_final_heading = self.parameters.navigation.final_heading;
+        goal_of(pose, &self.config.frames.odom, decision.as_ref(), poses, has_final_heading)
     }
 
     fn tell(&mut self) {

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use mapless_parameters::ConfigError;
-use mapless_robot::estimator::Estimator;
+use mapless_recording::Head;
 use mapless_robot::supervisor::Supervisor;
 use ros2_client::NodeName;
 
@@ -18,6 +18,7 @@ use crate::parameters::Parameters;
 use crate::picture::Picture;
 use crate::planning::Planning;
 use crate::receiving::Receiving;
+use crate::recording::{Recorder, record};
 use crate::ros::{
     ActionServer, Alive, Entities, ParameterServices, Presence, RosError, Spin, making, published_qos,
 };
@@ -81,13 +82,21 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             &mounted
         }
     };
-    let hub = Hub::new(config.use_sim_time);
+    let mut hub = Hub::new(config.use_sim_time);
+    let recording = config.recording.as_ref().map(|recording| {
+        let (recorder, waiting) = Recorder::new();
+        hub.recorder = Some(recorder);
+        let head =
+            Head { began_ns: hub.began_ns(), config: config.drive(), topics: config.recorded_topics() };
+        (recording, head, waiting)
+    });
+    let hub = hub;
     let service = Service::default();
     let supervisor = Supervisor::new(config.supervisor)?;
-    let estimator = Estimator::new(config.estimator, config.imu.base_from_imu())?;
+    let senses = Senses::new(config.drive().senses()?);
 
     let lidar = match &config.velodyne {
-        Some(velodyne) => Some(Lidar::listen(velodyne, entities.waker()?)?),
+        Some(velodyne) => Some(Lidar::listen(velodyne, entities.waker()?, &config.frames.scan)?),
         None => None,
     };
     let spin = Spin::start(&mut entities.node)?;
@@ -114,7 +123,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             published_qos(),
         )?,
         presence: Presence::on(&config.topics.cmd_vel, &name, commands.gid())?,
-        senses: Senses::new(estimator, config.frames.clone(), config.planner.sensor),
+        senses,
         navigation: Navigation::new(Duration::from_secs_f64(config.navigation.timeout_s)),
         diagnosed: Duration::ZERO,
         fed_back: Duration::ZERO,
@@ -124,6 +133,10 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     log::info!("{}/{} has begun in domain {}", config.namespace, config.node_name, config.domain_id);
 
     let ended = std::thread::scope(|scope| {
+        let recording = recording.map(|(config, head, waiting)| {
+            let hub = &hub;
+            scope.spawn(move || record(hub, config, &head, waiting))
+        });
         let mut threads = vec![
             ("supervisor", scope.spawn(|| supervise(&hub, supervisor, &commands, &service))),
             ("planner", scope.spawn(|| planning.run(&hub))),
@@ -139,6 +152,10 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             is_whole = alive.is_whole();
         }
         hub.end();
+        // Whatever became of it, the robot was driven.
+        if recording.is_some_and(|recording| recording.join().is_err()) {
+            log::error!("the recording panicked");
+        }
         let joined = threads.into_iter();
         let joined = joined.map(|(name, thread)| thread.join().map_err(|_| RunError::Panicked(name)));
         joined.collect::<Result<(), RunError>>()?;

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use mapless::Command;
+use mapless_recording::Content;
 use mapless_robot::supervisor::{Decision, State, Supervisor};
 use ros2_client::Publisher;
 
@@ -76,11 +77,13 @@ pub(crate) fn supervise(
             // After a pause of the process, ticks that were missed are not made up for.
             due = (due + PERIOD).max(now);
         }
-        let inputs = hub.take_inputs();
-        if let Some(Err(error)) = hub.limits.take(Duration::ZERO).map(|limits| supervisor.limit(&limits)) {
-            log::error!("the supervisor refuses a limit that was checked: {error}");
+        if let Some(limits) = hub.limits.take(Duration::ZERO) {
+            hub.record(|| Content::Limits(Box::new(limits)));
+            if let Err(error) = supervisor.limit(&limits) {
+                log::error!("the supervisor refuses a limit that was checked: {error}");
+            }
         }
-        let decision = supervisor.tick(now, &inputs, proposal.as_ref());
+        let decision = hub.tick(now, &mut supervisor, proposal.as_ref());
         match publisher.publish(decision.command, hub.stamp()) {
             Ok(()) => service.fed(),
             Err(error) => {

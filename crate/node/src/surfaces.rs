@@ -6,10 +6,10 @@ use mapless::skyline::columns::{COLUMNS, column_azimuth_rad, column_of};
 use mapless::skyline::profile::Column;
 use mapless::skyline::segments::{Segment, Verdict};
 use mapless::{Planner, Pose, SensorModel};
+use mapless_robot::frames::FrameChange;
 use ros2_client::Publisher;
 
 use crate::config::NodeConfig;
-use crate::frames::FrameChange;
 use crate::messages::{
     ColorRgba, Header, Marker, MarkerArray, Point, PointCloud2, PointField, Time, Vector3,
 };

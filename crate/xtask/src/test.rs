@@ -176,7 +176,7 @@ fn clippy_wasm(sh: &Shell) -> anyhow::Result<Count> {
     check(cmd!(sh, "cargo clippy --target {target} {libraries...} -- --deny warnings"))?;
     check(cmd!(
         sh,
-        "cargo clippy --target {target} -p mapless-wasm -p mapless-wasm-baselines -p mapless-wasm-heights --all-targets -- --deny warnings"
+        "cargo clippy --target {target} -p mapless-wasm -p mapless-wasm-baselines -p mapless-wasm-heights -p mapless-wasm-replay --all-targets -- --deny warnings"
     ))
 }
 
@@ -242,7 +242,7 @@ fn test_wasm(sh: &Shell) -> anyhow::Result<Count> {
     // Optimised as in the page, with which it shares all builds; a whole trial takes longer than the runner's
     // 20 seconds.
     let test =
-        cmd!(sh, "cargo test --release --package mapless-wasm --target wasm32-unknown-unknown --tests")
+        cmd!(sh, "cargo test --release --package mapless-wasm --package mapless-wasm-replay --target wasm32-unknown-unknown --tests")
             .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER", runner)
             .env("CHROMEDRIVER", &browser.driver)
             .env("WASM_BINDGEN_TEST_WEBDRIVER_JSON", &capabilities)

@@ -1,6 +1,7 @@
 //! The node's configuration: one file in the form of ROS 2's parameter files.
 
 mod merge;
+mod recording;
 mod sections;
 mod topics;
 mod yaml;
@@ -13,6 +14,7 @@ use std::path::Path;
 use mapless::{PlannerConfig, RobotModel, SensorModel};
 use mapless_parameters::ConfigError;
 use mapless_robot::cloud::check_sensor;
+use mapless_robot::drive_config::DriveConfig;
 use mapless_robot::estimator::EstimatorConfig;
 use mapless_robot::supervisor::SupervisorConfig;
 use ros2_client::NodeName;
@@ -20,6 +22,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 pub(crate) use merge::merged;
+pub use recording::RecordingConfig;
 pub use sections::{
     Frames, ImuMount, Mount, MountSource, NavigationConfig, PlannerPreset, RobotPreset, SensorMount, Velodyne,
 };
@@ -66,6 +69,8 @@ pub struct NodeConfig {
     pub planner: PlannerConfig,
     /// Limits of the supervisor.
     pub supervisor: SupervisorConfig,
+    /// Where drives are recorded, if they are.
+    pub recording: Option<RecordingConfig>,
     /// Where the sensor's mount is told; if by tf, that of `planner.sensor` means nothing yet.
     pub sensor_mount: SensorMount,
     /// How the planner's configuration follows from sensor and robot.
@@ -140,6 +145,7 @@ struct Parameters {
     supervisor: SupervisorConfig,
     #[serde(default)]
     sensor_mount: SensorMount,
+    recording: Option<RecordingConfig>,
     #[serde(default, rename = "robot")]
     _robot: RobotModel,
     #[serde(default, rename = "sensor")]
@@ -165,6 +171,19 @@ fn default_planner() -> PlannerPreset {
 }
 
 impl NodeConfig {
+    /// What the drive depends on besides messages.
+    #[must_use]
+    pub fn drive(&self) -> DriveConfig {
+        DriveConfig {
+            frames: self.frames.clone(),
+            imu: self.imu,
+            estimator: self.estimator,
+            navigation: self.navigation,
+            planner: self.planner.clone(),
+            supervisor: self.supervisor,
+        }
+    }
+
     /// Reads a file.
     ///
     /// # Errors
@@ -229,6 +248,9 @@ impl NodeConfig {
         checked(&yaml, given.estimator.validate("estimator"))?;
         checked(&yaml, given.navigation.validate("navigation"))?;
         checked(&yaml, given.sensor_mount.validate("sensor_mount"))?;
+        if let Some(recording) = &given.recording {
+            checked(&yaml, recording.validate())?;
+        }
         let (planner, fit) = planner_config(&yaml, &given)?;
         let supervisor = supervisor_config(&yaml, &given, &planner.robot)?;
         let by_distro = match given.distro {
@@ -251,6 +273,7 @@ impl NodeConfig {
             navigation: given.navigation,
             planner,
             supervisor,
+            recording: given.recording,
             sensor_mount: given.sensor_mount,
             fit,
         })

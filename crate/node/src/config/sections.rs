@@ -1,12 +1,11 @@
 //! Small sections of the file.
 
-use std::f64::consts::{FRAC_PI_2, PI};
 use std::net::{IpAddr, Ipv4Addr};
 use std::num::NonZeroU16;
 
 use mapless::RobotModel;
-use mapless::glam::{DQuat, EulerRot};
 use mapless_parameters::{choices, parameters};
+pub use mapless_robot::drive_config::{Frames, ImuMount, NavigationConfig};
 use serde::{Deserialize, Serialize};
 
 choices! {
@@ -38,41 +37,6 @@ choices! {
         Default = "default",
         /// The paper's.
         Paper = "paper",
-    }
-}
-
-parameters! {
-    /// How the IMU is mounted: its axes turned from those of the robot by yaw, then pitch, then roll, as
-    /// ROS counts them (REP 103: pitch nose-down positive).
-    #[derive(Copy)]
-    pub struct ImuMount {
-        /// Roll.
-        roll_rad: f64 = 0.0, unit "rad", range [-PI, PI], check Within(-PI, PI);
-        /// Pitch, nose-down positive.
-        pitch_rad: f64 = 0.0, unit "rad", range [-FRAC_PI_2, FRAC_PI_2], check Within(-FRAC_PI_2, FRAC_PI_2);
-        /// Yaw.
-        yaw_rad: f64 = 0.0, unit "rad", range [-PI, PI], check Within(-PI, PI);
-    }
-}
-
-impl ImuMount {
-    /// Takes vectors of the IMU's frame to the robot's.
-    #[must_use]
-    pub fn base_from_imu(&self) -> DQuat {
-        DQuat::from_euler(EulerRot::ZYX, self.yaw_rad, self.pitch_rad, self.roll_rad)
-    }
-}
-
-parameters! {
-    /// What becomes of goals.
-    #[derive(Copy)]
-    pub struct NavigationConfig {
-        /// A goal that takes longer is aborted.
-        timeout_s: f64 = 600.0, unit "s", range [10.0, 3600.0], check Within(1.0, 86400.0);
-        /// Whether the robot turns to the goal's heading in the end; otherwise any heading will do.
-        final_heading: bool = false;
-        /// Feedback of the action, per second.
-        feedback_hz: f64 = 5.0, unit "1/s", range [1.0, 20.0], check Within(0.1, 50.0);
     }
 }
 
@@ -118,31 +82,6 @@ impl Mount {
     /// The keys of the file's section `sensor` that tell it.
     pub(super) const KEYS: [&str; 6] =
         ["forward_m", "left_m", "height_m", "roll_rad", "pitch_rad", "yaw_rad"];
-}
-
-/// Names of frames. A message in another frame is malformed.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Frames {
-    /// The frame of the odometry's pose, and of goals.
-    pub odom: String,
-    /// The odometry's child frame.
-    pub base: String,
-    /// The frame of the scans.
-    pub scan: String,
-    /// The frame of the IMU.
-    pub imu: String,
-}
-
-impl Default for Frames {
-    fn default() -> Self {
-        Self {
-            odom: "odom".to_owned(),
-            base: "base_link".to_owned(),
-            scan: "lidar3d_0_laser".to_owned(),
-            imu: "imu_0_link".to_owned(),
-        }
-    }
 }
 
 /// A Velodyne sensor that sends its packets to the node, in place of the topic `scan`.

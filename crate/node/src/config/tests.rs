@@ -90,6 +90,15 @@ fn every_fault_is_told_with_its_line() {
             "robot.yaml:6: supervisor.max_roll_rad = 0.6: expected at most",
         ),
         ("    supervisor:\n      has_clock: true\n", "robot.yaml:6: supervisor.has_clock: "),
+        (
+            "    recording: {folder: drives}\n",
+            "robot.yaml:5: recording.folder = drives: expected an absolute path",
+        ),
+        (
+            "    recording:\n      folder: /d\n      max_size_mb: 0\n",
+            "robot.yaml:7: recording.max_size_mb = 0: ",
+        ),
+        ("    recording:\n      max_size_mb: 9\n", "robot.yaml:"),
         ("    command_type: joy\n", "robot.yaml:5: "),
         (
             "    sensor_mount: {source: tf}\n    sensor:\n      height_m: 0.6\n",

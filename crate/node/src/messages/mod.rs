@@ -4,22 +4,25 @@
 //! Source: the `.msg` files of `common_interfaces` and `navigation2`.
 
 mod diagnostic;
-mod geometry;
 mod navigate;
-mod sensor;
-mod standard;
 #[cfg(test)]
 mod tests;
 mod tf;
 mod visual;
 
-pub use diagnostic::{DiagnosticArray, DiagnosticStatus, KeyValue, Level};
-pub use geometry::{
-    Odometry, Path, Point, Pose, PoseStamped, PoseWithCovariance, Quaternion, Twist, TwistStamped,
-    TwistWithCovariance, Vector3,
+pub use mapless_robot::messages::{
+    Bool, Clock, Duration, Header, Imu, Odometry, Path, Point, PointCloud2, PointField, Pose, PoseStamped,
+    PoseWithCovariance, Quaternion, Time, Twist, TwistStamped, TwistWithCovariance, Vector3,
 };
-pub use navigate::{Feedback, HumbleResult, JazzyResult, NavigateGoal, NavigateResult, Outcome};
-pub use sensor::{Imu, PointCloud2, PointField};
-pub use standard::{Bool, Clock, Duration, Header, Time};
+
+pub use diagnostic::{DiagnosticArray, DiagnosticStatus, KeyValue, Level};
+pub use navigate::{Feedback, HumbleResult, JazzyResult, NavigateGoal, NavigateResult};
 pub use tf::{TfMessage, Transform, TransformStamped};
 pub use visual::{ColorRgba, Marker, MarkerArray};
+
+/// The system's clock now.
+#[must_use]
+pub fn now() -> Time {
+    let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
+    Time::from_nanoseconds(since.as_nanos() as i64)
+}

@@ -1,5 +1,6 @@
 //! `nav2_msgs/action/NavigateToPose`, whose result has another layout in each distribution.
 
+use mapless_robot::navigation::Outcome;
 use ros2_client::Message;
 use serde::{Deserialize, Serialize};
 
@@ -54,15 +55,6 @@ pub type NavigateResult = JazzyResult;
 /// The result in the distribution that this is built for.
 #[cfg(feature = "humble")]
 pub type NavigateResult = HumbleResult;
-
-/// How a goal ended, whatever the distribution can say of it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Outcome {
-    /// 0 for none.
-    pub code: u16,
-    /// What went wrong, for people; empty for none.
-    pub text: String,
-}
 
 impl From<Outcome> for HumbleResult {
     fn from(_: Outcome) -> Self {

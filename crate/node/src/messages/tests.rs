@@ -1,3 +1,4 @@
+use mapless_robot::navigation::Outcome;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 

@@ -16,8 +16,9 @@ use ros2_client::qos::{Durability, History, Reliability, WhenFull};
 use ros2_client::{ActionTypeName, Name, QosProfile, RmwRequestId};
 
 use super::{Entities, RosError, making};
-use crate::messages::{Feedback, NavigateGoal, NavigateResult, Outcome};
+use crate::messages::{Feedback, NavigateGoal, NavigateResult};
 use crate::navigation::End;
+use mapless_robot::navigation::Outcome;
 
 /// How long the result of a goal that ended is kept for whoever asks for it, as in rcl.
 const KEPT: Duration = Duration::from_secs(15 * 60);

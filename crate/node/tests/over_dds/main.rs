@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 use mapless_node::config::NodeConfig;
 use mapless_node::messages::{Feedback, Header, NavigateGoal, NavigateResult, Point, Pose, PoseStamped};
 use mapless_node::navigation::code;
+use mapless_recording::{Options, replay};
 use robot::Robot;
 use ros2_client::action::{ActionClient, ActionClientQosPolicies, GoalId, GoalStatusEnum};
 use ros2_client::dds::ServiceMapping;
@@ -26,6 +27,8 @@ const DISCOVERY: Duration = Duration::from_secs(60);
 /// A command every 20 ms, on a loaded machine.
 const SLACK: Duration = Duration::from_millis(300);
 const FAR_M: f64 = 200.0;
+/// Where the node records, beside its file.
+const DRIVES: &str = "drives";
 /// The sample file's section about the mount.
 const MOUNT: [&str; 5] = ["sensor:", "height_m:", "forward_m:", "left_m:", "pitch_rad:"];
 
@@ -55,7 +58,9 @@ impl Process {
             !more.contains("sensor_mount") || !MOUNT.iter().any(|key| line.trim_start().starts_with(key))
         };
         let text: String = text.lines().filter(is_kept).map(|line| format!("{line}\n")).collect();
-        std::fs::write(&file, text + more).unwrap();
+        let drives = folder.path().join(DRIVES);
+        let recording = format!("    recording:\n      folder: {}\n", drives.display());
+        std::fs::write(&file, text + &recording + more).unwrap();
         NodeConfig::open(&file).unwrap();
         let log = std::fs::File::create(folder.path().join("log")).unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_mapless-node"));
@@ -68,6 +73,25 @@ impl Process {
     /// What it wrote to its log.
     fn log(&self) -> String {
         std::fs::read_to_string(self.folder.path().join("log")).unwrap()
+    }
+
+    /// Asks it to end. The whole drive was recorded, and is decided again to the bit: what became of it.
+    fn end(&mut self) -> String {
+        let id = self.child.id().to_string();
+        assert!(Command::new("kill").arg(&id).status().unwrap().success());
+        let status =
+            until(Duration::from_secs(10), || self.child.try_wait().unwrap()).expect("it does not end");
+        assert!(status.success());
+        let drives = std::fs::read_dir(self.folder.path().join(DRIVES)).unwrap();
+        let recorded: Vec<_> = drives.map(|entry| entry.unwrap().path()).collect();
+        assert_eq!(recorded.len(), 1);
+        let mut news = Vec::new();
+        let bytes = std::fs::File::open(&recorded[0]).unwrap();
+        let report = replay(bytes, &Options::default(), |told| news.push(format!("{told:?}"))).unwrap();
+        assert!(report.ticks > 200 && report.answers > 10 && !report.is_cut, "{report:?}");
+        assert_eq!((report.different_ticks, report.different_answers, report.lost), (0, 0, 0), "{news:#?}");
+        assert_eq!(report.recorded_digest.as_ref(), Some(&report.digest));
+        format!("{news:#?}\n{report:#?}")
     }
 }
 
@@ -204,9 +228,7 @@ fn a_robot_is_driven_by_the_action_and_stopped() {
     assert!(stopped < Duration::from_millis(350) + SLACK, "stopped {stopped:?} after the last scan");
 
     // It ends by itself when asked to.
-    let id = process.child.id().to_string();
-    assert!(Command::new("kill").arg(&id).status().unwrap().success());
-    let status =
-        until(Duration::from_secs(10), || process.child.try_wait().unwrap()).expect("it does not end");
-    assert!(status.success() && !robot.is_driven());
+    let recorded = process.end();
+    assert!(!robot.is_driven());
+    assert!(recorded.contains("tilted"), "{recorded}");
 }

@@ -120,7 +120,7 @@ fn a_robot_is_driven_by_packets_of_one_return() {
 fn is_driven_by_packets(domain_id: u16, is_dual: bool, lowest_port: u16) {
     let port = free_port(lowest_port);
     let more = format!("    velodyne: {{from: {SENSOR}, address: 127.0.0.1, port: {port}}}\n");
-    let process = Process::start(domain_id, &more);
+    let mut process = Process::start(domain_id, &more);
     let robot = Robot::start_with_packets(peer(domain_id, "robot"), Velodyne::new(port, is_dual));
     let mut node = peer(domain_id, "client");
     let client = client(&mut node);
@@ -151,6 +151,9 @@ fn is_driven_by_packets(domain_id: u16, is_dual: bool, lowest_port: u16) {
     let named = "scan: Malformed";
     until(DISCOVERY, || robot.diagnosis().contains(named).then_some(())).expect(named);
     assert!(robot.diagnosis().contains("are missing by the sensor's time stamps"), "{}", robot.diagnosis());
+
+    let recorded = process.end();
+    assert!(recorded.contains("are missing by the sensor's time stamps"), "{recorded}");
 }
 
 #[test]

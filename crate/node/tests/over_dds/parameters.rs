@@ -39,7 +39,7 @@ fn answered<Req: Message + Clone + 'static, Resp: Message + 'static>(
 #[test]
 fn limits_change_while_the_robot_drives_and_others_are_refused() {
     let domain_id = 126 + (std::process::id() % 25) as u16;
-    let _process = Process::start(domain_id, "");
+    let mut process = Process::start(domain_id, "");
     let robot = Robot::start(peer(domain_id, "robot"));
     let mut node = peer(domain_id, "client");
     let goals = client(&mut node);
@@ -55,6 +55,8 @@ fn limits_change_while_the_robot_drives_and_others_are_refused() {
     let limit = "supervisor.max_speed_m_s";
     let told = answered(&getter, &GetParametersRequest { names: vec![limit.to_owned()] });
     assert!((told.values[0].double_value - 0.5).abs() < 1e-12, "as in the file");
+    let tolerance = "planner.goal_tolerance_m";
+    assert!(set(tolerance, ParameterValue::Double(1.5)).successful, "no goal is pursued");
     drive(&goals, &robot);
     until(Duration::from_secs(20), || (robot.speed_m_s() > 0.4).then_some(())).expect("it is slow");
     assert!(set(limit, ParameterValue::Double(0.2)).successful);
@@ -68,7 +70,8 @@ fn limits_change_while_the_robot_drives_and_others_are_refused() {
 
     let refused = set(limit, ParameterValue::Double(-1.0));
     assert_eq!(refused.reason, "supervisor.max_speed_m_s = -1: expected a positive number");
-    let refused = set("planner.goal_tolerance_m", ParameterValue::Double(1.0));
+    let refused = set(tolerance, ParameterValue::Double(1.0));
     assert!(!refused.successful && refused.reason.contains("a goal is pursued"), "{}", refused.reason);
     until(Duration::from_secs(10), || robot.is_driven().then_some(())).expect("it does not drive");
+    process.end();
 }

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use crate::packets::Velodyne;
 use mapless_node::messages::{
-    Bool, DiagnosticArray, Header, Imu, Odometry, PointCloud2, PointField, Quaternion, Time, Twist,
-    TwistStamped,
+    Bool, DiagnosticArray, Header, Imu, Odometry, PointCloud2, PointField, Quaternion, Twist, TwistStamped,
+    now,
 };
 use ros2_client::{MessageTypeName, Name, Node, Publisher, QosProfile, Subscription};
 use serde::Serialize;
@@ -207,7 +207,7 @@ fn go(state: &Mutex<State>, mut sensors: Sensors) {
 }
 
 fn header(frame_id: &str) -> Header {
-    Header { stamp: Time::now(), frame_id: frame_id.to_owned() }
+    Header { stamp: now(), frame_id: frame_id.to_owned() }
 }
 
 fn imu(state: &State, noise: f64) -> Imu {

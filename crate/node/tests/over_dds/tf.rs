@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use mapless_node::messages::{Header, TfMessage, Time, Transform, TransformStamped, Vector3};
+use mapless_node::messages::{Header, TfMessage, Transform, TransformStamped, Vector3, now};
 use ros2_client::qos::{Durability, History, Reliability, WhenFull};
 use ros2_client::{MessageTypeName, Name, QosProfile};
 
@@ -12,7 +12,7 @@ use crate::{DISCOVERY, Process, client, drive, peer, until};
 fn told(parent: &str, child: &str, z: f64) -> TransformStamped {
     let translation = Vector3 { z, ..Vector3::default() };
     TransformStamped {
-        header: Header { stamp: Time::now(), frame_id: parent.to_owned() },
+        header: Header { stamp: now(), frame_id: parent.to_owned() },
         child_frame_id: child.to_owned(),
         transform: Transform { translation, ..Transform::default() },
     }
@@ -33,10 +33,11 @@ fn a_robot_is_driven_once_tf_told_the_mount() {
     // 0.8 m over the ground, with the 0.165 m of base_link.
     let transforms = vec![told("base_link", "plate", 0.335), told("plate", "lidar3d_0_laser", 0.3)];
     publisher.publish(TfMessage { transforms }).unwrap();
-    let _process = Process::start(domain_id, "    sensor_mount: {source: tf}\n");
+    let mut process = Process::start(domain_id, "    sensor_mount: {source: tf}\n");
     let robot = Robot::start(peer(domain_id, "robot"));
     drive(&client(&mut peer(domain_id, "client")), &robot);
     until(Duration::from_secs(20), || (robot.speed_m_s() > 0.4).then_some(())).expect("it is slow");
+    process.end();
 }
 
 #[test]

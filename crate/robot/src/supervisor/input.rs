@@ -4,6 +4,9 @@ use core::time::Duration;
 
 use mapless::{Command, Status, Step};
 
+use crate::messages::Time;
+use crate::senses::Arrival;
+
 use super::reason::Reason;
 use super::states::State;
 
@@ -52,6 +55,44 @@ pub struct Inputs {
     pub goal: Option<u64>,
     /// Somebody asked for a reset since the last tick.
     pub reset: bool,
+}
+
+impl Inputs {
+    /// The emergency stop tells whether it is pressed. Pressed once is pressed, even if it is released before
+    /// the next tick.
+    pub fn hear_emergency_stop(&mut self, is_pressed: bool) {
+        self.emergency_stop = Some(self.emergency_stop == Some(true) || is_pressed);
+    }
+
+    /// A scan was spoilt on its way. A good one that the supervisor does not know yet stays.
+    pub fn hear_spoilt_scan(&mut self, arrival: Arrival) {
+        self.scan.get_or_insert(Message {
+            arrived: arrival.at,
+            clock_ns: arrival.clock_ns,
+            stamp_ns: 0,
+            fingerprint: 0,
+            is_well_formed: false,
+        });
+    }
+
+    /// The simulation's clock tells the time.
+    pub fn hear_clock(&mut self, time: Time) {
+        self.clock = u64::try_from(time.nanoseconds()).ok().map(Duration::from_nanos);
+    }
+
+    /// What was told since this was last asked. Messages and events are told once; what is so stays.
+    pub fn take(&mut self) -> Self {
+        let taken = *self;
+        *self = Self {
+            attitude_rad: taken.attitude_rad,
+            wheels_disagree: taken.wheels_disagree,
+            has_peer: taken.has_peer,
+            other_publishers: taken.other_publishers,
+            goal: taken.goal,
+            ..Self::default()
+        };
+        taken
+    }
 }
 
 /// What the planner made of a scan.

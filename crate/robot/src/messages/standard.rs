@@ -27,13 +27,6 @@ impl Time {
             nanosec: nanoseconds.rem_euclid(1_000_000_000) as u32,
         }
     }
-
-    /// The system's clock now.
-    #[must_use]
-    pub fn now() -> Self {
-        let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
-        Self::from_nanoseconds(since.as_nanos() as i64)
-    }
 }
 
 /// `builtin_interfaces/Duration`.

@@ -6,13 +6,15 @@ use mapless::glam::{DVec2, DVec3};
 
 /// The change from one frame to another, by the robot's pose in both.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FrameChange {
+pub struct FrameChange {
     from: Pose,
     to: Pose,
 }
 
 impl FrameChange {
-    pub(crate) fn new(from: Pose, to: Pose) -> Self {
+    /// The change that takes a robot at `from` in one frame to `to` in the other.
+    #[must_use]
+    pub fn new(from: Pose, to: Pose) -> Self {
         Self { from, to }
     }
 
@@ -21,18 +23,21 @@ impl FrameChange {
     }
 
     /// A heading, radians.
-    pub(crate) fn heading_rad(&self, heading_rad: f64) -> f64 {
+    #[must_use]
+    pub fn heading_rad(&self, heading_rad: f64) -> f64 {
         heading_rad + self.turn_rad()
     }
 
     /// A place seen from above, metres.
-    pub(crate) fn place_m(&self, place_m: DVec2) -> DVec2 {
+    #[must_use]
+    pub fn place_m(&self, place_m: DVec2) -> DVec2 {
         let (sin, cos) = libm::sincos(self.turn_rad());
         self.to.plan_m() + DVec2::new(cos, sin).rotate(place_m - self.from.plan_m())
     }
 
     /// A point, metres.
-    pub(crate) fn point_m(&self, point_m: DVec3) -> DVec3 {
+    #[must_use]
+    pub fn point_m(&self, point_m: DVec3) -> DVec3 {
         let up_m = point_m.z - self.from.position_m.z;
         self.place_m(point_m.truncate()).extend(self.to.position_m.z + up_m)
     }

@@ -1,0 +1,369 @@
+//! Driving estimator, motion compensation, supervisor and planner with a recording.
+
+mod comparison;
+mod report;
+mod settings;
+
+use core::time::Duration;
+use std::collections::VecDeque;
+use std::io::Read;
+
+use mapless::glam::DVec2;
+use mapless::{Pose, Status};
+use mapless_robot::drive_config::DriveConfig;
+use mapless_robot::messages::{Point, PoseStamped};
+use mapless_robot::navigation::{End, Ended, Navigation, Task, goal_of};
+use mapless_robot::pilot::Pilot;
+use mapless_robot::senses::{Heard, Scan, Senses};
+use mapless_robot::supervisor::{Decision, Inputs, Proposal, Supervisor};
+
+use crate::entry::{Content, Entry};
+use crate::error::{Fault, RecordingError};
+use crate::message::{AnswerMessage, TickMessage, nanoseconds};
+use crate::reader::Reader;
+use crate::topics::{Role, TopicNames};
+
+use comparison::Comparison;
+pub use comparison::Difference;
+pub use report::{News, Report};
+
+/// Of a file without recorded ticks, the supervisor ticks this often: 50 Hz, as in the node.
+const PERIOD: Duration = Duration::from_millis(20);
+/// Scans and answers that may still be asked for: the planner takes the newest within a second.
+const KEPT: usize = 32;
+
+/// What a replay is told besides the file.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Topics whose roles do not follow from their types.
+    pub topics: TopicNames,
+    /// Values in place of those of the configuration, as `planner.goal_tolerance_m=2`.
+    pub settings: Vec<String>,
+    /// A goal from the begin on, in the odometry's frame, metres; for files without any.
+    pub goal_m: Option<DVec2>,
+}
+
+/// Replays a recording; `tell` hears what happens as it happens.
+///
+/// # Errors
+/// [`RecordingError`] with the place in the file and what was expected there.
+pub fn replay(
+    file: impl Read,
+    options: &Options,
+    mut tell: impl FnMut(&News),
+) -> Result<Report, RecordingError> {
+    let mut reader = Reader::new(file, options.topics.clone())?;
+    let mut replay = None;
+    while let Some(entry) = reader.next_entry()? {
+        if replay.is_none() {
+            let config = reader.head().map(|head| &head.config);
+            let new = settings::config(config, &options.settings)
+                .and_then(|config| Replay::new(config, reader.head().is_some(), options));
+            replay = Some(new.map_err(|fault| reader.error(fault))?);
+        }
+        if let Some(replay) = &mut replay {
+            replay.take(&entry, &mut tell).map_err(|fault| reader.error(fault))?;
+        }
+    }
+    for role in [Role::Scan, Role::Odometry, Role::Imu] {
+        if !reader.topics().contains_key(&role) && !reader.is_cut() {
+            return Err(reader.error(Fault::Needed { role: role.name(), schema: role.schema() }));
+        }
+    }
+    let mut report = replay.map_or_else(Report::default, Replay::report);
+    if reader.head().is_none() && report.goals == 0 && options.goal_m.is_none() {
+        return Err(reader.error(Fault::NoGoal));
+    }
+    report.is_cut = reader.is_cut();
+    Ok(report)
+}
+
+/// The node's parts without its threads, and what they decided.
+///
+/// A recording of the node tells when its threads took what: the supervisor's ticks and the planner's scans
+/// are those of the recording. For other files the supervisor ticks at 50 Hz, and the planner answers every
+/// scan at once.
+#[derive(Debug)]
+struct Replay {
+    config: DriveConfig,
+    settings: Vec<String>,
+    has_schedule: bool,
+    senses: Senses,
+    pilot: Pilot,
+    supervisor: Supervisor,
+    inputs: Inputs,
+    scans: VecDeque<Scan>,
+    proposals: VecDeque<Proposal>,
+    task: Option<Task>,
+    /// Those before, too: a goal may change while the planner works for the last one.
+    tasks: VecDeque<Task>,
+    /// Of a file without a schedule:
+    navigation: Navigation<()>,
+    asked: Option<PoseStamped>,
+    has_jumped: bool,
+    poses: Option<[Pose; 2]>,
+    decision: Option<Decision>,
+    status: Option<Status>,
+    due: Duration,
+    odom: Option<String>,
+    comparison: Comparison,
+    report: Report,
+}
+
+impl Replay {
+    /// Parts that have heard nothing. `has_schedule`: the entries tell when the threads took what.
+    ///
+    /// # Errors
+    /// A value of the configuration that makes no sense.
+    fn new(config: DriveConfig, has_schedule: bool, options: &Options) -> Result<Self, Fault> {
+        let asked = options.goal_m.map(|goal_m| {
+            let mut pose = PoseStamped::default();
+            pose.header.frame_id.clone_from(&config.frames.odom);
+            pose.pose.position = Point { x: goal_m.x, y: goal_m.y, z: 0.0 };
+            pose
+        });
+        Ok(Self {
+            settings: options.settings.clone(),
+            has_schedule,
+            senses: config.senses()?,
+            pilot: Pilot::new(config.planner.clone())?,
+            supervisor: Supervisor::new(config.supervisor)?,
+            inputs: Inputs::default(),
+            scans: VecDeque::new(),
+            proposals: VecDeque::new(),
+            task: None,
+            tasks: VecDeque::new(),
+            navigation: Navigation::new(Duration::from_secs_f64(config.navigation.timeout_s)),
+            asked,
+            has_jumped: false,
+            poses: None,
+            decision: None,
+            status: None,
+            due: Duration::ZERO,
+            odom: None,
+            comparison: Comparison::default(),
+            report: Report { has_decisions: has_schedule, ..Report::default() },
+            config,
+        })
+    }
+
+    /// Takes the next entry.
+    ///
+    /// # Errors
+    /// A configuration that makes no sense.
+    fn take(&mut self, entry: &Entry, tell: &mut dyn FnMut(&News)) -> Result<(), Fault> {
+        let at = entry.arrival.at;
+        while !self.has_schedule && self.due <= at {
+            self.tick_freely(self.due, tell);
+            self.due += PERIOD;
+        }
+        self.report.until = self.report.until.max(at);
+        match &entry.content {
+            Content::Scan(cloud) if self.has_schedule => {
+                let heard = self.senses.take_scan(entry.arrival, cloud);
+                self.hear(heard);
+            }
+            Content::Odometry(odometry) if self.has_schedule => {
+                let heard = self.senses.take_odometry(entry.arrival, odometry);
+                self.hear(heard);
+            }
+            Content::Imu(imu) if self.has_schedule => {
+                let heard = self.senses.take_imu(entry.arrival, imu);
+                self.hear(heard);
+            }
+            Content::Scan(_) | Content::Odometry(_) | Content::Imu(_) => self.take_foreign(entry),
+            Content::EmergencyStop(message) => self.inputs.hear_emergency_stop(message.data),
+            Content::Reset(message) => self.inputs.reset |= message.data,
+            Content::Clock(message) => self.inputs.hear_clock(message.clock),
+            Content::GoalPose(pose) => {
+                self.report.goals += 1;
+                if !self.has_schedule {
+                    self.ask(pose.clone());
+                }
+            }
+            Content::Goal(goal) => {
+                self.task = goal.task();
+                keep(&mut self.tasks, self.task);
+                self.inputs.goal = self.task.map(|task| task.number);
+            }
+            Content::Tick(recorded) => self.tick(at, recorded, tell),
+            Content::Answer(recorded) => self.answer(at, recorded, tell),
+            Content::Spoilt(spoilt) => {
+                self.report.complain("packets", &spoilt.why);
+                self.inputs.hear_spoilt_scan(entry.arrival);
+            }
+            Content::Limits(limits) => {
+                self.configure(DriveConfig { supervisor: **limits, ..self.config.clone() })?;
+                self.supervisor.limit(&self.config.supervisor)?;
+            }
+            Content::Planner(planner) => {
+                self.configure(DriveConfig { planner: (**planner).clone(), ..self.config.clone() })?;
+                self.pilot.configure(self.config.planner.clone())?;
+            }
+            Content::Lost(lost) => self.report.lost += u64::from(lost.entries),
+        }
+        Ok(())
+    }
+
+    /// Another configuration; what is set for the replay stays.
+    fn configure(&mut self, config: DriveConfig) -> Result<(), Fault> {
+        self.config = settings::config(Some(&config), &self.settings)?;
+        Ok(())
+    }
+
+    fn hear(&mut self, heard: Heard) {
+        for (what, complaint) in &heard.complaints {
+            self.report.complain(what, complaint);
+        }
+        heard.tell(&mut self.inputs);
+        self.has_jumped |= heard.jump.is_some();
+        self.poses = heard.poses.or(self.poses);
+        keep(&mut self.scans, heard.scan);
+    }
+
+    /// A tick of the recording.
+    fn tick(&mut self, at: Duration, recorded: &TickMessage, tell: &mut dyn FnMut(&News)) {
+        self.inputs.has_peer = recorded.has_peer;
+        self.inputs.publish_failed = recorded.publish_failed;
+        self.inputs.other_publishers = recorded.other_publishers as usize;
+        let is_it = |proposal: &&Proposal| nanoseconds(proposal.scan_arrived) == recorded.answered_scan_ns;
+        let proposal = self.proposals.iter().find(is_it).copied();
+        let inputs = self.inputs.take();
+        let decision = self.supervisor.tick(at, &inputs, proposal.as_ref());
+        let mut replayed = TickMessage::new(&inputs, proposal.as_ref(), &decision);
+        // What the planner did not answer here is told about the answer.
+        replayed.answered_scan_ns = recorded.answered_scan_ns;
+        self.report.ticks += 1;
+        self.report.tell_change(at, &decision, tell);
+        if let Some(difference) = self.comparison.tick(at, Some(recorded), &replayed) {
+            self.report.different_ticks += 1;
+            tell(&News::Difference(difference));
+        }
+    }
+
+    /// An answer of the recording.
+    fn answer(&mut self, at: Duration, recorded: &AnswerMessage, tell: &mut dyn FnMut(&News)) {
+        self.report.answers += 1;
+        while self.scans.front().is_some_and(|scan| nanoseconds(scan.arrived) < recorded.scan_ns) {
+            self.scans.pop_front();
+        }
+        let is_there = self.scans.front().is_some_and(|scan| nanoseconds(scan.arrived) == recorded.scan_ns);
+        let scan = if is_there { self.scans.pop_front() } else { None };
+        let task = self.tasks.iter().find(|task| task.number == recorded.goal).copied();
+        let replayed = scan.zip(task).map(|(scan, task)| {
+            let answer = self.pilot.answer(&scan, task, recorded.has_jumped, |_, _| {});
+            keep(&mut self.proposals, Some(answer.proposal));
+            AnswerMessage::new(&answer, recorded.has_jumped)
+        });
+        if let Some(difference) = self.comparison.answer(at, Some(recorded), replayed.as_ref()) {
+            self.report.different_answers += 1;
+            tell(&News::Difference(difference));
+        }
+    }
+
+    /// A message of a robot's own recording. Frames of sensors are taken as they are.
+    fn take_foreign(&mut self, entry: &Entry) {
+        let at = entry.arrival.at;
+        let frames = &self.config.frames;
+        let heard = match &entry.content {
+            Content::Scan(cloud) => {
+                let mut cloud = cloud.clone();
+                cloud.header.frame_id.clone_from(&frames.scan);
+                self.senses.take_scan(entry.arrival, &cloud)
+            }
+            Content::Odometry(odometry) => {
+                let mut odometry = (**odometry).clone();
+                self.odom.get_or_insert_with(|| odometry.header.frame_id.clone());
+                odometry.header.frame_id.clone_from(&frames.odom);
+                odometry.child_frame_id.clone_from(&frames.base);
+                self.senses.take_odometry(entry.arrival, &odometry)
+            }
+            Content::Imu(imu) => {
+                let mut imu = (**imu).clone();
+                imu.header.frame_id.clone_from(&frames.imu);
+                self.senses.take_imu(entry.arrival, &imu)
+            }
+            _ => return,
+        };
+        self.hear(heard);
+        let (Some(task), Some(scan)) = (self.task, self.scans.pop_back()) else { return };
+        self.scans.clear();
+        let has_jumped = std::mem::take(&mut self.has_jumped);
+        let answer = self.pilot.answer(&scan, task, has_jumped, |_, _| {});
+        self.status = answer.status;
+        self.proposals = VecDeque::from([answer.proposal]);
+        self.report.answers += 1;
+        self.comparison.answer(at, None, Some(&AnswerMessage::new(&answer, has_jumped)));
+    }
+
+    /// A goal by topic, in the frame of the odometry as the file names it.
+    fn ask(&mut self, mut pose: PoseStamped) {
+        if self.odom.as_ref() == Some(&pose.header.frame_id) {
+            pose.header.frame_id.clone_from(&self.config.frames.odom);
+        }
+        self.asked = Some(pose);
+    }
+
+    /// A tick that no recording tells of.
+    fn tick_freely(&mut self, at: Duration, tell: &mut dyn FnMut(&News)) {
+        self.inputs.has_peer = true;
+        let proposal = self.proposals.pop_back();
+        let inputs = self.inputs.take();
+        let decision = self.supervisor.tick(at, &inputs, proposal.as_ref());
+        self.report.ticks += 1;
+        self.report.tell_change(at, &decision, tell);
+        self.comparison.tick(at, None, &TickMessage::new(&inputs, proposal.as_ref(), &decision));
+        self.decision = Some(decision);
+        let ended = self.navigation.check(&decision, self.status, at);
+        self.end(at, ended, tell);
+        self.accept(at, tell);
+    }
+
+    /// Accepts the goal that was asked for, as soon as one would be.
+    fn accept(&mut self, at: Duration, tell: &mut dyn FnMut(&News)) {
+        let Some(pose) = &self.asked else { return };
+        let (odom, has_heading) = (&self.config.frames.odom, self.config.navigation.final_heading);
+        match goal_of(pose, odom, self.decision.as_ref(), self.poses, has_heading) {
+            Ok(goal) => {
+                self.asked = None;
+                let before = self.navigation.accept(goal, None, at);
+                self.end(at, before, tell);
+                tell(&News::Change { at, text: format!("a goal was accepted: {}", goal.position_m) });
+            }
+            // It is asked for again at the next tick.
+            Err(reason) if self.report.last_complaint("goal") == Some(&*reason) => {}
+            Err(reason) => self.report.complain("goal", &reason),
+        }
+    }
+
+    fn end(&mut self, at: Duration, ended: Option<Ended<()>>, tell: &mut dyn FnMut(&News)) {
+        let task = self.navigation.task();
+        if task != self.task {
+            (self.task, self.status) = (task, None);
+            self.inputs.goal = task.map(|task| task.number);
+        }
+        if let Some((_, how)) = ended {
+            let text = match how {
+                End::Succeeded => "the goal was reached".to_owned(),
+                End::Canceled => "the goal was taken back".to_owned(),
+                End::Aborted(outcome) => format!("the goal was given up: {}", outcome.text),
+            };
+            tell(&News::Change { at, text });
+        }
+    }
+
+    /// What was decided in all.
+    fn report(mut self) -> Report {
+        self.report.digest = self.comparison.replayed_digest();
+        self.report.recorded_digest = self.has_schedule.then(|| self.comparison.recorded_digest());
+        self.report
+    }
+}
+
+/// Adds the newest; the oldest is forgotten once there are many.
+fn keep<T>(kept: &mut VecDeque<T>, newest: Option<T>) {
+    kept.extend(newest);
+    if kept.len() > KEPT {
+        kept.pop_front();
+    }
+}

@@ -1,0 +1,310 @@
+//! A drive over hills by the parts of the node, in the order in which its threads would call them.
+
+use core::time::Duration;
+use std::io::Cursor;
+
+use mapless::glam::{DQuat, DVec2, DVec3};
+use mapless::{PlannerConfig, Pose, RobotModel, SensorModel};
+use mapless_recording::{
+    AnswerMessage, Content, Entry, GoalMessage, Head, Role, SpoiltMessage, TickMessage, Writer,
+};
+use mapless_robot::drive_config::DriveConfig;
+use mapless_robot::messages::{
+    Bool, Header, Imu, Odometry, Point, PointCloud2, PointField, PoseStamped, Quaternion, Time, Vector3,
+};
+use mapless_robot::navigation::{Navigation, goal_of};
+use mapless_robot::pilot::Pilot;
+use mapless_robot::senses::{Arrival, Heard, Scan, Senses};
+use mapless_robot::supervisor::{Inputs, Proposal, Supervisor, SupervisorConfig};
+use mapless_world::{Attitude, Caster, HeightField, Lidar, RobotConfig, Scene, SensorConfig, attitude_on};
+
+/// The robot's clock when the recording begins, nanoseconds.
+const BEGAN_NS: u64 = 1_700_000_000_000_000_000;
+const BASE_M: f64 = 0.165;
+const GOAL_M: DVec2 = DVec2::new(12.0, 3.0);
+
+/// What is driven.
+#[derive(Clone, Copy)]
+pub(crate) struct Plan {
+    /// Azimuths of the sensor.
+    pub(crate) columns: usize,
+    pub(crate) seconds: f64,
+    /// When the emergency stop is pressed, for 0.2 s.
+    pub(crate) pressed_s: f64,
+    /// When the limits are lowered, the planner is set otherwise and a scan is spoilt.
+    pub(crate) changed_s: f64,
+}
+
+/// A short one with a thin sensor.
+pub(crate) const SHORT: Plan = Plan { columns: 90, seconds: 2.5, pressed_s: 2.1, changed_s: 9.0 };
+
+struct Drive {
+    caster: Caster,
+    lidar: Lidar,
+    pose: Pose,
+    senses: Senses,
+    pilot: Pilot,
+    supervisor: Supervisor,
+    navigation: Navigation<()>,
+    inputs: Inputs,
+    poses: Option<[Pose; 2]>,
+    scan: Option<Scan>,
+    proposal: Option<Proposal>,
+    config: DriveConfig,
+    entries: Vec<Entry>,
+}
+
+fn hills() -> Caster {
+    let height = |index: u32| {
+        let (x, y) = (0.25 * f64::from(index % 241), 0.25 * f64::from(index / 241));
+        (0.35 * libm::sin(0.6 * x) * libm::cos(0.45 * y) + 0.002 * (x - 30.0) * (x - 30.0)) as f32
+    };
+    Caster::new(HeightField::new(241, 241, 0.25, (0..241 * 241).map(height).collect()).unwrap())
+}
+
+fn config(columns: usize) -> DriveConfig {
+    let mut sensor = SensorModel::vlp16();
+    (sensor.rings, sensor.columns) = (8, columns);
+    let planner = PlannerConfig::for_robot(sensor, RobotModel::husky());
+    let mut config = DriveConfig { planner, ..DriveConfig::default() };
+    config.supervisor.clear_after_s = 0.3;
+    config
+}
+
+/// The head and the entries of a drive.
+pub(crate) fn drive(plan: Plan) -> (Head, Vec<Entry>) {
+    let config = config(plan.columns);
+    let sensor =
+        SensorConfig { rings: 8, columns: plan.columns, max_range_m: 30.0, ..SensorConfig::default() };
+    let mut drive = Drive {
+        caster: hills(),
+        lidar: Lidar::new(sensor).unwrap(),
+        pose: Pose::from_roll_pitch_yaw(DVec3::new(25.0, 25.0, 0.0), 0.0, 0.0, 0.3),
+        senses: config.senses().unwrap(),
+        pilot: Pilot::new(config.planner.clone()).unwrap(),
+        supervisor: Supervisor::new(config.supervisor).unwrap(),
+        navigation: Navigation::new(Duration::from_secs(60)),
+        inputs: Inputs::default(),
+        poses: None,
+        scan: None,
+        proposal: None,
+        config,
+        entries: Vec::new(),
+    };
+    for tick in 0..(100.0 * plan.seconds) as u64 {
+        drive.step(tick, plan);
+    }
+    let topic = |role: Role| (role, format!("/a200_0000/{}", role.name()));
+    let topics = Role::INPUTS.into_iter().map(topic).collect();
+    (Head { began_ns: BEGAN_NS, config: drive.config, topics }, drive.entries)
+}
+
+/// The recording of a drive as a file.
+pub(crate) fn file((head, entries): &(Head, Vec<Entry>)) -> Vec<u8> {
+    let mut writer = Writer::new(Cursor::new(Vec::new()), head).unwrap();
+    for (index, entry) in entries.iter().enumerate() {
+        writer.write(entry).unwrap();
+        if index % 100 == 99 {
+            writer.flush().unwrap();
+        }
+    }
+    writer.finish().unwrap().into_inner()
+}
+
+impl Drive {
+    /// Ten milliseconds.
+    fn step(&mut self, tick: u64, plan: Plan) {
+        let arrival = |micros: u64| {
+            let at = Duration::from_nanos(10_000_000 * tick + 1000 * micros + 7 * (tick % 13));
+            Arrival { at, clock_ns: BEGAN_NS as i64 + at.as_nanos() as i64 }
+        };
+        let at_s = 0.01 * tick as f64;
+        self.move_on();
+        if tick.is_multiple_of(5) {
+            let imu = self.imu(arrival(0), tick);
+            let heard = self.senses.take_imu(arrival(0), &imu);
+            self.hear(arrival(0), heard, Content::Imu(Box::new(imu)));
+        }
+        if tick % 10 == 1 {
+            let odometry = self.odometry(arrival(10));
+            let heard = self.senses.take_odometry(arrival(10), &odometry);
+            self.hear(arrival(10), heard, Content::Odometry(Box::new(odometry)));
+        }
+        if tick % 20 == 2 {
+            let pressed = Bool { data: (plan.pressed_s..plan.pressed_s + 0.2).contains(&at_s) };
+            self.inputs.hear_emergency_stop(pressed.data);
+            self.put(arrival(20), Content::EmergencyStop(pressed));
+        }
+        // The first sweep needs poses from before it.
+        if tick > 20 && tick % 10 == 3 {
+            let cloud = self.cloud(arrival(30), tick);
+            let heard = self.senses.take_scan(arrival(30), &cloud);
+            self.hear(arrival(30), heard, Content::Scan(cloud));
+        }
+        if tick % 10 == 4
+            && let (Some(scan), Some(task)) = (self.scan.take(), self.navigation.task())
+        {
+            let answer = self.pilot.answer(&scan, task, false, |_, _| {});
+            self.put(arrival(40), Content::Answer(AnswerMessage::new(&answer, false)));
+            self.proposal = Some(answer.proposal);
+        }
+        if tick == (100.0 * plan.changed_s) as u64 {
+            self.change(arrival(45));
+        }
+        if tick.is_multiple_of(2) || self.proposal.is_some() {
+            self.tick(arrival(50));
+        }
+        if tick % 10 == 6 && self.navigation.task().is_none() && at_s < plan.pressed_s {
+            self.ask(arrival(60));
+        }
+    }
+
+    /// Parameters that are set while it drives, and a packet that is lost.
+    fn change(&mut self, arrival: Arrival) {
+        let limits = SupervisorConfig { max_speed_m_s: 0.2, ..self.config.supervisor };
+        self.put(arrival, Content::Limits(Box::new(limits)));
+        self.supervisor.limit(&limits).unwrap();
+        let planner = PlannerConfig { goal_tolerance_m: 1.5, ..self.config.planner.clone() };
+        self.put(arrival, Content::Planner(Box::new(planner.clone())));
+        self.pilot.configure(planner).unwrap();
+        self.put(arrival, Content::Spoilt(SpoiltMessage { why: "a packet was lost".to_owned() }));
+        self.inputs.hear_spoilt_scan(arrival);
+    }
+
+    fn put(&mut self, arrival: Arrival, content: Content) {
+        self.entries.push(Entry { arrival, content });
+    }
+
+    fn hear(&mut self, arrival: Arrival, heard: Heard, content: Content) {
+        assert_eq!(heard.complaints, []);
+        heard.tell(&mut self.inputs);
+        self.poses = heard.poses.or(self.poses);
+        self.scan = heard.scan.or(self.scan.take());
+        self.put(arrival, content);
+    }
+
+    fn tick(&mut self, arrival: Arrival) {
+        self.inputs.has_peer = true;
+        let inputs = self.inputs.take();
+        let proposal = self.proposal.take();
+        let decision = self.supervisor.tick(arrival.at, &inputs, proposal.as_ref());
+        self.put(arrival, Content::Tick(TickMessage::new(&inputs, proposal.as_ref(), &decision)));
+        if self.navigation.check(&decision, None, arrival.at).is_some() {
+            self.serve(arrival);
+        }
+    }
+
+    fn ask(&mut self, arrival: Arrival) {
+        let mut pose = PoseStamped { header: self.header("odom", arrival), ..PoseStamped::default() };
+        pose.pose.position = Point { x: 25.0 + GOAL_M.x, y: 25.0 + GOAL_M.y, z: 0.0 };
+        self.put(arrival, Content::GoalPose(pose.clone()));
+        let ticks = self.entries.iter().rev();
+        let last = ticks.filter_map(|entry| match &entry.content {
+            Content::Tick(tick) => Some(tick.takes_goals),
+            _ => None,
+        });
+        // As the node's hub would say.
+        if last.take(1).any(|takes_goals| takes_goals) {
+            let decision = mapless_robot::supervisor::Decision {
+                command: mapless::Command::STOP,
+                state: mapless_robot::supervisor::State::Standby,
+                reason: None,
+                cause: None,
+                takes_goals: true,
+            };
+            let goal = goal_of(&pose, "odom", Some(&decision), self.poses, false).unwrap();
+            self.navigation.accept(goal, None, arrival.at);
+            self.serve(arrival);
+        }
+    }
+
+    fn serve(&mut self, arrival: Arrival) {
+        let task = self.navigation.task();
+        self.inputs.goal = task.map(|task| task.number);
+        self.put(arrival, Content::Goal(GoalMessage::new(task.as_ref())));
+    }
+
+    fn command(&self) -> [f64; 2] {
+        let ticks = self.entries.iter().rev();
+        let mut commands = ticks.filter_map(|entry| match &entry.content {
+            Content::Tick(tick) => Some([tick.linear_m_s, tick.angular_rad_s]),
+            _ => None,
+        });
+        commands.next().unwrap_or_default()
+    }
+
+    fn attitude(&self) -> Attitude {
+        attitude_on(self.caster.field(), self.pose.plan_m(), self.pose.yaw_rad, &RobotConfig::default())
+            .unwrap()
+    }
+
+    fn move_on(&mut self) {
+        let [linear_m_s, angular_rad_s] = self.command();
+        let (sin, cos) = libm::sincos(self.pose.yaw_rad);
+        let plan_m = self.pose.plan_m() + 0.01 * linear_m_s * DVec2::new(cos, sin);
+        self.pose =
+            Pose::from_roll_pitch_yaw(plan_m.extend(0.0), 0.0, 0.0, self.pose.yaw_rad + 0.01 * angular_rad_s);
+        let Attitude { height_m, roll_rad, pitch_rad } = self.attitude();
+        self.pose =
+            Pose::from_roll_pitch_yaw(plan_m.extend(height_m), roll_rad, pitch_rad, self.pose.yaw_rad);
+    }
+
+    fn header(&self, frame_id: &str, arrival: Arrival) -> Header {
+        let stamp = Time::from_nanoseconds(arrival.clock_ns - 2_000_000);
+        Header { stamp, frame_id: frame_id.to_owned() }
+    }
+
+    fn imu(&self, arrival: Arrival, tick: u64) -> Imu {
+        let DQuat { x, y, z, w } = DQuat::from_mat3(&self.pose.world_from_robot());
+        // What is measured is never the same twice.
+        let noise = 1e-6 * (tick % 997) as f64;
+        Imu {
+            header: self.header("imu_0_link", arrival),
+            orientation: Quaternion { x, y, z, w },
+            angular_velocity: Vector3 { x: 0.0, y: 0.0, z: self.command()[1] + noise },
+            ..Imu::default()
+        }
+    }
+
+    fn odometry(&self, arrival: Arrival) -> Odometry {
+        let base_m = self.pose.moved(DVec3::Z * BASE_M).position_m;
+        let [linear_m_s, angular_rad_s] = self.command();
+        let mut odometry = Odometry { header: self.header("odom", arrival), ..Odometry::default() };
+        odometry.child_frame_id = "base_link".to_owned();
+        odometry.pose.pose.position = Point { x: base_m.x, y: base_m.y, z: 0.0 };
+        odometry.pose.pose.orientation = Quaternion::from_yaw(self.pose.yaw_rad);
+        odometry.twist.twist.linear.x = linear_m_s;
+        odometry.twist.twist.angular.z = angular_rad_s;
+        odometry
+    }
+
+    /// The sensor's returns, each with its time in milliseconds.
+    fn cloud(&self, arrival: Arrival, tick: u64) -> PointCloud2 {
+        const STEP: u32 = 14;
+        let sensor = self.lidar.config().pose_on(self.pose.plan_m(), self.pose.yaw_rad, &self.attitude());
+        let mut scan = mapless_world::Scan::default();
+        self.lidar.scan_along(30.0, &Scene::bare(&self.caster), |_| sensor, 1, tick, &mut scan);
+        let rings = self.lidar.config().rings;
+        let beams = scan.ranges_m.iter().enumerate().filter(|(_, range_m)| !range_m.is_nan());
+        let mut data = Vec::new();
+        for ((beam, _), point_m) in beams.zip(&scan.points) {
+            point_m.to_array().iter().for_each(|axis| data.extend(axis.to_le_bytes()));
+            let share = (beam / rings) as f64 / self.lidar.config().columns as f64;
+            data.extend(((100.0 * share) as u16).to_le_bytes());
+        }
+        let field =
+            |name: &str, offset, datatype| PointField { name: name.to_owned(), offset, datatype, count: 1 };
+        let width = data.len() as u32 / STEP;
+        PointCloud2 {
+            header: self.header("lidar3d_0_laser", arrival),
+            height: 1,
+            width,
+            fields: vec![field("x", 0, 7), field("y", 4, 7), field("z", 8, 7), field("time", 12, 4)],
+            is_bigendian: false,
+            point_step: STEP,
+            row_step: STEP * width,
+            data: data.into(),
+            is_dense: true,
+        }
+    }
+}
