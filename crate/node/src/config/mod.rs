@@ -14,7 +14,6 @@ use std::path::Path;
 use mapless::{PlannerConfig, RobotModel, SensorModel};
 use mapless_parameters::ConfigError;
 use mapless_robot::cloud::check_sensor;
-use mapless_robot::drive_config::DriveConfig;
 use mapless_robot::estimator::EstimatorConfig;
 use mapless_robot::supervisor::SupervisorConfig;
 use ros2_client::NodeName;
@@ -171,19 +170,6 @@ fn default_planner() -> PlannerPreset {
 }
 
 impl NodeConfig {
-    /// What the drive depends on besides messages.
-    #[must_use]
-    pub fn drive(&self) -> DriveConfig {
-        DriveConfig {
-            frames: self.frames.clone(),
-            imu: self.imu,
-            estimator: self.estimator,
-            navigation: self.navigation,
-            planner: self.planner.clone(),
-            supervisor: self.supervisor,
-        }
-    }
-
     /// Reads a file.
     ///
     /// # Errors
