@@ -88,7 +88,7 @@ impl Process {
         let mut news = Vec::new();
         let bytes = std::fs::File::open(&recorded[0]).unwrap();
         let report = replay(bytes, &Options::default(), |told| news.push(format!("{told:?}"))).unwrap();
-        assert!(report.ticks > 200 && report.answers > 10 && !report.is_cut, "{report:?}");
+        assert!(report.ticks > 50 && report.answers > 3 && !report.is_cut, "{report:?}");
         assert_eq!((report.different_ticks, report.different_answers, report.lost), (0, 0, 0), "{news:#?}");
         assert_eq!(report.recorded_digest.as_ref(), Some(&report.digest));
         format!("{news:#?}\n{report:#?}")
