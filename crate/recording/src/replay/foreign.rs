@@ -1,5 +1,5 @@
-//! Replays of files that tell of no decisions: a robot's own recordings. The supervisor ticks at 50 Hz, and the
-//! planner answers every scan at once.
+//! Replays of files that tell of no decisions: a robot's own recordings. The supervisor ticks at 50 Hz, and
+//! the planner answers every scan at once.
 
 use core::time::Duration;
 use std::collections::VecDeque;
