@@ -1,8 +1,8 @@
 //! `mapless`: drives trials from scenario files, and perceives recorded scans.
 //!
 //! Exit code of a trial: 0 when the goal was reached, 2 for any other outcome, 1 for an error. Exit code of a
-//! scan: 0 when it was read, 1 for an error. Exit code of a replay: 0 when every decision is the recorded one,
-//! 2 when one differs, 1 for an error.
+//! scan: 0 when it was read, 1 for an error. Exit code of a replay: 0 when every decision is the recorded
+//! one, 2 when one differs, 1 for an error.
 
 mod any_trial;
 mod generate;
