@@ -101,7 +101,7 @@ impl Lidar {
 fn spoilt(hub: &Hub, why: &str) {
     hub.complain("packets", &why);
     let (arrival, told) = (hub.arrival(), || Content::Spoilt(SpoiltMessage { why: why.to_owned() }));
-    hub.tell_of(arrival, told, |inputs| inputs.hear_spoilt_scan(arrival));
+    hub.tell_of(arrival, told, |inputs| inputs.hear_spoilt_scan(arrival.at, arrival.clock_ns));
 }
 
 /// A revolution as a driver would publish it, with the times of its points in seconds since its stamp.

@@ -191,7 +191,7 @@ impl Replay {
             Content::Answer(recorded) => self.answer(at, recorded, tell),
             Content::Spoilt(spoilt) => {
                 self.report.complain("packets", &spoilt.why);
-                self.inputs.hear_spoilt_scan(entry.arrival);
+                self.inputs.hear_spoilt_scan(at, entry.arrival.clock_ns);
             }
             Content::Limits(limits) => {
                 self.configure(DriveConfig { supervisor: **limits, ..self.config.clone() })?;

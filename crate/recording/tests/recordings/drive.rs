@@ -168,7 +168,7 @@ impl Drive {
         self.put(arrival, Content::Planner(Box::new(planner.clone())));
         self.pilot.configure(planner).unwrap();
         self.put(arrival, Content::Spoilt(SpoiltMessage { why: "a packet was lost".to_owned() }));
-        self.inputs.hear_spoilt_scan(arrival);
+        self.inputs.hear_spoilt_scan(arrival.at, arrival.clock_ns);
     }
 
     fn put(&mut self, arrival: Arrival, content: Content) {

@@ -5,7 +5,6 @@ use core::time::Duration;
 use mapless::{Command, Status, Step};
 
 use crate::messages::Time;
-use crate::senses::Arrival;
 
 use super::reason::Reason;
 use super::states::State;
@@ -65,10 +64,10 @@ impl Inputs {
     }
 
     /// A scan was spoilt on its way. A good one that the supervisor does not know yet stays.
-    pub fn hear_spoilt_scan(&mut self, arrival: Arrival) {
+    pub fn hear_spoilt_scan(&mut self, arrived: Duration, clock_ns: i64) {
         self.scan.get_or_insert(Message {
-            arrived: arrival.at,
-            clock_ns: arrival.clock_ns,
+            arrived,
+            clock_ns,
             stamp_ns: 0,
             fingerprint: 0,
             is_well_formed: false,
