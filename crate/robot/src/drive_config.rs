@@ -8,6 +8,7 @@ use mapless_parameters::{ConfigError, parameters};
 use serde::{Deserialize, Serialize};
 
 use crate::estimator::{Estimator, EstimatorConfig};
+pub use crate::senses::Frames;
 use crate::senses::Senses;
 use crate::supervisor::SupervisorConfig;
 
@@ -84,30 +85,5 @@ parameters! {
         final_heading: bool = false;
         /// Feedback of the action, per second.
         feedback_hz: f64 = 5.0, unit "1/s", range [1.0, 20.0], check Within(0.1, 50.0);
-    }
-}
-
-/// Names of frames. A message in another frame is malformed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Frames {
-    /// The frame of the odometry's pose, and of goals.
-    pub odom: String,
-    /// The odometry's child frame.
-    pub base: String,
-    /// The frame of the scans.
-    pub scan: String,
-    /// The frame of the IMU.
-    pub imu: String,
-}
-
-impl Default for Frames {
-    fn default() -> Self {
-        Self {
-            odom: "odom".to_owned(),
-            base: "base_link".to_owned(),
-            scan: "lidar3d_0_laser".to_owned(),
-            imu: "imu_0_link".to_owned(),
-        }
     }
 }

@@ -9,16 +9,41 @@ use std::hash::{DefaultHasher, Hasher};
 
 use glam::{DVec3, Vec3};
 use mapless::{Pose, SensorModel};
+use serde::{Deserialize, Serialize};
 
 use crate::cloud::{self, CloudError, Field, PointCloud, Returns, ViewError, check_view};
 use crate::deskew::deskew;
-use crate::drive_config::Frames;
 use crate::estimator::{self, Estimator, Jump, ReadingError};
 use crate::messages::{Header, Imu, Odometry, PointCloud2, Time};
 use crate::supervisor::{Inputs, Message};
 
 /// Half a turn of a sensor that turns at 10 Hz.
 const HALF_SWEEP: Duration = Duration::from_millis(50);
+
+/// Names of frames. A message in another frame is malformed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Frames {
+    /// The frame of the odometry's pose, and of goals.
+    pub odom: String,
+    /// The odometry's child frame.
+    pub base: String,
+    /// The frame of the scans.
+    pub scan: String,
+    /// The frame of the IMU.
+    pub imu: String,
+}
+
+impl Default for Frames {
+    fn default() -> Self {
+        Self {
+            odom: "odom".to_owned(),
+            base: "base_link".to_owned(),
+            scan: "lidar3d_0_laser".to_owned(),
+            imu: "imu_0_link".to_owned(),
+        }
+    }
+}
 
 /// Why a message was not used.
 #[derive(Debug, thiserror::Error)]
