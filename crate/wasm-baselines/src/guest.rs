@@ -8,14 +8,15 @@ use glam::Vec3;
 use mapless::math::angle::difference_rad;
 use mapless::{Command, Goal, Pose as PlannerPose};
 use mapless_parameters::{Parameter, Value};
-use mapless_trials::{Activity, Decision, Navigator, Preset, Question, Trial};
+use mapless_trials::{Activity, Decision, Navigator, Preset, Question, Scenario, Trial};
 use mapless_world::{RobotConfig, SensorConfig};
 use serde::{Deserialize, Serialize};
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
+use crate::ground::Ground;
 use crate::shared::{Overrides, Pose, changed, give, read};
-use crate::{Ground, Scenario, TrialStatus};
+use crate::trial_status::TrialStatus;
 
 /// A final heading is reached within this.
 const HEADING_TOLERANCE_RAD: f64 = 0.05;

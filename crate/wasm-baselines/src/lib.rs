@@ -1,17 +1,20 @@
 //! Whole trials of every navigator, for the page's ghosts and batches, and generated tasks. A module of its
 //! own: the page opens without it.
 
+mod ground;
 mod guest;
 #[path = "../../wasm/src/shared/mod.rs"]
 mod shared;
+mod trial_status;
 
+pub use ground::Ground;
 pub use guest::{GuestGoal, GuestModel, GuestOptions, GuestQuestion, GuestRunner};
 use mapless_baselines::{NavigatorKind, Task};
 use mapless_trials::{Navigator, Scenario, Trial, statistics};
-use mapless_world::HeightField;
 use serde::{Deserialize, Serialize};
 pub use shared::{Metrics, Outcome, OverrideValue, Overrides, Pose};
 use shared::{changed, give, read};
+pub use trial_status::TrialStatus;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
@@ -80,25 +83,6 @@ pub fn mean_and_deviation(values: &[f64]) -> Result<Ts<Spread>, JsError> {
     give(&Spread { mean, deviation: deviation.unwrap_or(f64::NAN) })
 }
 
-/// The ground that trials run on, as the page has it now.
-#[wasm_bindgen]
-#[derive(Debug)]
-pub struct Ground {
-    field: HeightField,
-}
-
-#[wasm_bindgen]
-impl Ground {
-    /// A height field, row by row from the south-west.
-    ///
-    /// # Errors
-    /// Heights that make no field.
-    #[wasm_bindgen(constructor)]
-    pub fn new(columns: usize, rows: usize, cell_m: f64, heights_m: Vec<f32>) -> Result<Ground, JsError> {
-        Ok(Ground { field: HeightField::new(columns, rows, cell_m, heights_m)? })
-    }
-}
-
 /// All that a trial is begun with, on a ground.
 #[derive(Debug, Deserialize, Tsify)]
 pub struct RunnerOptions {
@@ -109,28 +93,6 @@ pub struct RunnerOptions {
     /// The name of a navigator.
     planner: String,
     seed: u64,
-}
-
-/// How a trial stands.
-#[derive(Debug, Serialize, Tsify)]
-pub struct TrialStatus {
-    tick: u64,
-    time_s: f64,
-    pose: Pose,
-    metrics: Metrics,
-    outcome: Outcome,
-}
-
-impl TrialStatus {
-    fn of<N: Navigator>(trial: &Trial<N>) -> Self {
-        Self {
-            tick: trial.ticks(),
-            time_s: trial.time_s(),
-            pose: Pose::of(trial),
-            metrics: Metrics::of(trial),
-            outcome: Outcome::of(trial),
-        }
-    }
 }
 
 /// One trial of one navigator.

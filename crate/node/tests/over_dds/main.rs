@@ -7,6 +7,7 @@ mod packets;
 mod parameters;
 mod robot;
 mod tf;
+mod velodyne;
 
 use std::process::{Child, Command};
 use std::sync::{Mutex, MutexGuard, PoisonError};

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use crate::packets::Velodyne;
+use crate::velodyne::Velodyne;
 use mapless_node::messages::{
     Bool, DiagnosticArray, Header, Imu, Odometry, PointCloud2, PointField, Quaternion, Twist, TwistStamped,
     now,
