@@ -13,7 +13,7 @@ use mapless_robot::supervisor::{Decision, Inputs, Proposal, Supervisor, Supervis
 
 use crate::messages::{self, Clock, PointCloud2, Time};
 use crate::navigation::Task;
-use crate::recording::Recorder;
+use crate::recorder::Recorder;
 use crate::slot::{Slot, lock};
 
 /// A revolution of a sensor that sends packets.

@@ -23,6 +23,7 @@ mod parameters;
 mod picture;
 mod planning;
 mod receiving;
+mod recorder;
 mod recording;
 mod ros;
 mod run;

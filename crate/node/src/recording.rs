@@ -3,73 +3,21 @@
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 
-use mapless_recording::{Content, Entry, Head, LostMessage, RecordingError, Writer};
+use mapless_recording::{Content, Head, RecordingError, Writer};
 
 use crate::config::RecordingConfig;
 use crate::hub::Hub;
+use crate::recorder::Waiting;
 
-/// Entries that may wait for the disk: about two seconds of them, and bytes of their clouds. What comes
-/// while that many wait is lost to the recording.
-const MOST_WAITING: usize = 512;
-const MOST_BYTES: usize = 64 << 20;
 /// A crash loses no more.
 const FLUSH_EVERY: Duration = Duration::from_secs(1);
 /// How long a wait for an entry may be.
 const WAIT: Duration = Duration::from_millis(100);
 const WHAT: &str = "recording";
-
-/// Where entries are left for the recording.
-#[derive(Debug)]
-pub(crate) struct Recorder {
-    entries: SyncSender<Entry>,
-    bytes: Arc<AtomicUsize>,
-    lost: AtomicU32,
-}
-
-/// The other end.
-pub(crate) struct Waiting {
-    entries: Receiver<Entry>,
-    bytes: Arc<AtomicUsize>,
-}
-
-impl Recorder {
-    /// Both ends.
-    pub(crate) fn new() -> (Self, Waiting) {
-        let (sender, receiver) = sync_channel(MOST_WAITING);
-        let bytes = Arc::new(AtomicUsize::new(0));
-        let waiting = Waiting { entries: receiver, bytes: Arc::clone(&bytes) };
-        (Self { entries: sender, bytes, lost: AtomicU32::new(0) }, waiting)
-    }
-
-    /// Leaves an entry, without ever waiting.
-    pub(crate) fn record(&self, entry: Entry) {
-        let lost = self.lost.swap(0, Ordering::Relaxed);
-        if lost > 0 {
-            let content = Content::Lost(LostMessage { entries: lost });
-            self.leave(Entry { arrival: entry.arrival, content }, lost);
-        }
-        self.leave(entry, 1);
-    }
-
-    /// `worth` entries are lost if it cannot be left.
-    fn leave(&self, entry: Entry, worth: u32) {
-        let bytes = entry.content.bytes();
-        if self.bytes.fetch_add(bytes, Ordering::Relaxed) + bytes <= MOST_BYTES {
-            match self.entries.try_send(entry) {
-                // If the recording has ended, it said so.
-                Ok(()) | Err(TrySendError::Disconnected(_)) => return,
-                Err(TrySendError::Full(_)) => {}
-            }
-        }
-        self.bytes.fetch_sub(bytes, Ordering::Relaxed);
-        self.lost.fetch_add(worth, Ordering::Relaxed);
-    }
-}
 
 /// Why a recording ended before its drive.
 #[derive(Debug, thiserror::Error)]
@@ -136,8 +84,8 @@ fn write(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mapless_recording::Reader;
-    use mapless_recording::Role;
+    use crate::recorder::{MOST_WAITING, Recorder};
+    use mapless_recording::{Entry, Reader, Role};
     use mapless_robot::drive_config::DriveConfig;
     use mapless_robot::messages::Bool;
     use std::time::Instant;

@@ -18,7 +18,8 @@ use crate::parameters::Parameters;
 use crate::picture::Picture;
 use crate::planning::Planning;
 use crate::receiving::Receiving;
-use crate::recording::{Recorder, record};
+use crate::recorder::Recorder;
+use crate::recording::record;
 use crate::ros::{
     ActionServer, Alive, Entities, ParameterServices, Presence, RosError, Spin, making, published_qos,
 };
