@@ -49,7 +49,7 @@ fn a_cut_file_is_replayed_and_others_are_refused_by_name() {
     let none = folder.path().join("none.mcap");
     fs::write(&none, "no recording").unwrap();
     for (file, options, expected) in [
-        (&*none, &[][..], "none.mcap: after message 0 (byte 12): "),
+        (&*none, &[][..], "none.mcap: after message 0 (byte 8): Bad magic number: expected an MCAP file\n"),
         (Path::new("no-such.mcap"), &[], "no-such.mcap: "),
         (&*cut, &["--set", "planner.speed=3"], "--set planner.speed=3: no key speed: expected one of "),
         (&*cut, &["--goal", "3"], "expected two numbers, as 10,-2.5"),

@@ -9,7 +9,6 @@ pub struct RecordingError {
     /// Bytes of the file that were read by then; the fault stands before.
     pub byte: u64,
     /// What is wrong.
-    #[source]
     pub fault: Fault,
 }
 
@@ -21,7 +20,7 @@ pub enum Fault {
     Io(#[from] std::io::Error),
     /// It is no MCAP file, or a broken one.
     #[error("{0}: expected an MCAP file")]
-    Mcap(#[source] mcap::McapError),
+    Mcap(mcap::McapError),
     /// A message cannot be decoded.
     #[error("{topic}: {error}: expected {expected} in CDR")]
     Message {
