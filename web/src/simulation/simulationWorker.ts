@@ -45,6 +45,8 @@ let unsent = false;
 let watched = false;
 /** Whether the page shows the true skyline. */
 let truthShown = false;
+/** Whether the newest frame lacks the true skyline though it is shown. */
+let truthLacks = false;
 /** Whether something has changed since the decision that is shown. */
 let rethink = false;
 /** When the next surfaces may be predicted, and whether those that the page has are older than its frame. */
@@ -125,7 +127,7 @@ function showIfDue(): void {
 
 /** What stands still is shown whole: its last tick, and the surfaces where they are looked at. */
 function showAtRest(): void {
-  if (!running() && (unsent || (watched && surfacesOld))) show();
+  if (!running() && (unsent || (watched && surfacesOld) || truthLacks)) show();
 }
 
 function show(): void {
@@ -141,12 +143,10 @@ function show(): void {
   const anew = seen === undefined;
   const newest = trail.part(seen === undefined ? 0 : seen + 1, tick);
   const ahead = rewound ? trail.after(tick) : undefined;
-  const frame: Frame = session.frame(
-    { trail: newest, anew, ahead, rows: new Float64Array(rows) },
-    surfaces,
-    truthShown && !running(),
-  );
+  const truth = truthShown && !running();
+  const frame: Frame = session.frame({ trail: newest, anew, ahead, rows: new Float64Array(rows) }, surfaces, truth);
   surfacesOld = !surfaces;
+  truthLacks = truthShown && !truth;
   if (surfaces) {
     const took_ms = performance.now() - began_ms;
     surfacesDue_ms = began_ms + Math.max(SURFACE_INTERVAL_MS, took_ms / SURFACE_DUTY);
