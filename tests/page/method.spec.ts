@@ -23,7 +23,10 @@ async function openByHand(page: Page): Promise<void> {
 
 /** Degrees off the true skyline, of what is shown. */
 async function off_deg(page: Page): Promise<number> {
-  const text = await page.locator('.method-error').textContent();
+  // It is there once the true skyline has come.
+  const said = page.locator('.method-error');
+  await expect(said).toHaveText(/by \d+\.\d+°/);
+  const text = await said.textContent();
   return Number(/by (\d+\.\d+)°/.exec(text ?? '')?.[1]);
 }
 
