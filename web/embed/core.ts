@@ -6,6 +6,7 @@
  */
 
 import { CATALOGUE, terrainFile } from '../src/experiment/catalogue.ts';
+import { newFrameBuffers } from '../src/simulation/frameBuffers.ts';
 import init, {
   type Frame,
   type FrameBuffers,
@@ -76,8 +77,7 @@ export class Run {
 
   constructor(session: Session) {
     this.session = session;
-    const { columns, rows, rings } = session.scene().image;
-    this.#buffers = buffersOf(columns, rows, rings);
+    this.#buffers = newFrameBuffers(session.scene().image);
   }
 
   /** Whether the trial goes on. */
@@ -119,20 +119,4 @@ function catalogued(name: string): { text: string; recipe: string } {
 
 function ownFiles({ scenario, terrain }: OwnScenario): { text: string; recipe: string } {
   return { text: scenario, recipe: terrain };
-}
-
-/** A scan of the default sensor has 28 800 beams; what a larger one has beyond these is left out. */
-function buffersOf(columns: number, rows: number, rings: number): FrameBuffers {
-  const beams = Math.max(28_800, 1800 * rings);
-  return {
-    points: new Float32Array(3 * beams),
-    return_kinds: new Uint8Array(beams),
-    observed: new Float32Array(columns * rings),
-    occupancy: new Float32Array(columns * rows),
-    variance: new Float32Array(columns * rows),
-    profile: new Float32Array(columns),
-    former: new Float32Array(columns),
-    truth: new Float32Array(columns),
-    kinds: new Uint8Array(columns),
-  };
 }

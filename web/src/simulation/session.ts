@@ -19,10 +19,8 @@ import type {
   Solid,
 } from '../protocol/simulationProtocol.ts';
 import type { Session as CoreSession, Standing, Stroke, Tick } from '../wasm/mapless_wasm.js';
+import { newFrameBuffers } from './frameBuffers.ts';
 import { filesOf, readTerrain } from './opening.ts';
-
-/** All beams of a full scan: 16 rings × 1800 azimuths. */
-const MAX_RETURNS = 28_800;
 
 export class Session {
   readonly #core: CoreSession;
@@ -209,7 +207,7 @@ export class Session {
 
   /** Everything of the present state; the surfaces only on demand, since predicting them takes longer than deciding. */
   frame(since: Pick<Frame, 'trail' | 'anew' | 'ahead' | 'rows'>, surfaces: boolean, truth: boolean): Frame {
-    const buffers = this.#pool.pop() ?? this.#newBuffers();
+    const buffers = this.#pool.pop() ?? newFrameBuffers(this.#info.image);
     return { ...this.#core.frame(buffers, surfaces, truth), surfaces, planner_ms: this.#planner_ms, buffers, ...since };
   }
 
@@ -237,21 +235,6 @@ export class Session {
       objects,
       solids: this.solids(objects),
       warnings: this.#warnings,
-    };
-  }
-
-  #newBuffers(): FrameBuffers {
-    const { columns, rows, rings } = this.#info.image;
-    return {
-      points: new Float32Array(3 * MAX_RETURNS),
-      return_kinds: new Uint8Array(MAX_RETURNS),
-      observed: new Float32Array(columns * rings),
-      occupancy: new Float32Array(columns * rows),
-      variance: new Float32Array(columns * rows),
-      profile: new Float32Array(columns),
-      former: new Float32Array(columns),
-      truth: new Float32Array(columns),
-      kinds: new Uint8Array(columns),
     };
   }
 }
