@@ -68,7 +68,7 @@ pub(crate) fn wait(
 ) -> Result<Mount, MountError> {
     let (moving, fixed) = entities.subscribe_tf(config)?;
     let end = Instant::now() + Duration::from_secs_f64(config.sensor_mount.timeout_s);
-    let (mut tree, base, sensor) = (Tree::default(), &config.frames.base, &config.frames.scan);
+    let (mut tree, base, sensor) = (Tree::default(), &config.drive.frames.base, &config.drive.frames.scan);
     log::info!("waiting for tf from {base} to {sensor}");
     loop {
         for (subscription, is_fixed) in [(&moving, false), (&fixed, true)] {
@@ -85,7 +85,7 @@ pub(crate) fn wait(
             }
         }
         match tree.find(base, sensor, messages::now()) {
-            Ok(way) => return Ok(mount(way, config.estimator.base_height_m)),
+            Ok(way) => return Ok(mount(way, config.drive.estimator.base_height_m)),
             Err(error) if Instant::now() > end || is_ending() => return Err(error),
             Err(_) => entities.wait(WAIT),
         }

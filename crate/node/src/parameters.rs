@@ -3,6 +3,7 @@
 
 use mapless::PlannerConfig;
 use mapless_parameters::{Check, Kind, Parameter, Value};
+use mapless_robot::drive_config::DriveConfig;
 use mapless_robot::supervisor::SupervisorConfig;
 use ros2_client::parameters::raw::{
     self, FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterType, ParameterValue,
@@ -30,7 +31,7 @@ struct Entry {
 impl Parameters {
     /// Those of a file.
     pub(crate) fn of(config: &NodeConfig) -> Self {
-        let NodeConfig { planner, supervisor, navigation, .. } = config.clone();
+        let DriveConfig { planner, supervisor, navigation, .. } = config.drive.clone();
         Self { planner, supervisor, navigation }
     }
 

@@ -29,7 +29,7 @@ impl Picture {
         Ok(Self {
             path: entities.publisher(&topics.path, "nav_msgs/Path", qos.clone())?,
             subgoals: entities.publisher(&topics.subgoals, "visualization_msgs/MarkerArray", qos)?,
-            frame_id: config.frames.odom.clone(),
+            frame_id: config.drive.frames.odom.clone(),
         })
     }
 

@@ -150,7 +150,7 @@ impl Receiving<'_> {
     fn goal(&self, pose: &PoseStamped) -> Result<Goal, String> {
         let (decision, poses) = (self.hub.decision(), self.hub.poses());
         let has_final_heading = self.parameters.navigation.final_heading;
-        goal_of(pose, &self.config.frames.odom, decision.as_ref(), poses, has_final_heading)
+        goal_of(pose, &self.config.drive.frames.odom, decision.as_ref(), poses, has_final_heading)
     }
 
     fn tell(&mut self) {
@@ -175,7 +175,7 @@ impl Receiving<'_> {
         let distance_m = (task.goal.position_m - believed.plan_m()).length();
         let speed_m_s = self.parameters.supervisor.max_speed_m_s;
         let mut current_pose = PoseStamped {
-            header: Header { stamp: self.hub.stamp(), frame_id: self.config.frames.odom.clone() },
+            header: Header { stamp: self.hub.stamp(), frame_id: self.config.drive.frames.odom.clone() },
             ..PoseStamped::default()
         };
         current_pose.pose.position = told.position_m.into();

@@ -79,7 +79,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             let is_ending = || signal.load(Ordering::Relaxed) != 0;
             let mount = mount::wait(config, &mut entities, is_ending)?;
             mounted = config.mounted(&mount).map_err(RunError::Sensor)?;
-            log::info!("the sensor's mount by tf: {}", mounted.planner.sensor.offset_m());
+            log::info!("the sensor's mount by tf: {}", mounted.drive.planner.sensor.offset_m());
             &mounted
         }
     };
@@ -88,16 +88,16 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
         let (recorder, waiting) = Recorder::new();
         hub.recorder = Some(recorder);
         let head =
-            Head { began_ns: hub.began_ns(), config: config.drive(), topics: config.recorded_topics() };
+            Head { began_ns: hub.began_ns(), config: config.drive.clone(), topics: config.recorded_topics() };
         (recording, head, waiting)
     });
     let hub = hub;
     let service = Service::default();
-    let supervisor = Supervisor::new(config.supervisor)?;
-    let senses = Senses::new(config.drive().senses()?);
+    let supervisor = Supervisor::new(config.drive.supervisor)?;
+    let senses = Senses::new(config.drive.senses()?);
 
     let lidar = match &config.velodyne {
-        Some(velodyne) => Some(Lidar::listen(velodyne, entities.waker()?, &config.frames.scan)?),
+        Some(velodyne) => Some(Lidar::listen(velodyne, entities.waker()?, &config.drive.frames.scan)?),
         None => None,
     };
     let spin = Spin::start(&mut entities.node)?;
@@ -109,7 +109,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
         true => Some(Surfaces::new(config, &mut entities)?),
         false => None,
     };
-    let planning = Planning::new(config.planner.clone(), decisions, picture, surfaces)?;
+    let planning = Planning::new(config.drive.planner.clone(), decisions, picture, surfaces)?;
     let name = NodeName::new(&config.namespace, &config.node_name).map_err(making("naming the node"))?;
     let receiving = Receiving {
         hub: &hub,
@@ -125,7 +125,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
         )?,
         presence: Presence::on(&config.topics.cmd_vel, &name, commands.gid())?,
         senses,
-        navigation: Navigation::new(Duration::from_secs_f64(config.navigation.timeout_s)),
+        navigation: Navigation::new(Duration::from_secs_f64(config.drive.navigation.timeout_s)),
         diagnosed: Duration::ZERO,
         fed_back: Duration::ZERO,
         entities: &mut entities,

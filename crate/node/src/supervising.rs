@@ -33,7 +33,7 @@ impl CommandPublisher {
             }
             CommandType::TwistStamped => Self::Stamped(
                 entities.publisher(topic, "geometry_msgs/TwistStamped", published_qos())?,
-                config.frames.base.clone(),
+                config.drive.frames.base.clone(),
             ),
         })
     }

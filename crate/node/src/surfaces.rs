@@ -35,7 +35,7 @@ impl Surfaces {
         Ok(Self {
             skyline: entities.publisher(&topics.skyline, "visualization_msgs/MarkerArray", qos)?,
             variance: entities.publisher(&topics.variance, "sensor_msgs/PointCloud2", streamed_qos())?,
-            frame_id: config.frames.odom.clone(),
+            frame_id: config.drive.frames.odom.clone(),
         })
     }
 

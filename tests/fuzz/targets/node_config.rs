@@ -10,7 +10,7 @@ use mapless_node::config::NodeConfig;
 
 fuzz_target!(|text: &str| {
     match NodeConfig::parse(Path::new("robot.yaml"), text) {
-        Ok(config) => assert!(Planner::new(config.planner).is_ok(), "a checked configuration is valid"),
+        Ok(config) => assert!(Planner::new(config.drive.planner).is_ok(), "a checked configuration is valid"),
         Err(error) => assert!(error.to_string().starts_with("robot.yaml:"), "{error}"),
     }
 });

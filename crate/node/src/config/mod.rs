@@ -14,6 +14,7 @@ use std::path::Path;
 use mapless::{PlannerConfig, RobotModel, SensorModel};
 use mapless_parameters::ConfigError;
 use mapless_robot::cloud::check_sensor;
+use mapless_robot::drive_config::DriveConfig;
 use mapless_robot::estimator::EstimatorConfig;
 use mapless_robot::supervisor::SupervisorConfig;
 use ros2_client::NodeName;
@@ -56,21 +57,11 @@ pub struct NodeConfig {
     pub velodyne: Option<Velodyne>,
     /// The type of the command.
     pub command_type: CommandType,
-    /// Names of frames.
-    pub frames: Frames,
-    /// The mount of the IMU.
-    pub imu: ImuMount,
-    /// How odometry and IMU become a pose.
-    pub estimator: EstimatorConfig,
-    /// What becomes of goals.
-    pub navigation: NavigationConfig,
-    /// The planner with its sensor and robot.
-    pub planner: PlannerConfig,
-    /// Limits of the supervisor.
-    pub supervisor: SupervisorConfig,
+    /// What the drive depends on besides messages.
+    pub drive: DriveConfig,
     /// Where drives are recorded, if they are.
     pub recording: Option<RecordingConfig>,
-    /// Where the sensor's mount is told; if by tf, that of `planner.sensor` means nothing yet.
+    /// Where the sensor's mount is told; if by tf, that of `drive.planner.sensor` means nothing yet.
     pub sensor_mount: SensorMount,
     /// How the planner's configuration follows from sensor and robot.
     fit: Fit,
@@ -253,12 +244,14 @@ impl NodeConfig {
             sensor_reliability: given.sensor_reliability,
             velodyne: given.velodyne,
             command_type: given.command_type.unwrap_or(by_distro),
-            frames: given.frames,
-            imu: given.imu,
-            estimator: given.estimator,
-            navigation: given.navigation,
-            planner,
-            supervisor,
+            drive: DriveConfig {
+                frames: given.frames,
+                imu: given.imu,
+                estimator: given.estimator,
+                navigation: given.navigation,
+                planner,
+                supervisor,
+            },
             recording: given.recording,
             sensor_mount: given.sensor_mount,
             fit,
@@ -271,13 +264,14 @@ impl NodeConfig {
     /// Why the sensor cannot serve there, for people.
     pub fn mounted(&self, mount: &Mount) -> Result<Self, String> {
         let told = serde_json::to_value(mount).map_err(|error| error.to_string())?;
-        let sensor: SensorModel = merged(&self.planner.sensor, &told).map_err(|error| error.to_string())?;
-        let robot = self.planner.robot;
+        let sensor: SensorModel =
+            merged(&self.drive.planner.sensor, &told).map_err(|error| error.to_string())?;
+        let robot = self.drive.planner.robot;
         sensor.validate("sensor").map_err(|error| error.to_string())?;
         check_sensor(&sensor, &robot).map_err(|error| error.to_string())?;
         let planner = self.fit.planner(sensor, robot).map_err(|error| error.to_string())?;
         planner.validate("planner").map_err(|error| error.to_string())?;
-        Ok(Self { planner, ..self.clone() })
+        Ok(Self { drive: DriveConfig { planner, ..self.drive.clone() }, ..self.clone() })
     }
 }
 

@@ -1,10 +1,9 @@
-//! Where drives are recorded, and what of the file a recording holds.
+//! Where drives are recorded, and which topics.
 
 use std::path::PathBuf;
 
 use mapless_parameters::ConfigError;
 use mapless_recording::{Role, TopicNames};
-use mapless_robot::drive_config::DriveConfig;
 use serde::Deserialize;
 
 use super::NodeConfig;
@@ -35,19 +34,6 @@ impl RecordingConfig {
 }
 
 impl NodeConfig {
-    /// What the drive depends on besides messages.
-    #[must_use]
-    pub fn drive(&self) -> DriveConfig {
-        DriveConfig {
-            frames: self.frames.clone(),
-            imu: self.imu,
-            estimator: self.estimator,
-            navigation: self.navigation,
-            planner: self.planner.clone(),
-            supervisor: self.supervisor,
-        }
-    }
-
     /// The absolute names of the topics that are recorded.
     #[must_use]
     pub fn recorded_topics(&self) -> TopicNames {

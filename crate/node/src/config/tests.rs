@@ -13,7 +13,7 @@ fn refusal(more: &str) -> String {
 #[test]
 fn the_shortest_file_is_a_husky_with_clearpath_s_names() {
     let config = parse("").unwrap();
-    assert_eq!(config.planner, PlannerConfig::default());
+    assert_eq!(config.drive.planner, PlannerConfig::default());
     let stamped = Distro::BUILT == Distro::Jazzy;
     assert_eq!(config.command_type == CommandType::TwistStamped, stamped);
     assert_eq!(config.topics.scan, "sensors/lidar3d_0/points");
@@ -33,7 +33,7 @@ fn sections_start_from_their_presets() {
     let mut expected = PlannerConfig::for_robot(sensor, RobotModel::husky());
     assert_ne!(expected.perception, PlannerConfig::default().perception, "it is fitted to the sensor");
     expected.goal_tolerance_m = 2.0;
-    assert_eq!(config.planner, expected);
+    assert_eq!(config.drive.planner, expected);
 }
 
 #[test]
@@ -50,11 +50,11 @@ fn a_mount_by_tf_fits_the_planner_as_one_in_the_file_does() {
     let by_tf = parse(&format!("    sensor_mount: {{source: tf}}\n{planner}")).unwrap();
     let in_file =
         parse(&format!("    sensor: {{height_m: 1.5, forward_m: 0.2, pitch_rad: -0.1}}\n{planner}"));
-    let in_file = in_file.unwrap().planner;
+    let in_file = in_file.unwrap().drive.planner;
     let SensorModel { forward_m, left_m, height_m, roll_rad, pitch_rad, yaw_rad, .. } = in_file.sensor;
     let mount = Mount { forward_m, left_m, height_m, roll_rad, pitch_rad, yaw_rad };
-    assert_ne!(by_tf.planner, in_file);
-    assert_eq!(by_tf.mounted(&mount).unwrap().planner, in_file);
+    assert_ne!(by_tf.drive.planner, in_file);
+    assert_eq!(by_tf.mounted(&mount).unwrap().drive.planner, in_file);
     let up = by_tf.mounted(&Mount { pitch_rad: 0.5, ..mount }).unwrap_err();
     assert!(up.starts_with("a sensor whose lowest beam ahead is at"), "{up}");
 }
@@ -140,8 +140,11 @@ fn the_sample_files_are_in_order() {
         assert_eq!(sample("husky", distro).namespace, "/a200_0000");
     }
     let jackal = sample("jackal-os1-32", "jazzy");
-    assert_eq!((jackal.planner.sensor.rings, jackal.planner.robot), (32, RobotModel::jackal()));
-    assert_eq!(jackal.planner, PlannerConfig::for_robot(jackal.planner.sensor, RobotModel::jackal()));
+    assert_eq!((jackal.drive.planner.sensor.rings, jackal.drive.planner.robot), (32, RobotModel::jackal()));
+    assert_eq!(
+        jackal.drive.planner,
+        PlannerConfig::for_robot(jackal.drive.planner.sensor, RobotModel::jackal())
+    );
 }
 
 #[test]
