@@ -3,7 +3,7 @@
 //! A recording is an MCAP file of the profile `ros2` (messages in CDR, schemas `ros2msg`, not compressed),
 //! complete in itself: the messages as the node got them, the configuration, and every decision. Its entries
 //! stand in the order in which they took effect, so a replay in that order makes the same decisions, to the
-//! bit, on every target.
+//! bit, natively and in a browser.
 //!
 //! - [`Writer`] writes a recording, [`Reader`] reads one, or a `rosbag2` MCAP of a robot, compressed or not,
 //!   up to where the file ends.
