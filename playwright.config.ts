@@ -19,6 +19,7 @@ export default defineConfig({
   expect: { timeout: 300_000 },
   reporter: [['list']],
   use: {
+    actionTimeout: 300_000,
     baseURL: `http://127.0.0.1:${port}`,
     viewport: { width: 1440, height: 900 },
     screenshot: 'only-on-failure',

@@ -126,6 +126,7 @@ test('links and files of the run say nothing of it; what was written is there at
   const before = await page.evaluate(() => window.mapless?.link());
   const experiment = await ownOf(page);
   await page.keyboard.press('p');
+  await expect(page.getByRole('tab', { name: 'Parameters' })).toBeFocused();
   await page.keyboard.press('ArrowRight');
   await card(page).locator('summary').focus();
   await page.keyboard.press('Enter');
