@@ -1,5 +1,6 @@
 //! The robot model.
 
+use glam::DVec2;
 use mapless_parameters::{ConfigError, parameters};
 
 parameters! {
@@ -81,6 +82,12 @@ impl RobotModel {
     pub fn footprint_radius_m(&self) -> f64 {
         let half_diagonal_m = 0.5 * libm::hypot(self.wheelbase_m, self.track_m);
         0.1 * ((half_diagonal_m + 0.1) / 0.1).ceil()
+    }
+
+    /// Half the length and half the width of the body, with its load, about the middle of the axles.
+    pub fn half_body_m(&self) -> DVec2 {
+        let load_m = self.load_front_m.max(self.load_rear_m);
+        DVec2::new(0.5 * self.length_m + load_m, 0.5 * self.width_m + self.load_side_m)
     }
 
     fn check_axles(&self, place: &str) -> Result<(), ConfigError> {

@@ -17,11 +17,15 @@ const STEP_S: f64 = 0.1;
 const STEPS: usize = 20;
 const EARLY_S: f64 = 0.6;
 const HORIZON_S: f64 = STEP_S * STEPS as f64;
+/// After lost scans, a command changes by no more than in this time.
+const MOST_ELAPSED_S: f64 = 0.2;
 /// A point of a path is passed within this distance; turn rate for each radian to the next one, and the angle
 /// beyond which the robot turns on the spot.
 const PASSED_M: f64 = 0.3;
 const FOLLOW_GAIN: f64 = 2.0;
 const TURN_FIRST_RAD: f64 = 0.5;
+/// A trajectory that gains less than this, in metres of level ground, leaves the robot where it stands.
+const LEAST_PROGRESS_M: f64 = 0.05;
 /// Rounds of the pattern search; each halves its reach.
 const ROUNDS: usize = 4;
 
@@ -72,6 +76,8 @@ impl PlanPose {
 pub(crate) struct Start {
     pub(crate) pose: PlanPose,
     pub(crate) command: Command,
+    /// Time since the last command, for which the first change of speed and turn rate may last.
+    pub(crate) elapsed_s: f64,
     pub(crate) utilisation: f64,
 }
 
@@ -122,10 +128,12 @@ enum Law<'a> {
     Follow,
 }
 
-/// A trajectory's cost, infinite if it meets what it must not, and its first command.
+/// A trajectory's cost, infinite if it meets what it must not, what is left of the path at its end, and its first
+/// command.
 #[derive(Clone, Copy, Debug)]
 struct RolledOut {
     cost: f64,
+    to_go_m: f64,
     first: Command,
 }
 
@@ -152,7 +160,8 @@ impl TrajectoryOptimiser {
     }
 
     /// The command that begins the best trajectory from a pose and the last command. If every trajectory
-    /// meets what it must not, it begins the drive along the path, which was found safe.
+    /// meets what it must not, or the best one leaves the robot where it stands and the path does not, it begins
+    /// the drive along the path, which was found safe.
     pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Command {
         let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
@@ -192,8 +201,10 @@ impl TrajectoryOptimiser {
         }
         // What no such trajectory can do, as to turn first and then to drive, following the path can.
         let following = self.roll_out(course, from, Law::Follow);
-        if !best.rolled.cost.is_finite() {
-            // The robot stands beside what was found safe: the path leads off it.
+        let progress_m = course.cost_to_go_m(&from.pose) - best.rolled.to_go_m;
+        let path_leads_on = progress_m < LEAST_PROGRESS_M && following.cost.is_finite();
+        if !best.rolled.cost.is_finite() || path_leads_on {
+            // The robot stands beside what was found safe, or where no short trajectory pays: the path leads off.
             self.reset();
             return following.first;
         }
@@ -219,7 +230,7 @@ impl TrajectoryOptimiser {
     fn roll_out(&self, course: &impl Course, from: Start, law: Law<'_>) -> RolledOut {
         let limits = &self.limits;
         let (controller, trajectory) = (&limits.controller, &limits.controller.trajectory);
-        let Start { mut pose, command: last, utilisation } = from;
+        let Start { mut pose, command: last, elapsed_s, utilisation } = from;
         let (mut speed, mut turn) = (last.linear_m_s, last.angular_rad_s);
         let mut cost = 0.0;
         let mut first = last;
@@ -236,11 +247,12 @@ impl TrajectoryOptimiser {
                     way.peek().map_or((0.0, 0.0), |&(point_m, reverse)| self.towards(&pose, point_m, reverse))
                 }
             };
-            let most = trajectory.turn_acceleration_rad_s2 * STEP_S;
+            let change_s = if step == 0 { elapsed_s.min(MOST_ELAPSED_S) } else { STEP_S };
+            let most = trajectory.turn_acceleration_rad_s2 * change_s;
             let next_turn = turn + (wanted - turn).clamp(-most, most);
             let most_speed = controller.max_speed_m_s * controller.speed_share(met.utilisation);
             let wanted = wanted_speed.clamp(-most_speed, most_speed);
-            let most = trajectory.acceleration_m_s2 * STEP_S;
+            let most = trajectory.acceleration_m_s2 * change_s;
             let next_speed = speed + (wanted - speed).clamp(-most, most);
             let bend = (next_turn - turn) / STEP_S;
             let push = (next_speed - speed) / STEP_S;
@@ -258,12 +270,13 @@ impl TrajectoryOptimiser {
             if step % 2 == 1 {
                 match course.met(&pose) {
                     Some(now) => met = now,
-                    None => return RolledOut { cost: f64::INFINITY, first },
+                    None => return RolledOut { cost: f64::INFINITY, to_go_m: f64::INFINITY, first },
                 }
             }
             cost += price * way_m * (1.0 + limits.tilt_price * met.risk.min(1.0)) + turned_m;
         }
-        RolledOut { cost: cost + trajectory.progress_weight * course.cost_to_go_m(&pose), first }
+        let to_go_m = course.cost_to_go_m(&pose);
+        RolledOut { cost: cost + trajectory.progress_weight * to_go_m, to_go_m, first }
     }
 }
 
@@ -274,6 +287,7 @@ mod tests {
     const FROM: Start = Start {
         pose: PlanPose { position_m: DVec2::ZERO, yaw_rad: 0.0 },
         command: Command::STOP,
+        elapsed_s: STEP_S,
         utilisation: 0.0,
     };
 
@@ -302,14 +316,19 @@ mod tests {
 
     /// Drives for some seconds; the poses and commands.
     fn drive(course: &Level, seconds: f64) -> Vec<(PlanPose, Command)> {
+        drive_with(course, seconds, STEP_S)
+    }
+
+    /// With a scan every `elapsed_s`.
+    fn drive_with(course: &Level, seconds: f64, elapsed_s: f64) -> Vec<(PlanPose, Command)> {
         let mut optimiser = TrajectoryOptimiser::new(Limits::of(&PlannerConfig::default()));
-        let mut start = FROM;
-        (0..(seconds / STEP_S) as usize)
+        let mut start = Start { elapsed_s, ..FROM };
+        (0..(seconds / elapsed_s) as usize)
             .map(|_| {
                 let command = optimiser.drive(course, start);
                 let mut pose = start.pose;
-                pose.advance(&command, STEP_S);
-                start = Start { pose, command, ..FROM };
+                pose.advance(&command, elapsed_s);
+                start = Start { pose, command, ..start };
                 (pose, command)
             })
             .collect()
@@ -326,14 +345,16 @@ mod tests {
     #[test]
     fn it_comes_to_a_target_behind_within_its_limits_of_acceleration() {
         let target_m = DVec2::new(-6.0, 2.0);
-        let driven = drive(&Level { target_m, closed_from_x_m: 100.0 }, 20.0);
-        let nearest_m =
-            driven.iter().map(|(pose, _)| pose.position_m.distance(target_m)).fold(100.0, f64::min);
-        assert!(nearest_m < 0.4, "{nearest_m}");
-        for pair in driven.windows(2) {
-            let (before, after) = (pair[0].1, pair[1].1);
-            assert!((after.linear_m_s - before.linear_m_s).abs() <= 0.8 * STEP_S + 1e-9);
-            assert!((after.angular_rad_s - before.angular_rad_s).abs() <= 1.5 * STEP_S + 1e-9);
+        for elapsed_s in [0.05, STEP_S] {
+            let driven = drive_with(&Level { target_m, closed_from_x_m: 100.0 }, 20.0, elapsed_s);
+            let nearest_m =
+                driven.iter().map(|(pose, _)| pose.position_m.distance(target_m)).fold(100.0, f64::min);
+            assert!(nearest_m < 0.4, "{nearest_m}");
+            for pair in driven.windows(2) {
+                let (before, after) = (pair[0].1, pair[1].1);
+                assert!((after.linear_m_s - before.linear_m_s).abs() <= 0.8 * elapsed_s + 1e-9);
+                assert!((after.angular_rad_s - before.angular_rad_s).abs() <= 1.5 * elapsed_s + 1e-9);
+            }
         }
     }
 

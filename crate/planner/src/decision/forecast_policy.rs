@@ -280,6 +280,7 @@ impl ForecastPolicy {
         let from = Start {
             pose: PlanPose { position_m: here_m, yaw_rad: pose.yaw_rad },
             command: last_command,
+            elapsed_s: situation.elapsed.as_secs_f64(),
             utilisation: self.lattice.utilisation_here(),
         };
         self.optimiser.drive(&PathCourse::new(&self.lattice, path, config), from)

@@ -25,6 +25,7 @@ use crate::pose::{FrameChange, Pose};
 use crate::robot_model::RobotModel;
 use crate::route::queue::BucketQueue;
 use crate::terrain::attitude::AttitudeEstimate;
+use crate::terrain::body_clearance::BodyClearance;
 use crate::terrain::elevation_window::TerrainQuery;
 use crate::terrain::headings::{HEADINGS, STEPS};
 use crate::terrain::traversability::{Caution, TraversabilityMap};
@@ -91,6 +92,7 @@ pub(crate) struct StateLattice {
     /// the right.
     facing: i32,
     turns: [i32; 2],
+    body: BodyClearance,
 }
 
 /// Cost of a metre beyond its length: at the tilt limit, and for each metre up or down; and the factor for
@@ -172,6 +174,7 @@ impl StateLattice {
             recovers: false,
             facing: 0,
             turns: [0; 2],
+            body: BodyClearance::new(limits.half_body_m()),
         }
     }
 
@@ -191,6 +194,7 @@ impl StateLattice {
         }
         self.traversability.drive_on(moved_m.length());
         self.traversability.places.look(ground, self.here_m);
+        self.body.look(ground, self.here_m, self.first_direction(self.facing));
         self.search_with(Caution::Usual);
     }
 

@@ -16,6 +16,8 @@ use crate::config::{ElevationWindowConfig, PlannerConfig};
 use crate::math::elementary::floor;
 use crate::pose::FrameChange;
 use crate::sensor_model::SensorModel;
+use crate::terrain::body_clearance;
+use crate::terrain::headings::{AXES, DIRECTIONS};
 use crate::terrain::plane::{Moments, Plane};
 use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
@@ -46,8 +48,12 @@ pub(crate) trait TerrainQuery {
     /// side of `here_m`, or a drop. It stays one, `was_negative_obstacle`, while no returns come from it.
     fn is_negative_obstacle(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool;
 
-    /// Whether the body at a place would touch something upright: a wall, a post, a step.
-    fn touches_upright(&self, place_m: DVec2) -> bool;
+    /// Whether the body at a place would touch something upright, a wall, a post or a step, for each axis of
+    /// travel.
+    fn touches_upright(&self, place_m: DVec2) -> [bool; AXES];
+
+    /// Calls `visit` with the place of each upright thing within `radius_m` of a place.
+    fn each_upright(&self, place_m: DVec2, radius_m: f64, visit: &mut dyn FnMut(DVec2));
 }
 
 /// Terrain given by its planes alone.
@@ -64,9 +70,11 @@ impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
         false
     }
 
-    fn touches_upright(&self, _: DVec2) -> bool {
-        false
+    fn touches_upright(&self, _: DVec2) -> [bool; AXES] {
+        [false; AXES]
     }
+
+    fn each_upright(&self, _: DVec2, _: f64, _: &mut dyn FnMut(DVec2)) {}
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +101,8 @@ pub(crate) struct ElevationWindow {
     wheelbase_m: f64,
     track_m: f64,
     footprint_m: f64,
-    half_width_m: f64,
+    /// Half the body's length and width, with its load.
+    half_body_m: DVec2,
     /// Spacing of the places of the state lattice.
     step_m: f64,
     sensor: SensorModel,
@@ -117,7 +126,7 @@ impl ElevationWindow {
             wheelbase_m: robot.wheelbase_m,
             track_m: robot.track_m,
             footprint_m: robot.footprint_radius_m(),
-            half_width_m: 0.5 * robot.width_m,
+            half_body_m: robot.half_body_m(),
             step_m: config.state_lattice.step_m,
             sensor,
             now: Duration::ZERO,
@@ -262,9 +271,20 @@ impl TerrainQuery for ElevationWindow {
         self.is_cliff(place_m, here_m, was_negative_obstacle)
     }
 
-    fn touches_upright(&self, place_m: DVec2) -> bool {
-        let radius_m = self.half_width_m + UPRIGHT_MARGIN_M;
-        self.fresh_cells_near(place_m, radius_m).any(ElevationCell::is_upright)
+    fn touches_upright(&self, place_m: DVec2) -> [bool; AXES] {
+        let mut touches = [false; AXES];
+        let half_m = self.half_body_m + UPRIGHT_MARGIN_M;
+        self.each_upright(place_m, half_m.length(), &mut |thing_m| {
+            for (touches, direction) in touches.iter_mut().zip(DIRECTIONS) {
+                *touches |= body_clearance::distance_m(half_m, thing_m - place_m, direction) < 0.0;
+            }
+        });
+        touches
+    }
+
+    fn each_upright(&self, place_m: DVec2, radius_m: f64, visit: &mut dyn FnMut(DVec2)) {
+        let upright = self.fresh_cells_near(place_m, radius_m).filter(|cell| cell.is_upright());
+        upright.for_each(|cell| visit(cell.mean_m.truncate()));
     }
 }
 

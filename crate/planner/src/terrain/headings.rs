@@ -8,6 +8,9 @@ use glam::{DVec2, IVec2};
 /// Headings, anticlockwise from east.
 pub const HEADINGS: usize = 16;
 
+/// Axes of travel: a robot on its wheels tilts alike in both directions, and its body covers the same ground.
+pub(crate) const AXES: usize = HEADINGS / 2;
+
 /// One drive along each heading, in places.
 pub const STEPS: [IVec2; HEADINGS] = [
     IVec2::new(1, 0),
@@ -33,7 +36,7 @@ const LONG: f64 = 0.894_427_190_999_915_9;
 const SHORT: f64 = 0.447_213_595_499_957_9;
 
 /// Unit vectors of the first eight headings; the others are their opposites.
-pub(crate) const DIRECTIONS: [DVec2; HEADINGS / 2] = [
+pub(crate) const DIRECTIONS: [DVec2; AXES] = [
     DVec2::new(1.0, 0.0),
     DVec2::new(LONG, SHORT),
     DVec2::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2),

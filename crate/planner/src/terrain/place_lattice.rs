@@ -5,13 +5,11 @@ use glam::{DVec2, IVec2};
 use crate::config::StateLatticeConfig;
 use crate::math::elementary::floor;
 use crate::terrain::elevation_window::TerrainQuery;
-use crate::terrain::headings::{DIRECTIONS, HEADINGS};
+use crate::terrain::headings::{AXES, DIRECTIONS};
 use crate::terrain::plane::Plane;
 use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 
-/// Axes of travel: a robot on its wheels tilts alike in both directions.
-pub(crate) const AXES: usize = HEADINGS / 2;
 /// A place is queried again after this many scans: the ground is static, and the robot drives about a step
 /// meanwhile.
 const LOOKS: i32 = 4;
@@ -24,8 +22,8 @@ pub(crate) struct Known {
     pub(crate) footprint_slopes: [Option<Slopes>; AXES],
     /// Whether the place is a negative obstacle.
     pub(crate) is_negative_obstacle: bool,
-    /// Whether the body would touch something upright.
-    pub(crate) touches_upright: bool,
+    /// Whether the body would touch something upright, for each axis of travel.
+    pub(crate) touches_upright: [bool; AXES],
 }
 
 /// Places by their offset from the one nearest to the robot.

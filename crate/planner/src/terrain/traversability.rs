@@ -6,8 +6,8 @@ use glam::{DVec2, IVec2};
 use crate::config::StateLatticeConfig;
 use crate::pose::FrameChange;
 use crate::robot_model::RobotModel;
-use crate::terrain::headings::{DIRECTIONS, STEPS, heading_below, passed};
-use crate::terrain::place_lattice::{AXES, PlaceLattice, around};
+use crate::terrain::headings::{AXES, DIRECTIONS, STEPS, heading_below, passed};
+use crate::terrain::place_lattice::{PlaceLattice, around};
 use crate::terrain::plane::Plane;
 use crate::terrain::slopes::Slopes;
 
@@ -171,8 +171,8 @@ impl TraversabilityMap {
             let offset = self.places.offset(index);
             let known = self.places.known(offset).copied();
             let is_at_cliff = self.places.is_at_cliff(offset);
-            self.judged[index] = match known.and_then(|known| Some((known.plane?, known.footprint_slopes))) {
-                Some((plane, footprint_slopes)) => {
+            self.judged[index] = match known.and_then(|known| Some((known.plane?, known))) {
+                Some((plane, known)) => {
                     let place_m = self.places.position_m(offset);
                     let away_m = (place_m - here_m).length();
                     let penalty = match caution {
@@ -181,10 +181,12 @@ impl TraversabilityMap {
                         Caution::Recovery => self.penalty_risk(place_m).min(PENALTY_RISK),
                     };
                     let deviations = self.deviations_at(place_m);
-                    let risk = self.risk_of(&plane, &footprint_slopes, caution, away_m, deviations);
-                    let is_blocked = is_at_cliff || known.is_some_and(|known| known.touches_upright);
-                    let blocked = if is_blocked { f32::INFINITY } else { 0.0 };
-                    Place { plane: Some(plane), risk: risk.map(|risk| risk + penalty + blocked), is_at_cliff }
+                    let risk = self.risk_of(&plane, &known.footprint_slopes, caution, away_m, deviations);
+                    let risk = core::array::from_fn(|axis| {
+                        let is_blocked = is_at_cliff || known.touches_upright[axis];
+                        if is_blocked { f32::INFINITY } else { risk[axis] + penalty }
+                    });
+                    Place { plane: Some(plane), risk, is_at_cliff }
                 }
                 _ => Place { is_at_cliff, ..UNKNOWN },
             };
@@ -288,10 +290,10 @@ impl TraversabilityMap {
         !place.is_at_cliff
             && place.plane.is_none_or(|plane| {
                 plane.gradient_deviation > GUESS_DEVIATION
-                    && self
-                        .places
-                        .known(offset)
-                        .is_none_or(|known| known.footprint_slopes[heading % (AXES)].is_none())
+                    && self.places.known(offset).is_none_or(|known| {
+                        let axis = heading % AXES;
+                        known.footprint_slopes[axis].is_none() && !known.touches_upright[axis]
+                    })
                     && self.risk(offset, heading).is_infinite()
             })
     }

@@ -28,7 +28,8 @@ impl StateLattice {
                 // If the attitude already exceeds the limits, a turn may not increase the pitch further.
                 let slopes = Slopes::facing(self.attitude.gradient, facing);
                 let steeper = slopes.across > allowed.across || slopes.along > allowed.along.max(here.along);
-                if turn > 0 && steeper {
+                let touches = self.body.is_too_near(self.here_m, facing);
+                if turn > 0 && (steeper || touches) {
                     self.turns[side] = turn - 1;
                     break;
                 }

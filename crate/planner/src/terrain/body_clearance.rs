@@ -1,0 +1,92 @@
+//! The distance of the body from what stands upright around it, at any pose near the robot.
+
+use glam::DVec2;
+
+use crate::terrain::elevation_window::TerrainQuery;
+
+/// The robot keeps this far from what is upright, or as far as it already is.
+const MARGIN_M: f64 = 0.05;
+/// Upright things as far from the middle of the robot as this beyond its body count: as far as it drives within
+/// the controller's horizon.
+const RADIUS_M: f64 = 1.8;
+const MOST_THINGS: usize = 256;
+
+/// The distance of a point from a rectangle with these half sides, along and across the unit vector `facing`;
+/// negative inside. Beside a corner it is the larger of both axes' distances.
+pub(crate) fn distance_m(half_sides_m: DVec2, from_middle_m: DVec2, facing: DVec2) -> f64 {
+    let along_across_m = DVec2::new(from_middle_m.dot(facing), from_middle_m.perp_dot(facing));
+    (along_across_m.abs() - half_sides_m).max_element()
+}
+
+/// What stands upright around the robot.
+#[derive(Clone, Debug)]
+pub(crate) struct BodyClearance {
+    half_body_m: DVec2,
+    things_m: Vec<DVec2>,
+    least_m: f64,
+}
+
+impl BodyClearance {
+    pub(crate) fn new(half_body_m: DVec2) -> Self {
+        Self { half_body_m, things_m: Vec::with_capacity(MOST_THINGS), least_m: MARGIN_M }
+    }
+
+    /// Looks at the ground around a robot at `here_m`, which faces along a unit vector.
+    pub(crate) fn look(&mut self, ground: &dyn TerrainQuery, here_m: DVec2, facing: DVec2) {
+        self.things_m.clear();
+        let radius_m = self.half_body_m.length() + RADIUS_M;
+        ground.each_upright(here_m, radius_m, &mut |thing_m| {
+            if self.things_m.len() < MOST_THINGS {
+                self.things_m.push(thing_m);
+            }
+        });
+        self.least_m = self.at_m(here_m, facing).min(MARGIN_M);
+    }
+
+    /// Whether the body at a pose is too near to something upright.
+    pub(crate) fn is_too_near(&self, place_m: DVec2, facing: DVec2) -> bool {
+        self.at_m(place_m, facing) < self.least_m
+    }
+
+    fn at_m(&self, place_m: DVec2, facing: DVec2) -> f64 {
+        let distances_m =
+            self.things_m.iter().map(|thing_m| distance_m(self.half_body_m, thing_m - place_m, facing));
+        distances_m.fold(f64::INFINITY, f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::PlannerConfig;
+    use crate::terrain::elevation_window::ElevationWindow;
+
+    fn beside(thing_m: DVec2) -> BodyClearance {
+        let mut ground = ElevationWindow::new(&PlannerConfig::default());
+        ground.add(thing_m.extend(0.3));
+        (0..20).for_each(|_| ground.add_face(thing_m));
+        let mut body = BodyClearance::new(DVec2::new(0.5, 0.335));
+        body.look(&ground, DVec2::ZERO, DVec2::X);
+        body
+    }
+
+    #[test]
+    fn a_corner_may_not_sweep_into_what_the_side_passes() {
+        let body = beside(DVec2::new(0.3, 0.45));
+        assert!(!body.is_too_near(DVec2::ZERO, DVec2::X), "straight on");
+        assert!(!body.is_too_near(DVec2::new(0.4, 0.0), DVec2::X), "past it");
+        assert!(
+            body.is_too_near(DVec2::ZERO, DVec2::new(libm::cos(0.4), libm::sin(0.4))),
+            "turned towards it"
+        );
+        assert!(body.is_too_near(DVec2::new(0.0, 0.1), DVec2::X), "drawn towards it");
+    }
+
+    #[test]
+    fn who_is_near_already_may_go_away_but_no_nearer() {
+        let body = beside(DVec2::new(0.52, 0.1));
+        assert!(!body.is_too_near(DVec2::ZERO, DVec2::X), "where it is");
+        assert!(!body.is_too_near(DVec2::new(-0.2, 0.0), DVec2::X), "away");
+        assert!(body.is_too_near(DVec2::new(0.1, 0.0), DVec2::X), "nearer");
+    }
+}
