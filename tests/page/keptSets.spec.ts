@@ -7,8 +7,7 @@ import { expect, loaded, openLab, shortCourse, state, test, until } from './page
 const tab = (page: Page) => page.getByRole('tabpanel', { name: 'Compare' });
 const keep = (page: Page, name: string) => tab(page).getByRole('button', { name: `Keep these parameters as ${name}` });
 const box = (page: Page, name: 'A' | 'B') => tab(page).getByRole('checkbox', { name: new RegExp(`^${name}( |$)`) });
-const use = (page: Page, name: string) =>
-  tab(page).getByRole('button', { name: `Drive with the parameters of ${name}` });
+const use = (page: Page, name: string) => tab(page).getByRole('button', { name: `Use the parameters of ${name}` });
 /** Of the ghosts, in the order of their columns; the robot in view has the first cell. */
 const cell = (page: Page, row: string, column: number) =>
   tab(page)

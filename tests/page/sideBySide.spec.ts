@@ -35,7 +35,7 @@ const app = (page: Page) => page.locator('.app');
 for (const [width, height] of [
   [1440, 900],
   [1280, 720],
-  [1120, 700],
+  [1120, 760],
 ] as const) {
   test(`at ${width} × ${height} every tool is in sight, and the drawer stands beside the large image`, async ({
     mapless: page,

@@ -129,11 +129,11 @@ export class TerrainsSheet {
 
   /** The table of a campaign. */
   async #openTable({ name, bytes }: NamedFile): Promise<void> {
-    const [{ LeaderboardSheet }, { campaignRows }] = await Promise.all([
+    const [{ LeaderboardSheet }, { openCampaign }] = await Promise.all([
       import('./leaderboardSheet.ts'),
-      import('../trials/campaignRows.ts'),
+      import('../trials/campaignFile.ts'),
     ]);
-    const rows = campaignRows(name, new TextDecoder().decode(bytes), isKnown);
+    const rows = await openCampaign(name, bytes, isKnown);
     const drive = ({ scenario, seed, preset, overrides }: Replay) =>
       this.#actions.attempt(this.#actions.runScenario(scenario, { preset, overrides, learning: 'fixed' }, seed));
     await new LeaderboardSheet(name, rows, drive).show();
@@ -147,7 +147,7 @@ export class TerrainsSheet {
     }
     const holes = HOLES.find((one) => one === this.#holes.value) ?? 'refuse';
     const [first] = files;
-    if (files.length === 1 && first && /\.csv$/i.test(first.name)) {
+    if (files.length === 1 && first && /\.(csv|parquet)$/i.test(first.name)) {
       await this.#openTable(first);
       return;
     }

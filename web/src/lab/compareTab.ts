@@ -134,7 +134,7 @@ export class CompareTab implements Tab {
       this.#app.touch();
       if (kept) this.#app.attempt(this.#app.adjust(kept));
     });
-    use.setAttribute('aria-label', `Drive with the parameters of ${rival.name}`);
+    use.setAttribute('aria-label', `Use the parameters of ${rival.name}`);
     return { ...choice, element: html('div', 'kept-set', [label, use]) };
   }
 

@@ -1,10 +1,9 @@
-/** The table of a campaign (`trials.csv`), row by row, and which of its trials the page can drive itself. */
+/** The table of a campaign (`trials.csv` or `trials.parquet`), row by row, and which of its trials the page can drive itself. */
 
-import { messageOf } from '../base/messageOf.ts';
 import { MAX_SEED, PRESETS } from '../experiment/experiment.ts';
 import { type Overrides, withOverride } from '../experiment/overrides.ts';
 import type { Preset } from '../experiment/setting.ts';
-import { rowsOf } from '../files/csv.ts';
+import type { Row } from '../files/csv.ts';
 import { METRICS } from '../run/columns.ts';
 import type { OverrideValue } from '../wasm/mapless_wasm.js';
 
@@ -31,22 +30,16 @@ export interface Replay {
 
 const NEEDED = ['planner', 'route', 'seed', 'outcome'];
 
-/** The rows of a file; throws what it lacks, with its name. `knows`: whether a route comes with the page. */
-export function campaignRows(file: string, text: string, knows: (route: string) => boolean): readonly CampaignRow[] {
-  try {
-    const rows = rowsOf(text);
-    const [first] = rows;
-    if (!first) throw new Error('no rows: expected those of a campaign’s trials.csv');
-    const missing = NEEDED.filter((name) => first[name] === undefined);
-    if (missing.length > 0)
-      throw new Error(`no column ${missing.join(', ')}: expected those of a campaign’s trials.csv`);
-    return rows.map((row) => campaignRow(row, knows(row.route ?? '')));
-  } catch (cause) {
-    throw new Error(`${file}: ${messageOf(cause)}`, { cause });
-  }
+/** Throws what the rows lack. `knows`: whether a route comes with the page. */
+export function campaignRows(rows: readonly Row[], knows: (route: string) => boolean): readonly CampaignRow[] {
+  const [first] = rows;
+  if (!first) throw new Error('no rows: expected those of a campaign’s trials');
+  const missing = NEEDED.filter((name) => first[name] === undefined);
+  if (missing.length > 0) throw new Error(`no column ${missing.join(', ')}: expected those of a campaign’s trials`);
+  return rows.map((row) => campaignRow(row, knows(row.route ?? '')));
 }
 
-function campaignRow(row: Readonly<Record<string, string>>, known: boolean): CampaignRow {
+function campaignRow(row: Row, known: boolean): CampaignRow {
   const { planner = '', route = '', parameters = '', truth = 'none', reality = '', outcome = '', digest = '' } = row;
   const numbers = METRICS.map((name) => [name, row[name] ? Number(row[name]) : Number.NaN]);
   const variant = [parameters, truth === 'none' ? '' : `truth=${truth}`, reality && `reality=${reality}`];
