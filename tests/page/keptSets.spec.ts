@@ -60,6 +60,7 @@ for (const [device, options] of Object.entries(DEVICES)) {
 test('by keyboard alone; what was kept outlasts a reload, not in links', async ({ mapless: page }) => {
   await page.evaluate(() => window.mapless?.setOverrides({ planner: { decision: { cost_model: 'paper' } } }));
   await page.keyboard.press('p');
+  await expect(page.getByRole('tab', { name: 'Parameters' })).toBeFocused();
   await page.keyboard.press('ArrowRight');
   await keep(page, 'A').focus();
   await page.keyboard.press('Enter');
@@ -72,7 +73,7 @@ test('by keyboard alone; what was kept outlasts a reload, not in links', async (
   await page.reload();
   await loaded(page);
   await openLab(page, 'Compare');
-  await expect(box(page, 'A')).toHaveAccessibleName('A cost model paper (steepness)');
+  await expect(box(page, 'A')).toHaveAccessibleName('A cost model paper (forecast)');
   await expect(box(page, 'A')).not.toBeChecked();
   await expect(box(page, 'B')).toBeHidden();
 });
