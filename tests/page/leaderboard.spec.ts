@@ -61,7 +61,10 @@ for (const [device, options] of Object.entries(DEVICES)) {
 test('Parquet has the same standings and trials; what is damaged is refused with its name', async ({
   mapless: page,
 }) => {
-  const tables = () => sheet(page).locator('.standings').allInnerTexts();
+  const tables = async () => {
+    await expect(sheet(page).locator('.standings tbody tr')).toHaveCount(6);
+    return sheet(page).locator('.standings').allInnerTexts();
+  };
   await open(page, csv);
   const asCsv = await tables();
   await sheet(page).getByRole('button', { name: 'Close' }).click();
@@ -70,7 +73,7 @@ test('Parquet has the same standings and trials; what is damaged is refused with
   expect(await tables()).toEqual(asCsv);
   await sheet(page).getByRole('button', { name: 'Close' }).click();
   await page.locator('#files').setInputFiles(file('trials.parquet', parquet.subarray(0, 900)));
-  await expect(page.locator('#notice-text')).toContainText('trials.parquet: ');
+  await expect(page.locator('#notice-text')).toContainText('trials.parquet: damaged (');
 });
 
 for (const [device, options] of Object.entries(DEVICES)) {

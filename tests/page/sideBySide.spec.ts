@@ -63,21 +63,6 @@ for (const [width, height] of [
   });
 }
 
-test('by hand closes to the image as it was before, small or large', async ({ mapless: page }) => {
-  for (const close of [() => hand(page).click(), () => page.keyboard.press('m')]) {
-    await hand(page).click();
-    await expect(app(page)).toHaveAttribute('data-image', 'large');
-    await close();
-    await expect(page.locator('.method')).toBeHidden();
-    await expect(app(page)).toHaveAttribute('data-image', 'small');
-  }
-  await enlarge(page).click();
-  await hand(page).click();
-  await hand(page).click();
-  await expect(page.locator('.method')).toBeHidden();
-  await expect(app(page)).toHaveAttribute('data-image', 'large');
-});
-
 test.describe('on a phone', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 
