@@ -88,7 +88,8 @@ for (const [device, options] of Object.entries(DEVICES)) {
       await expect(ways).toHaveCount(2);
       await expect(ways.filter({ hasText: 'default, seed 3' })).toHaveText(/reached, as in the table$/);
       await expect(ways.filter({ hasText: 'direct, seed 3' })).toHaveText(/, as in the table$/);
-      expect((await state(page)).scenario).toBe('ht');
+      // The view has the route, and stands still beside it.
+      expect(await state(page)).toMatchObject({ scenario: 'ht', playing: false });
       const lengths = await sheet(page)
         .locator('.paths-line')
         .evaluateAll((lines) => lines.map((line) => (line as SVGPolylineElement).getTotalLength()));

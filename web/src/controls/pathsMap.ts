@@ -52,7 +52,7 @@ export class PathsMap {
       this.#draw,
       this.#note,
     ]);
-    this.element.append(choice, this.#map, this.#legend);
+    this.element.append(choice, html('div', 'paths-drawn', [this.#map, this.#legend]));
     this.element.hidden = routes.length === 0;
     this.#map.hidden = true;
   }

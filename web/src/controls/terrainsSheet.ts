@@ -22,6 +22,7 @@ export interface TerrainActions {
   runScenario(scenario: string, setup?: Partial<Setup>, seed?: number): Promise<void>;
   /** Loads a scenario, which then stands at its start. */
   load(scenario: string): Promise<void>;
+  pause(): Promise<void>;
   /** What is loaded. */
   readonly info: SessionInfo | undefined;
   readonly field: Ground | undefined;
@@ -144,6 +145,7 @@ export class TerrainsSheet {
       this.#actions.attempt(this.#actions.runScenario(scenario, { preset, overrides, learning: 'fixed' }, seed));
     const scene = async (route: string) => {
       await this.#actions.load(route);
+      await this.#actions.pause();
       const { info, field } = this.#actions;
       if (!info || !field) throw new Error(`${route} could not be opened.`);
       return { course: courseOf(info, field), solids: info.solids };
