@@ -9,22 +9,26 @@ import { DEVICES, faults } from './axe.ts';
 import { said } from './commandLine.ts';
 import { expect, file, state, test, until } from './page.ts';
 
-/** A campaign of two planners on a short scenario. */
-function campaign(): string {
+/** The tables of a campaign of two planners on a short scenario. */
+function campaign(): { csv: string; parquet: Buffer } {
   const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
   const scenario = resolve('terrains/scenarios/ht.toml');
   const text = `planners = ["default", "direct"]\nroutes = ["${scenario}"]\nseeds = [3, 4]\n`;
   writeFileSync(join(folder, 'small.toml'), text);
   said('trials', join(folder, 'small.toml'), '--out', join(folder, 'results'));
-  return readFileSync(join(folder, 'results/trials.csv'), 'utf8');
+  return {
+    csv: readFileSync(join(folder, 'results/trials.csv'), 'utf8'),
+    parquet: readFileSync(join(folder, 'results/trials.parquet')),
+  };
 }
 
 let csv = '';
+let parquet: Buffer = Buffer.of();
 test.beforeAll(() => {
-  csv = campaign();
+  ({ csv, parquet } = campaign());
 });
 
-const sheet = (page: Page) => page.getByRole('dialog', { name: 'Trials of trials.csv' });
+const sheet = (page: Page) => page.getByRole('dialog', { name: /^Trials of trials\.(csv|parquet)$/ });
 const open = (page: Page, content: string) => page.locator('#files').setInputFiles(file('trials.csv', content));
 
 for (const [device, options] of Object.entries(DEVICES)) {
@@ -50,6 +54,48 @@ for (const [device, options] of Object.entries(DEVICES)) {
       await until(page, (now) => now.outcome !== 'running');
       const row = rowsOf(csv).find(({ planner, seed }) => planner === 'default' && seed === '4');
       expect((await state(page)).digest).toBe(row?.digest);
+    });
+  });
+}
+
+test('Parquet has the same standings and trials; what is damaged is refused with its name', async ({
+  mapless: page,
+}) => {
+  const tables = async () => {
+    await expect(sheet(page).locator('.standings tbody tr')).toHaveCount(6);
+    return sheet(page).locator('.standings').allInnerTexts();
+  };
+  await open(page, csv);
+  const asCsv = await tables();
+  await sheet(page).getByRole('button', { name: 'Close' }).click();
+  await page.locator('#files').setInputFiles(file('trials.parquet', parquet));
+  await expect(sheet(page)).toHaveAccessibleName('Trials of trials.parquet');
+  expect(await tables()).toEqual(asCsv);
+  await sheet(page).getByRole('button', { name: 'Close' }).click();
+  await page.locator('#files').setInputFiles(file('trials.parquet', parquet.subarray(0, 900)));
+  await expect(page.locator('#notice-text')).toContainText('trials.parquet: damaged (');
+});
+
+for (const [device, options] of Object.entries(DEVICES)) {
+  test.describe(`paths, ${device}`, () => {
+    test.use(options);
+
+    test('the map has each planner’s path, driven again with the digest of its row', async ({ mapless: page }) => {
+      await page.locator('#files').setInputFiles(file('trials.parquet', parquet));
+      const draw = sheet(page).getByRole('button', { name: 'Draw the paths' });
+      await (device === 'phone' ? draw.tap() : draw.click());
+      const ways = sheet(page).locator('.paths-legend li');
+      await expect(ways).toHaveCount(2);
+      await expect(ways.filter({ hasText: 'default, seed 3' })).toHaveText(/reached, as in the table$/);
+      await expect(ways.filter({ hasText: 'direct, seed 3' })).toHaveText(/, as in the table$/);
+      // The view has the route, and stands still beside it.
+      expect(await state(page)).toMatchObject({ scenario: 'ht', playing: false });
+      const lengths = await sheet(page)
+        .locator('.paths-line')
+        .evaluateAll((lines) => lines.map((line) => (line as SVGPolylineElement).getTotalLength()));
+      // In metres: the longer way is that which reached the goal.
+      expect(Math.max(...lengths)).toBeGreaterThan(20);
+      expect(await faults(page)).toEqual([]);
     });
   });
 }

@@ -1,5 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { rowsOf } from '../src/files/csv.ts';
 import { campaignFile, trialsCsv } from '../src/trials/batchFiles.ts';
 import { campaignRows } from '../src/trials/campaignRows.ts';
 import { overridesWith, valuesIn } from '../src/trials/sweep.ts';
@@ -50,6 +51,6 @@ test('a table says with which parameters each trial was driven, as the page read
     planner: { decision: { cost_model: 'paper' }, perception: { kernel: { length_scales_rad: [0.12, 0.05] } } },
   };
   const csv = trialsCsv({ planner: 'paper', route: 'ht', seeds: [3] }, [{ overrides, result }]);
-  const [row] = campaignRows('trials.csv', csv, () => true);
+  const [row] = campaignRows(rowsOf(csv), () => true);
   assert.deepEqual(row?.replay, { scenario: 'ht', preset: 'paper', overrides, seed: 3 });
 });

@@ -4,7 +4,8 @@ import '../style/leaderboard.css';
 import { button, html, setText } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
 import { loadTrials, type TrialsModule } from '../bindings/trialsModule.ts';
-import type { CampaignRow, Replay } from '../trials/campaignRows.ts';
+import { type CampaignRow, nameOf, type Replay } from '../trials/campaignRows.ts';
+import { PathsMap, type Scene } from './pathsMap.ts';
 
 /** Rows in sight: more make no table that anybody reads. */
 const MOST_ROWS = 200;
@@ -24,7 +25,13 @@ export class LeaderboardSheet {
   readonly #note = html('p', 'sheet-note');
   readonly #trials = html('tbody');
 
-  constructor(file: string, rows: readonly CampaignRow[], drive: (trial: Replay) => void) {
+  /** `scene` brings a route into the view. */
+  constructor(
+    file: string,
+    rows: readonly CampaignRow[],
+    drive: (trial: Replay) => void,
+    scene: (route: string) => Promise<Scene>,
+  ) {
     [this.#rows, this.#drive] = [rows, drive];
     const title = html('h2', '', [`Trials of ${file}`]);
     title.id = 'leaderboard-title';
@@ -41,8 +48,12 @@ export class LeaderboardSheet {
     for (const select of [this.#whose, this.#which]) select.addEventListener('change', () => this.#list());
     const filters = html('div', 'row', [field('Planner', this.#whose), field('Outcome', this.#which)]);
     const trials = table('Trials', ['Drive', 'Planner', 'Outcome', ...METRICS.map(([name]) => name)], this.#trials);
-    this.#sheet.append(close, title, html('div', 'leaderboard'), filters, this.#note, trials);
-    this.#sheet.addEventListener('close', () => this.#sheet.remove());
+    const map = new PathsMap(rows, scene);
+    this.#sheet.append(close, title, html('div', 'leaderboard'), map.element, filters, this.#note, trials);
+    this.#sheet.addEventListener('close', () => {
+      map.stop();
+      this.#sheet.remove();
+    });
   }
 
   async show(): Promise<void> {
@@ -80,10 +91,6 @@ export class LeaderboardSheet {
     const numbers = METRICS.map(([, key, decimals]) => fixed(metrics[key], decimals));
     return line(drive, [nameOf(row), outcome.replaceAll('_', ' '), ...numbers]);
   }
-}
-
-function nameOf({ planner, variant }: CampaignRow): string {
-  return variant ? `${planner}, ${variant}` : planner;
 }
 
 function groups(rows: readonly CampaignRow[]): Map<string, CampaignRow[]> {

@@ -8,8 +8,9 @@ import { CATALOGUE, entry, isKnown } from '../experiment/catalogue.ts';
 import { type Experiment, FAMILIES, HOLES, type Holes, MAX_SEED, type Terrain } from '../experiment/experiment.ts';
 import type { Setup } from '../experiment/setting.ts';
 import { pngHead } from '../files/pngHead.ts';
-import type { NamedFile, TerrainPreview } from '../protocol/simulationProtocol.ts';
+import type { Ground, NamedFile, SessionInfo, TerrainPreview } from '../protocol/simulationProtocol.ts';
 import type { Replay } from '../trials/campaignRows.ts';
+import { courseOf } from '../trials/course.ts';
 import { drawRelief } from './reliefPicture.ts';
 
 /** Generated terrains shown at once. */
@@ -19,6 +20,12 @@ export interface TerrainActions {
   /** A terrain, coarsely, for a picture. */
   preview(terrain: Terrain): Promise<TerrainPreview>;
   runScenario(scenario: string, setup?: Partial<Setup>, seed?: number): Promise<void>;
+  /** Loads a scenario, which then stands at its start. */
+  load(scenario: string): Promise<void>;
+  pause(): Promise<void>;
+  /** What is loaded. */
+  readonly info: SessionInfo | undefined;
+  readonly field: Ground | undefined;
   runTerrain(terrain: Terrain, name: string): Promise<void>;
   run(source: { readonly experiment: Experiment }): Promise<void>;
   /** `holes`: what becomes of samples without a height. */
@@ -129,14 +136,21 @@ export class TerrainsSheet {
 
   /** The table of a campaign. */
   async #openTable({ name, bytes }: NamedFile): Promise<void> {
-    const [{ LeaderboardSheet }, { campaignRows }] = await Promise.all([
+    const [{ LeaderboardSheet }, { openCampaign }] = await Promise.all([
       import('./leaderboardSheet.ts'),
-      import('../trials/campaignRows.ts'),
+      import('../trials/campaignFile.ts'),
     ]);
-    const rows = campaignRows(name, new TextDecoder().decode(bytes), isKnown);
+    const rows = await openCampaign(name, bytes, isKnown);
     const drive = ({ scenario, seed, preset, overrides }: Replay) =>
       this.#actions.attempt(this.#actions.runScenario(scenario, { preset, overrides, learning: 'fixed' }, seed));
-    await new LeaderboardSheet(name, rows, drive).show();
+    const scene = async (route: string) => {
+      await this.#actions.load(route);
+      await this.#actions.pause();
+      const { info, field } = this.#actions;
+      if (!info || !field) throw new Error(`${route} could not be opened.`);
+      return { course: courseOf(info, field), solids: info.solids };
+    };
+    await new LeaderboardSheet(name, rows, drive, scene).show();
   }
 
   async #open(list: ArrayLike<File>): Promise<void> {
@@ -147,7 +161,7 @@ export class TerrainsSheet {
     }
     const holes = HOLES.find((one) => one === this.#holes.value) ?? 'refuse';
     const [first] = files;
-    if (files.length === 1 && first && /\.csv$/i.test(first.name)) {
+    if (files.length === 1 && first && /\.(csv|parquet)$/i.test(first.name)) {
       await this.#openTable(first);
       return;
     }

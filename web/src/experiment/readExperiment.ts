@@ -21,6 +21,7 @@ import {
 import type { Overrides, OverrideValue } from './overrides.ts';
 import type { Goal, Heading, Place } from './place.ts';
 import { readObjects } from './readObjects.ts';
+import type { Setup } from './setting.ts';
 
 const MAX_STROKES = 5000;
 /** No coordinate lies farther out, in metres. */
@@ -128,12 +129,23 @@ function overrides(value: unknown): Overrides {
   return Object.fromEntries(Object.entries(found).map(([key, one]) => [key, table(one, `overrides.${key}`, 1)]));
 }
 
+/** How the planner is set up, from outside. */
+export function readSetup(value: unknown, at: string): Setup {
+  const found = fields(value, at, ['preset', 'learning', 'overrides']);
+  return {
+    preset: oneOf(found.preset, 'preset', PRESETS),
+    learning: oneOf(found.learning, 'learning', LEARNING),
+    overrides: overrides(found.overrides),
+  };
+}
+
 /** The document that a value is, or an error that says what is wrong with it. */
 export function readExperiment(value: unknown): Experiment {
   const version = (value as { version?: unknown } | null)?.version;
   if (version !== VERSION) fail('version', version, `${VERSION}: this page reads no other version of experiments`);
   const scenario = ['start', 'waypoints', 'goal', 'seed', 'preset', 'learning', 'overrides'];
   const found = fields(value, 'experiment', ['version', 'name', 'terrain', 'strokes', ...scenario], ['objects']);
+  const { preset, learning } = found;
   return {
     version: VERSION,
     name: text(found.name, 'name', 80),
@@ -144,8 +156,6 @@ export function readExperiment(value: unknown): Experiment {
     waypoints: list(found.waypoints, 'waypoints', MAX_WAYPOINTS).map((one, at) => place(one, `waypoints[${at}]`)),
     goal: goal(found.goal, 'goal'),
     seed: whole(found.seed, 'seed', 0, MAX_SEED),
-    preset: oneOf(found.preset, 'preset', PRESETS),
-    learning: oneOf(found.learning, 'learning', LEARNING),
-    overrides: overrides(found.overrides),
+    ...readSetup({ preset, learning, overrides: found.overrides }, 'experiment'),
   };
 }

@@ -1,6 +1,6 @@
 /** The section `reality` of the parameters: what the world does to sensing, knowing and doing. */
 
-import type { Overrides, OverrideValue } from './overrides.ts';
+import { type Overrides, type OverrideValue, override } from './overrides.ts';
 import type { Parameter, ParameterGroup } from './parameters.ts';
 
 const TABLE = 'reality';
@@ -21,6 +21,11 @@ export function isEffects({ table }: Pick<ParameterGroup, 'table'>): boolean {
 export function withReality(overrides: Overrides, preset: string): Overrides {
   const { [TABLE]: _before, ...others } = overrides;
   return preset === IDEAL ? others : { ...others, [TABLE]: { preset } };
+}
+
+/** The preset that is set. */
+export function realityOf(overrides: Overrides): OverrideValue {
+  return override(overrides, TABLE, 'preset') ?? IDEAL;
 }
 
 /** The same where nothing goes wrong. */

@@ -1,7 +1,10 @@
 /** Tables with commas, as campaigns write them: fields with a comma or a quote stand in quotes, which are doubled within. */
 
+/** The fields of a row by the names of the columns. */
+export type Row = Readonly<Record<string, string>>;
+
 /** The rows by the names of the first line; throws where a row has another number of fields. */
-export function rowsOf(text: string): Readonly<Record<string, string>>[] {
+export function rowsOf(text: string): Row[] {
   const [names = [], ...rows] = records(text);
   return rows.map((fields, index) => {
     if (fields.length !== names.length)

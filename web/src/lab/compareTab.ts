@@ -1,20 +1,23 @@
 /** Other planners on the same course, in step with the robot of the page: ghosts in the view, differences in a table. */
 
 import type { App } from '../app/app.ts';
-import { html, setText } from '../base/dom.ts';
+import { button, html, setText } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
+import { differences } from '../experiment/differences.ts';
+import { inIdealWorld } from '../experiment/reality.ts';
 import { type Confined, confine, type OwnPlanner } from '../guest/confinement.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { courseOf } from '../trials/course.ts';
 import { GhostRun } from '../trials/ghostRun.ts';
 import { type RunningJob, startJob } from '../trials/trialsClient.ts';
-import { type FromTrials, type Job, OWN_PLANNER } from '../trials/trialsProtocol.ts';
+import { type FromTrials, type Job, OWN_PLANNER, type Rider } from '../trials/trialsProtocol.ts';
 import type { Stage } from '../view/stage.ts';
 import { ComparisonTable } from './comparisonTable.ts';
 import { GhostTrails } from './ghostTrails.ts';
+import { KeptSets } from './keptSets.ts';
 import type { Tab } from './lab.ts';
 import { OwnPlannerCard } from './ownPlanner.ts';
-import { OWN_RIVAL, RIVALS, type Rival } from './planners.ts';
+import { IDEAL_RIVAL, OWN_RIVAL, RIVALS, type Rival, SET_RIVALS } from './planners.ts';
 
 /** More at once would starve each other, and the table would not fit. */
 const MOST = 3;
@@ -23,6 +26,14 @@ const SCULPTING_MS = 600;
 /** Beyond the page's own run, ghosts run to their end. */
 const TO_THE_END = 1e9;
 
+/** One that can be compared with. */
+interface Choice {
+  readonly rival: Rival;
+  readonly box: HTMLInputElement;
+  readonly meaning: HTMLElement;
+  readonly element: HTMLElement;
+}
+
 export class CompareTab implements Tab {
   readonly title = 'Compare';
   readonly element = html('div');
@@ -30,7 +41,8 @@ export class CompareTab implements Tab {
   readonly #stage: Stage | undefined;
   #choiceChanged: (() => void) | undefined;
   readonly #trails = new GhostTrails();
-  readonly #boxes: readonly { rival: Rival; box: HTMLInputElement; label: HTMLLabelElement }[];
+  readonly #sets = new KeptSets();
+  readonly #boxes: readonly Choice[];
   readonly #note = html('p', 'lab-note');
   readonly #fault = html('p', 'parameter-fault');
   readonly #table = new ComparisonTable();
@@ -49,19 +61,35 @@ export class CompareTab implements Tab {
   constructor(app: App, stage: Stage | undefined) {
     this.#app = app;
     this.#stage = stage;
-    this.#boxes = [...RIVALS, OWN_RIVAL].map((rival) => this.#box(rival));
+    this.#boxes = [
+      ...[...RIVALS, OWN_RIVAL].map((rival) => this.#box(rival)),
+      ...SET_RIVALS.map((one) => this.#set(one)),
+    ];
     const choice = html('fieldset', 'rivals', [
       html('legend', 'hidden-text', ['Planners to compare with']),
-      ...this.#boxes.map(({ label }) => label),
+      ...this.#boxes.map(({ element }) => element),
     ]);
+    const keeps = SET_RIVALS.map((rival) => {
+      const keep = button('plain', rival.name, () => this.#keep(rival));
+      keep.setAttribute('aria-label', `Keep these parameters as ${rival.name}`);
+      return keep;
+    });
     this.#fault.setAttribute('role', 'alert');
     this.#fault.hidden = true;
-    this.element.append(choice, this.#note, this.#fault, this.#table.element, this.#card.element);
+    this.element.append(
+      choice,
+      html('div', 'lab-row kept-sets', ['Keep these parameters as', ...keeps]),
+      this.#note,
+      this.#fault,
+      this.#table.element,
+      this.#card.element,
+    );
     this.#tellChoice();
   }
 
   session(info: SessionInfo): void {
     this.#table.session(info);
+    this.#tellSets();
     // A restart changes nothing: what the ghosts have driven is still right.
     const { parameters: _parameters, ...course } = info;
     const now = JSON.stringify(course);
@@ -86,20 +114,60 @@ export class CompareTab implements Tab {
     this.#show();
   }
 
-  #box(rival: Rival) {
+  #box(rival: Rival): Choice {
     const box = html('input');
     box.type = 'checkbox';
     box.value = rival.planner;
     box.addEventListener('change', () => this.#choose());
     const swatch = html('i', 'swatch');
     swatch.style.setProperty('--swatch', rival.colour);
-    const label = html('label', 'rival', [
-      box,
-      swatch,
-      html('span', 'rival-name', [rival.name]),
-      html('span', 'rival-meaning', [rival.meaning]),
-    ]);
-    return { rival, box, label };
+    const meaning = html('span', 'rival-meaning', [rival.meaning]);
+    const element = html('label', 'rival', [box, swatch, html('span', 'rival-name', [rival.name]), meaning]);
+    return { rival, box, meaning, element };
+  }
+
+  /** That of a parameter set, which the robot in view can get back. */
+  #set(rival: Rival): Choice {
+    const { element: label, ...choice } = this.#box(rival);
+    const use = button('plain', 'Use', () => {
+      const kept = this.#sets.get(rival.planner);
+      this.#app.touch();
+      if (kept) this.#app.attempt(this.#app.adjust(kept));
+    });
+    use.setAttribute('aria-label', `Use the parameters of ${rival.name}`);
+    return { ...choice, element: html('div', 'kept-set', [label, use]) };
+  }
+
+  /** Keeps what the robot in view has now, which drives as a ghost where there is room. */
+  #keep(rival: Rival): void {
+    const { info } = this.#app;
+    if (!info) return;
+    this.#sets.keep(rival.planner, info);
+    this.#tellSets();
+    const { chosen, room } = this.stateOf(rival);
+    this.pick(rival, chosen || room);
+  }
+
+  /** Says how each set that is kept differs from what is in view. */
+  #tellSets(): void {
+    const { info } = this.#app;
+    for (const { rival, meaning, element } of this.#boxes) {
+      if (!SET_RIVALS.includes(rival)) continue;
+      const kept = this.#sets.get(rival.planner);
+      element.hidden = !kept;
+      if (!kept || !info) continue;
+      const words = differences(kept, info, info.parameters);
+      setText(meaning, words.length === 0 ? 'the parameters in view' : words.join('; '));
+    }
+  }
+
+  /** How one of the planners or sets drives. */
+  #rider({ planner }: Rival, { preset, learning, overrides }: SessionInfo): Rider {
+    const kept = this.#sets.get(planner);
+    if (kept) return { ...kept, name: planner, planner: kept.preset };
+    if (planner === IDEAL_RIVAL.planner)
+      return { name: planner, planner: preset, learning, overrides: inIdealWorld(overrides) };
+    return { name: planner, planner, learning, overrides };
   }
 
   /** Who is told whenever others are compared with. */
@@ -145,7 +213,7 @@ export class CompareTab implements Tab {
   #tellChoice(): void {
     const full = this.#chosen.length >= MOST;
     for (const { box } of this.#boxes) box.disabled = full && !box.checked;
-    const how = `They drive the same course from its start, with the same seed and parameters. At most ${MOST} at once. One that is still catching up is compared with the robot in view at the time it has got to.`;
+    const how = `They drive the same course from its start, with the same seed and parameters, A and B with what was kept, beside which what is in view stands in brackets. At most ${MOST} at once. One that is still catching up is compared with the robot in view at the time it has got to. Links and files of the run have nothing of them; A and B stay until this tab is closed.`;
     setText(this.#note, how);
     this.#choiceChanged?.();
   }
@@ -162,8 +230,8 @@ export class CompareTab implements Tab {
     const { info, field } = this.#app;
     if (info && field && this.#chosen.length > 0) {
       const [course, { seed }] = [courseOf(info, field), info];
-      const planners = this.#chosen.filter((rival) => rival !== OWN_RIVAL).map(({ planner }) => planner);
-      if (planners.length > 0) this.#start({ type: 'ghosts', course, planners, seed });
+      const riders = this.#chosen.filter((rival) => rival !== OWN_RIVAL).map((rival) => this.#rider(rival, info));
+      if (riders.length > 0) this.#start({ type: 'ghosts', course, riders, seed });
       if (this.#own && this.#chosen.includes(OWN_RIVAL)) {
         this.#confined = confine(this.#own);
         this.#card.say(`${this.#own.name} is opened.`);
@@ -197,7 +265,8 @@ export class CompareTab implements Tab {
       this.#card.fault(`${this.#own?.name} ${message.message}`);
       this.#show();
     } else if (message.type === 'refused' || message.type === 'failed') {
-      setText(this.#fault, message.message);
+      const whose = message.type === 'refused' && this.#chosen.find(({ planner }) => planner === message.planner);
+      setText(this.#fault, whose ? `${whose.name}: ${message.message}` : message.message);
       this.#fault.hidden = false;
     }
   }

@@ -1,8 +1,9 @@
 /** What can drive beside the page's own planner: names, words and colours that colour-blind readers tell apart. */
 
-import { IDEAL_WORLD, OWN_PLANNER } from '../trials/trialsProtocol.ts';
+import { OWN_PLANNER } from '../trials/trialsProtocol.ts';
 
 export interface Rival {
+  /** Its planner, or what tells it from those that have another's. */
   readonly planner: string;
   readonly name: string;
   readonly meaning: string;
@@ -11,7 +12,7 @@ export interface Rival {
 
 /** The same planner with the same seed, where nothing goes wrong. */
 export const IDEAL_RIVAL: Rival = {
-  planner: IDEAL_WORLD,
+  planner: 'ideal',
   name: 'Ideal',
   meaning: 'the planner in view in an ideal world',
   colour: '#5f9e00',
@@ -36,3 +37,9 @@ export const OWN_RIVAL: Rival = {
   meaning: 'your own planner, written or opened below',
   colour: '#f0e442',
 };
+
+/** Parameter sets that are kept; what they mean follows from what is in view. */
+export const SET_RIVALS: readonly Rival[] = [
+  { planner: 'set A', name: 'A', meaning: '', colour: '#c2185b' },
+  { planner: 'set B', name: 'B', meaning: '', colour: '#17becf' },
+];

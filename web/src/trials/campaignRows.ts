@@ -1,12 +1,12 @@
-/** The table of a campaign (`trials.csv`), row by row, and which of its trials the page can drive itself. */
+/** The table of a campaign (`trials.csv` or `trials.parquet`), row by row, and which of its trials the page can drive itself. */
 
-import { messageOf } from '../base/messageOf.ts';
 import { MAX_SEED, PRESETS } from '../experiment/experiment.ts';
-import { type Overrides, withOverride } from '../experiment/overrides.ts';
-import type { Preset } from '../experiment/setting.ts';
-import { rowsOf } from '../files/csv.ts';
+import { type Overrides, override, withOverride } from '../experiment/overrides.ts';
+import type { Learning, Preset } from '../experiment/setting.ts';
+import type { Row } from '../files/csv.ts';
 import { METRICS } from '../run/columns.ts';
 import type { OverrideValue } from '../wasm/mapless_wasm.js';
+import type { Rider } from './trialsProtocol.ts';
 
 export interface CampaignRow {
   readonly planner: string;
@@ -18,8 +18,10 @@ export interface CampaignRow {
   /** NaN where the trial had none. */
   readonly metrics: Readonly<Record<(typeof METRICS)[number], number>>;
   readonly digest: string;
-  /** How the page drives it, or why it does not. */
+  /** How the view drives it, or why it does not. */
   readonly replay: Replay | string;
+  /** Who drives it again in the background, or why nobody does. */
+  readonly rider: Rider | string;
 }
 
 export interface Replay {
@@ -31,53 +33,55 @@ export interface Replay {
 
 const NEEDED = ['planner', 'route', 'seed', 'outcome'];
 
-/** The rows of a file; throws what it lacks, with its name. `knows`: whether a route comes with the page. */
-export function campaignRows(file: string, text: string, knows: (route: string) => boolean): readonly CampaignRow[] {
-  try {
-    const rows = rowsOf(text);
-    const [first] = rows;
-    if (!first) throw new Error('no rows: expected those of a campaign’s trials.csv');
-    const missing = NEEDED.filter((name) => first[name] === undefined);
-    if (missing.length > 0)
-      throw new Error(`no column ${missing.join(', ')}: expected those of a campaign’s trials.csv`);
-    return rows.map((row) => campaignRow(row, knows(row.route ?? '')));
-  } catch (cause) {
-    throw new Error(`${file}: ${messageOf(cause)}`, { cause });
-  }
+/** Throws what the rows lack. `knows`: whether a route comes with the page. */
+export function campaignRows(rows: readonly Row[], knows: (route: string) => boolean): readonly CampaignRow[] {
+  const [first] = rows;
+  if (!first) throw new Error('no rows: expected those of a campaign’s trials');
+  const missing = NEEDED.filter((name) => first[name] === undefined);
+  if (missing.length > 0) throw new Error(`no column ${missing.join(', ')}: expected those of a campaign’s trials`);
+  return rows.map((row) => campaignRow(row, knows(row.route ?? '')));
 }
 
-function campaignRow(row: Readonly<Record<string, string>>, known: boolean): CampaignRow {
+function campaignRow(row: Row, known: boolean): CampaignRow {
   const { planner = '', route = '', parameters = '', truth = 'none', reality = '', outcome = '', digest = '' } = row;
   const numbers = METRICS.map((name) => [name, row[name] ? Number(row[name]) : Number.NaN]);
-  const variant = [parameters, truth === 'none' ? '' : `truth=${truth}`, reality && `reality=${reality}`];
+  const words = [parameters, truth === 'none' ? '' : `truth=${truth}`, reality && `reality=${reality}`];
+  const variant = words.filter((part) => part !== '').join(' ');
+  const seed = Number(row.seed);
+  const reason = obstacle(known, truth, reality, seed);
+  const overrides = overridesIn(parameters);
+  const learning = (override(overrides, 'planner.perception.learning', 'mode') ?? 'fixed') as Learning;
   return {
     planner,
     route,
-    variant: variant.filter((part) => part !== '').join(' '),
-    seed: Number(row.seed),
+    variant,
+    seed,
     outcome,
     metrics: Object.fromEntries(numbers),
     digest,
-    replay: known
-      ? replayOf(planner, route, parameters, truth, reality, Number(row.seed))
-      : 'Its route does not come with the page.',
+    replay: reason ?? replayOf(planner, route, overrides, seed),
+    rider: reason ?? { name: nameOf({ planner, variant }), planner, learning, overrides },
   };
 }
 
-function replayOf(
-  planner: string,
-  route: string,
-  parameters: string,
-  truth: string,
-  reality: string,
-  seed: number,
-): Replay | string {
-  const preset = PRESETS.find((one) => one === planner);
-  if (!preset) return 'The view drives the planners default and paper; Compare has ghosts of the others.';
+/** Why the page cannot drive a trial, whoever drives it. */
+function obstacle(known: boolean, truth: string, reality: string, seed: number): string | undefined {
+  if (!known) return 'Its route does not come with the page.';
   if (truth !== 'none') return 'The page has no perception override.';
   if (reality !== '') return 'The table does not say what its reality sets.';
   if (!(Number.isInteger(seed) && seed >= 0 && seed <= MAX_SEED)) return 'Its seed is none of the page’s.';
-  return { scenario: route, preset, overrides: overridesIn(parameters), seed };
+  return undefined;
+}
+
+function replayOf(planner: string, scenario: string, overrides: Overrides, seed: number): Replay | string {
+  const preset = PRESETS.find((one) => one === planner);
+  if (!preset) return 'The view drives the planners default and paper; the map of paths has the others.';
+  return { scenario, preset, overrides, seed };
+}
+
+/** What its planner and configuration are called together. */
+export function nameOf({ planner, variant }: Pick<CampaignRow, 'planner' | 'variant'>): string {
+  return variant ? `${planner}, ${variant}` : planner;
 }
 
 /** `path=value`, with spaces between. */

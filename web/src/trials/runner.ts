@@ -2,23 +2,20 @@
 
 import type { TrialsModule } from '../bindings/trialsModule.ts';
 import { withOverride } from '../experiment/overrides.ts';
-import { inIdealWorld } from '../experiment/reality.ts';
 import { scenarioFile } from '../experiment/scenarioFiles.ts';
 import type { Metrics } from '../protocol/simulationProtocol.ts';
 import { METRICS } from '../run/columns.ts';
 import type { Runner as CoreRunner, Ground, GuestRunner } from '../wasm/mapless_wasm_baselines.js';
-import { type Course, IDEAL_WORLD, rowOf, type Summary, type TrialResult } from './trialsProtocol.ts';
+import { type Course, type Rider, rowOf, type Summary, type TrialResult } from './trialsProtocol.ts';
 
 export class Runner {
-  readonly planner: string;
+  readonly #name: string;
   readonly #seed: number;
   readonly #core: CoreRunner;
   running = true;
 
-  constructor(core: CoreRunner, planner: string, seed: number) {
-    this.#core = core;
-    this.planner = planner;
-    this.#seed = seed;
+  constructor(core: CoreRunner, name: string, seed: number) {
+    [this.#core, this.#name, this.#seed] = [core, name, seed];
   }
 
   tick(): void {
@@ -32,7 +29,7 @@ export class Runner {
 
   get result(): TrialResult {
     const { tick, time_s, metrics, outcome } = this.#core.status();
-    return { planner: this.planner, seed: this.#seed, outcome, tick, time_s, metrics, digest: this.#core.digest() };
+    return { planner: this.#name, seed: this.#seed, outcome, tick, time_s, metrics, digest: this.#core.digest() };
   }
 
   free(): void {
@@ -56,17 +53,14 @@ export class RunnerFactory {
     this.#course = course;
   }
 
-  runner(planner: string, seed: number): Runner {
-    const { preset, learning, overrides: all } = this.#course;
-    const ideal = planner === IDEAL_WORLD;
-    const overrides = ideal ? inIdealWorld(all) : all;
+  runner({ name, planner, learning, overrides }: Rider, seed: number): Runner {
     const options = {
       scenario: this.#scenario,
       overrides: withOverride(overrides, 'planner.perception.learning', 'mode', learning),
-      planner: ideal ? preset : planner,
+      planner,
       seed,
     };
-    return new Runner(new this.#module.Runner(this.#ground, options), planner, seed);
+    return new Runner(new this.#module.Runner(this.#ground, options), name, seed);
   }
 
   /** A trial for a planner that is asked. */

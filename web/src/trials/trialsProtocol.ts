@@ -8,9 +8,6 @@ import type { Ground, Metrics, Outcome } from '../protocol/simulationProtocol.ts
 import { METRICS, POSE } from '../run/columns.ts';
 import type { Spread, TrialStatus } from '../wasm/mapless_wasm_baselines.js';
 
-/** In place of a planner's name: the planner of the course, where nothing goes wrong. */
-export const IDEAL_WORLD = 'ideal';
-
 /** In place of a planner's name: somebody's own, which is asked through a port. */
 export const OWN_PLANNER = 'own';
 
@@ -26,7 +23,17 @@ export interface Course {
   readonly ground: Ground;
 }
 
+/** Who drives on a course. */
+export interface Rider {
+  /** By which its trial is told from others. */
+  readonly name: string;
+  readonly planner: string;
+  readonly learning: Learning;
+  readonly overrides: Overrides;
+}
+
 export interface TrialResult {
+  /** The rider's name. */
   readonly planner: string;
   readonly seed: number;
   readonly outcome: Outcome;
@@ -37,8 +44,8 @@ export interface TrialResult {
 }
 
 export type Job =
-  /** Several planners on the course, no farther than asked for. */
-  | { type: 'ghosts'; course: Course; planners: readonly string[]; seed: number }
+  /** Several on the course, no farther than asked for. */
+  | { type: 'ghosts'; course: Course; riders: readonly Rider[]; seed: number }
   /** Somebody's own planner on the course, no farther than asked for. */
   | { type: 'own'; course: Course; seed: number; port: MessagePort }
   /** One planner with the seeds that are then given, each to its end. */
@@ -75,7 +82,7 @@ export type FromTrials =
   | { type: 'took'; decision_ms: number }
   | { type: 'trial'; result: TrialResult }
   | { type: 'summary'; summary: Summary }
-  /** A planner that cannot drive this course. */
+  /** One that cannot drive this course, by its name. */
   | { type: 'refused'; planner: string; message: string }
   /** After a panic the worker is of no more use; another one may be. */
   | { type: 'failed'; message: string; panicked: boolean };

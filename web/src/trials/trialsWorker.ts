@@ -4,7 +4,7 @@ import { messageOf } from '../base/messageOf.ts';
 import { loadTrials, type TrialsModule } from '../bindings/trialsModule.ts';
 import { GuestRun } from './guestRun.ts';
 import { type Runner, RunnerFactory, summary } from './runner.ts';
-import { type FromTrials, type Job, OWN_PLANNER, type ToTrials } from './trialsProtocol.ts';
+import { type FromTrials, type Job, OWN_PLANNER, type Rider, type ToTrials } from './trialsProtocol.ts';
 
 /** How long it runs before it listens and tells again, in milliseconds. */
 const SLICE_MS = 40;
@@ -28,17 +28,17 @@ function woken(): Promise<void> {
   });
 }
 
-async function ghosts({ course, planners, seed }: Extract<Job, { type: 'ghosts' }>): Promise<void> {
+async function ghosts({ course, riders, seed }: Extract<Job, { type: 'ghosts' }>): Promise<void> {
   const factory = new RunnerFactory(await loadTrials(), course);
   let running: { runner: Runner; tick: number }[] = [];
-  for (const planner of planners) {
+  for (const rider of riders) {
     try {
-      const runner = factory.runner(planner, seed);
+      const runner = factory.runner(rider, seed);
       running.push({ runner, tick: 0 });
       post({ type: 'ghost', rows: new Float64Array(runner.row), result: runner.result });
     } catch (error) {
       if (error instanceof WebAssembly.RuntimeError) throw error;
-      post({ type: 'refused', planner, message: messageOf(error) });
+      post({ type: 'refused', planner: rider.name, message: messageOf(error) });
     }
   }
   while (running.length > 0) {
@@ -91,7 +91,7 @@ async function own({ course, seed, port }: Extract<Job, { type: 'own' }>): Promi
 interface Batch {
   readonly module: TrialsModule;
   readonly factory: RunnerFactory;
-  readonly planner: string;
+  readonly rider: Rider;
 }
 
 /** There once the job is a batch. */
@@ -99,11 +99,13 @@ let batch: Promise<Batch> | undefined;
 
 async function opened({ course, planner }: Extract<Job, { type: 'seeds' }>): Promise<Batch> {
   const module = await loadTrials();
-  return { module, factory: new RunnerFactory(module, course), planner };
+  const { learning, overrides } = course;
+  const rider = { name: planner, planner, learning, overrides };
+  return { module, factory: new RunnerFactory(module, course), rider };
 }
 
-function drive({ factory, planner }: Batch, seed: number): void {
-  const runner = factory.runner(planner, seed);
+function drive({ factory, rider }: Batch, seed: number): void {
+  const runner = factory.runner(rider, seed);
   while (runner.running) runner.tick();
   post({ type: 'trial', result: runner.result });
   runner.free();
