@@ -19,8 +19,10 @@ test('the page keeps to its budget: 370 kB of wasm (470 kB as gzip) to begin wit
   const core = sent((name) => /^mapless_wasm_bg.*\.wasm$/.test(name));
   // Loaded by those alone who open a file of heights.
   const heights = sent((name) => /^mapless_wasm_heights_bg.*\.wasm$/.test(name));
+  // Loaded by those alone who open a robot's recording.
+  const replay = sent((name) => /^mapless_wasm_replay_bg.*\.wasm$/.test(name));
   const rest = sent((name) => !name.endsWith('.wasm'));
-  test.info().annotations.push({ type: 'bytes', description: JSON.stringify({ core, heights, rest }) });
+  test.info().annotations.push({ type: 'bytes', description: JSON.stringify({ core, heights, replay, rest }) });
   expect(core.brotli).toBeGreaterThan(0);
   // Hosts that know brotli send the first, all send the second.
   expect(core.brotli, JSON.stringify(core)).toBeLessThan(370_000);

@@ -1,6 +1,7 @@
 //! A replay that can begin at any checkpoint.
 
 use core::time::Duration;
+use std::io::BufReader;
 use std::rc::Rc;
 
 use super::index::Index;
@@ -9,6 +10,9 @@ use crate::entry::Entry;
 use crate::error::RecordingError;
 use crate::reader::{Known, Reader};
 use crate::replay::{News, Options, Replay};
+
+/// Read at once, bytes: each read of the page's files takes a while.
+const BUFFER: usize = 256 << 10;
 
 /// A replay at the begin of a section.
 #[derive(Clone, Debug)]
@@ -31,7 +35,7 @@ pub(super) struct Opened<S> {
 /// A replay, and where it is in the file.
 #[derive(Debug)]
 pub(super) struct Run<S> {
-    reader: Reader<Section<S>>,
+    reader: Reader<BufReader<Section<S>>>,
     section: usize,
     at: Duration,
     next: Option<Entry>,
@@ -56,7 +60,7 @@ impl<S: Source> Run<S> {
         self.replay.as_mut()
     }
 
-    pub(super) fn reader(&self) -> &Reader<Section<S>> {
+    pub(super) fn reader(&self) -> &Reader<BufReader<Section<S>>> {
         &self.reader
     }
 
@@ -118,8 +122,9 @@ fn read_section<S: Source>(
     opened: &Opened<S>,
     number: usize,
     known: Known,
-) -> Result<Reader<Section<S>>, RecordingError> {
+) -> Result<Reader<BufReader<Section<S>>>, RecordingError> {
     let [begin, end] = opened.index.section(number).unwrap_or([opened.index.end; 2]);
     let section = Section::new(Rc::clone(&opened.source), begin, end);
+    let section = BufReader::with_capacity(BUFFER, section);
     Reader::of_section(section, begin, end == opened.index.end, known)
 }
