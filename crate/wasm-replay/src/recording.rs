@@ -14,6 +14,9 @@ use crate::frame::{RecordedFrame, frame};
 use crate::scene::RecordedScene;
 use crate::sight::FrameBuffers;
 
+const EXPECTED: &str =
+    "Expected an MCAP recording of mapless-node or of a robot (rosbag2), with scan, odometry and IMU";
+
 /// How far the recording was decided again.
 #[derive(Debug, Serialize, Tsify)]
 pub struct Decided {
@@ -70,9 +73,7 @@ impl Recording {
         let (name, file) = File::new(file);
         match Player::open(file, Options::default()) {
             Ok(player) => Ok(Self { player, name }),
-            Err(error) => Err(JsError::new(&format!(
-                "{name}: {error}. Expected an MCAP recording of mapless-node or of a robot (rosbag2), with scan, odometry and IMU"
-            ))),
+            Err(error) => Err(JsError::new(&format!("{name}: {error}. {EXPECTED}"))),
         }
     }
 

@@ -76,6 +76,7 @@ export class Recordings {
       close: () => this.close(),
     });
     [this.#drive, this.#panel] = [drive, panel];
+    panel.news(drive.past);
     this.#page.toggleAttribute('data-recorded', true);
     await drive.setSpeed(1);
     await drive.begin();

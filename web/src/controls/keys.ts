@@ -36,7 +36,7 @@ export interface InspectorKeys {
 }
 
 /** What can be done with a recording, which cannot be changed. */
-const RECORDED = new Set([' ', ...'srjkfetoxv,.?']).add('escape');
+const RECORDED = new Set([' ', ...'srjkfetoxvg,.?']).add('escape');
 
 /** `recorded`: whether a recording is shown in place of a run. */
 export function bindKeys(actions: KeyActions, inspector: InspectorKeys, recorded: () => boolean): void {

@@ -227,7 +227,7 @@ export class RecordedDrive {
       this.#info = { ...info, goal };
       this.#views.session(this.#info, first ? field : undefined);
     }
-    if (recorded.pose) this.#views.surroundings(field);
+    this.#views.surroundings(field);
     this.#views.frame(frameOf(recorded, pose, buffers, this.#along(jumps || first)), recorded);
   }
 
