@@ -160,6 +160,8 @@ const app = new App(core, {
   clearSlow: () => notice.withdraw(SLOW),
 });
 
+const NO_LARGEST = { max_abs_roll_rad: undefined, max_abs_pitch_rad: undefined };
+
 /** What a run and a recording are shown by. */
 const shared = {
   session(info: SessionInfo, field: HeightField | undefined) {
@@ -177,8 +179,10 @@ const shared = {
     mountNotice.show(frame);
     timeline.show(frame);
     inspector.frame(frame);
-    roll.show(frame.pose.roll, frame.metrics.max_abs_roll_rad);
-    pitch.show(frame.pose.pitch, frame.metrics.max_abs_pitch_rad);
+    // Of a recording the largest so far is not kept.
+    const { max_abs_roll_rad, max_abs_pitch_rad } = recordings.drive ? NO_LARGEST : frame.metrics;
+    roll.show(frame.pose.roll, max_abs_roll_rad);
+    pitch.show(frame.pose.pitch, max_abs_pitch_rad);
   },
 };
 

@@ -86,7 +86,7 @@ export function frameOf(recorded: RecordedFrame, pose: Pose, buffers: FrameBuffe
     segments: recorded.segments,
     subgoals: recorded.subgoals,
     path: recorded.path,
-    metrics: { ...NO_METRICS, max_abs_roll_rad: Math.abs(pose.roll), max_abs_pitch_rad: Math.abs(pose.pitch) },
+    metrics: NO_METRICS,
     distance_to_goal_m: goal ? Math.hypot(goal.x - pose.x, goal.y - pose.y) : Number.NaN,
     digest: '',
     waypoints_passed: 0,
@@ -101,8 +101,8 @@ export function frameOf(recorded: RecordedFrame, pose: Pose, buffers: FrameBuffe
 /** A recording has none of these. */
 const NO_METRICS: Metrics = {
   distance_m: Number.NaN,
-  max_abs_roll_rad: 0,
-  max_abs_pitch_rad: 0,
+  max_abs_roll_rad: Number.NaN,
+  max_abs_pitch_rad: Number.NaN,
   mean_vibration_rad_s: Number.NaN,
   mean_elevation_rate_cm_s: Number.NaN,
   curvature_change_rad_m: Number.NaN,
