@@ -24,7 +24,7 @@ pub struct Surroundings {
     heights_m: Float32Array,
 }
 
-/// The lowest return of each cell; others take the mean of their neighbours, from those with returns outwards.
+/// The lowest return of each cell; others take the mean of their neighbours, from cells with returns on.
 pub(crate) fn around(
     robot_m: DVec3,
     points_m: &[Vec3],
