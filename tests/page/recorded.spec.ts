@@ -56,8 +56,10 @@ for (const [device, options] of Object.entries(DEVICES)) {
       expect(await faults(page)).toEqual([]);
       expect(await misplaced(page, false)).toEqual([]);
 
-      // From scan to scan.
+      // From scan to scan, which are a tenth of a second apart.
       const there = await now(page).textContent();
+      await press('To the next scan');
+      await expect(panel(page)).toContainText('0.01 s old');
       await press('To the next scan');
       await expect(now(page)).not.toHaveText(there ?? '');
       await press('To the scan before');
