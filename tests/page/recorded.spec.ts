@@ -65,8 +65,8 @@ for (const [device, options] of Object.entries(DEVICES)) {
       await press('To the scan before');
       await expect(now(page)).toHaveText(there ?? '');
 
-      // The emergency stop is pressed at 2.1 s.
-      await press('0:02.1 Aborted: the emergency stop is pressed');
+      // The emergency stop is pressed at 2.2 s.
+      await press('0:02.2 Aborted: the emergency stop is pressed');
       await expect(page.locator('#reason')).toHaveText('Goal given up; the emergency stop is pressed.');
 
       await press('Close the recording');
