@@ -86,7 +86,9 @@ fn little_is_read_to_open_a_recording_and_its_end_is_known() {
     let read = Rc::new(Cell::new(0));
     let source = Counted { bytes: bytes.clone(), read: Rc::clone(&read) };
     let player = Player::open(source, Options::default()).unwrap();
-    assert!(read.get() < bytes.len() / 4, "{} of {} bytes", read.get(), bytes.len());
+    // A buffer each for what is decided and what is shown, whatever the length.
+    let most = 2 * (256 << 10);
+    assert!(read.get() < most && 2 * most < bytes.len(), "{} of {} bytes", read.get(), bytes.len());
     assert!((5.8..6.1).contains(&player.until().as_secs_f64()), "{:?}", player.until());
 }
 
