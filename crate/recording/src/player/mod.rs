@@ -206,10 +206,15 @@ impl<S: Source> Player<S> {
         {
             self.shown = Run::from(copy, &self.opened)?;
         }
-        while self.shown.next_at(&self.opened)?.is_some_and(|next| next <= at) {
+        loop {
+            match self.shown.next_at(&self.opened) {
+                Ok(Some(next)) if next <= at => {}
+                Err(error) if self.found.fault.is_none() => return Err(error),
+                // Where the file is broken, it ends here, too.
+                _ => return Ok(()),
+            }
             self.shown.take(&self.opened, &mut |_| {})?;
         }
-        Ok(())
     }
 
     /// What is the case there.

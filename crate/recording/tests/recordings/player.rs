@@ -114,7 +114,8 @@ fn a_broken_recording_plays_up_to_the_fault_and_names_it() {
     let mut bytes = file(&drive(SHORT));
     let middle = bytes.len() / 2;
     bytes[middle..middle + 64].fill(0xff);
-    let player = decided(&bytes);
+    let mut player = decided(&bytes);
+    player.go_to(Duration::MAX).unwrap();
     let fault = player.found().fault.as_ref().unwrap().to_string();
     assert!(fault.starts_with("after message ") && fault.contains("(byte "), "{fault}");
     assert!(player.found().until > Duration::from_millis(300));
