@@ -19,11 +19,12 @@ test('the page keeps to its budget: 370 kB of wasm (470 kB as gzip) to begin wit
   const core = sent((name) => /^mapless_wasm_bg.*\.wasm$/.test(name));
   // Loaded by those alone who open a file of heights.
   const heights = sent((name) => /^mapless_wasm_heights_bg.*\.wasm$/.test(name));
-  // And by those alone who open a table in Parquet.
+  // And by those alone who open a table in Parquet or a robot's recording.
   const isParquet = (name: string) => /^parquet-.*\.js$/.test(name);
   const parquet = sent(isParquet);
+  const replay = sent((name) => /^mapless_wasm_replay_bg.*\.wasm$/.test(name));
   const rest = sent((name) => !name.endsWith('.wasm') && !isParquet(name));
-  test.info().annotations.push({ type: 'bytes', description: JSON.stringify({ core, heights, parquet, rest }) });
+  test.info().annotations.push({ type: 'bytes', description: JSON.stringify({ core, heights, parquet, replay, rest }) });
   expect(parquet.gzip).toBeGreaterThan(0);
   expect(parquet.gzip, JSON.stringify(parquet)).toBeLessThan(20_000);
   expect(core.brotli).toBeGreaterThan(0);

@@ -9,6 +9,7 @@
 //!   up to where the file ends.
 //! - [`replay()`] drives estimator, motion compensation, supervisor and planner with it, and tells where
 //!   their decisions differ from those that were recorded.
+//! - [`Player`] goes to any moment of a recording and tells what was seen and decided there.
 //!
 //! The crate opens no file, reads no clock and starts no thread. It builds natively and for
 //! wasm32-unknown-unknown.
@@ -18,6 +19,7 @@ mod entry;
 mod error;
 mod head;
 mod message;
+mod player;
 mod reader;
 mod replay;
 mod schema;
@@ -28,7 +30,8 @@ pub use entry::{Content, Entry};
 pub use error::{Fault, RecordingError};
 pub use head::Head;
 pub use message::{AnswerMessage, GoalMessage, LostMessage, SpoiltMessage, TickMessage};
+pub use player::{Found, Player, Source};
 pub use reader::Reader;
-pub use replay::{Difference, News, Options, Report, replay};
+pub use replay::{Difference, Moment, News, Options, Report, Seen, replay};
 pub use topics::{Role, TopicNames};
 pub use writer::Writer;

@@ -28,19 +28,33 @@ const ENCAPSULATION: usize = 4;
 pub struct Reader<R> {
     file: R,
     mcap: LinearReader,
+    known: Known,
+    bytes: u64,
+    is_cut: bool,
+}
+
+/// What is known of a file as far as it was read.
+#[derive(Clone, Debug)]
+pub(crate) struct Known {
     schemas: BTreeMap<u16, String>,
     roles: Roles,
     head: Option<Head>,
     /// When the clock of the entries begins; the first message's time, without a head.
     began_ns: Option<u64>,
     messages: u64,
-    bytes: u64,
-    is_cut: bool,
+}
+
+impl Known {
+    /// Nothing but the topics that are named.
+    pub(crate) fn new(topics: TopicNames) -> Self {
+        let roles = Roles::new(topics);
+        Self { schemas: BTreeMap::new(), roles, head: None, began_ns: None, messages: 0 }
+    }
 }
 
 impl<R> std::fmt::Debug for Reader<R> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Reader").field("messages", &self.messages).field("bytes", &self.bytes).finish()
+        f.debug_struct("Reader").field("messages", &self.known.messages).field("bytes", &self.bytes).finish()
     }
 }
 
@@ -50,38 +64,46 @@ impl<R: Read> Reader<R> {
     /// # Errors
     /// [`RecordingError`] if no decompressor can be had.
     pub fn new(file: R, topics: TopicNames) -> Result<Self, RecordingError> {
+        Self::with(file, LinearReaderOptions::default(), 0, Known::new(topics))
+    }
+
+    /// Reads whole records that begin at byte `begin` of a file; the last ones end the file.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if no decompressor can be had.
+    pub(crate) fn of_section(
+        section: R,
+        begin: u64,
+        is_last: bool,
+        known: Known,
+    ) -> Result<Self, RecordingError> {
         let options =
-            LinearReaderOptions::default().with_record_length_limit(LONGEST).with_validate_chunk_crcs(true);
+            LinearReaderOptions::default().with_skip_start_magic(begin > 0).with_skip_end_magic(!is_last);
+        Self::with(section, options, begin, known)
+    }
+
+    fn with(file: R, options: LinearReaderOptions, bytes: u64, known: Known) -> Result<Self, RecordingError> {
+        let options = options.with_record_length_limit(LONGEST).with_validate_chunk_crcs(true);
         let mut mcap = LinearReader::new_with_options(options);
         compression::add_to(&mut mcap).map_err(|error| RecordingError {
-            messages: 0,
-            byte: 0,
+            messages: known.messages,
+            byte: bytes,
             fault: error.into(),
         })?;
-        Ok(Self {
-            file,
-            mcap,
-            schemas: BTreeMap::new(),
-            roles: Roles::new(topics),
-            head: None,
-            began_ns: None,
-            messages: 0,
-            bytes: 0,
-            is_cut: false,
-        })
+        Ok(Self { file, mcap, known, bytes, is_cut: false })
     }
 
     /// What stands at the begin of a recording of the node; `None` for other files, and before the first
     /// entry.
     #[must_use]
     pub fn head(&self) -> Option<&Head> {
-        self.head.as_ref()
+        self.known.head.as_ref()
     }
 
     /// The topics of the file that have a role, as far as it was read.
     #[must_use]
     pub fn topics(&self) -> &TopicNames {
-        self.roles.found()
+        self.known.roles.found()
     }
 
     /// Whether the file ended before its end was marked.
@@ -98,12 +120,42 @@ impl<R: Read> Reader<R> {
         self.advance().map_err(|fault| self.error(fault))
     }
 
+    /// The next entry of a section; `None` at its end, whatever is missing in the file.
+    ///
+    /// # Errors
+    /// As [`Self::next_entry`].
+    pub(crate) fn next_in_section(&mut self) -> Result<Option<Entry>, RecordingError> {
+        self.read().map_err(|fault| self.error(fault))
+    }
+
+    /// What is known of the file so far.
+    pub(crate) fn known(&self) -> &Known {
+        &self.known
+    }
+
+    /// When the clock of the entries begins, nanoseconds; 0 before the first message.
+    pub(crate) fn began_ns(&self) -> u64 {
+        self.known.began_ns.unwrap_or(0)
+    }
+
     /// An error at the place that was read last.
     pub(crate) fn error(&self, fault: Fault) -> RecordingError {
-        RecordingError { messages: self.messages, byte: self.bytes, fault }
+        RecordingError { messages: self.known.messages, byte: self.bytes, fault }
     }
 
     fn advance(&mut self) -> Result<Option<Entry>, Fault> {
+        if let Some(entry) = self.read()? {
+            return Ok(Some(entry));
+        }
+        match self.known.roles.missing().next() {
+            Some((role, topic)) if self.known.head.is_none() => {
+                Err(Fault::NoTopic { role: role.name(), topic: topic.clone() })
+            }
+            _ => Ok(None),
+        }
+    }
+
+    fn read(&mut self) -> Result<Option<Entry>, Fault> {
         loop {
             let (opcode, data) = match self.mcap.next_event() {
                 None => break,
@@ -124,34 +176,29 @@ impl<R: Read> Reader<R> {
             };
             match mcap::parse_record(opcode, data)? {
                 Record::Schema { header, .. } => {
-                    self.schemas.insert(header.id, header.name);
+                    self.known.schemas.insert(header.id, header.name);
                 }
                 Record::Channel(channel) => {
-                    let schema = self.schemas.get(&channel.schema_id).map_or("", String::as_str);
-                    self.roles.take(&channel, schema)?;
+                    let schema = self.known.schemas.get(&channel.schema_id).map_or("", String::as_str);
+                    self.known.roles.take(&channel, schema)?;
                 }
-                Record::Metadata(metadata) if metadata.name == head::NAME && self.head.is_none() => {
+                Record::Metadata(metadata) if metadata.name == head::NAME && self.known.head.is_none() => {
                     let head = Head::from_metadata(&metadata.metadata)?;
-                    self.roles.name(head.topics.clone());
-                    self.began_ns = Some(head.began_ns);
-                    self.head = Some(head);
+                    self.known.roles.name(head.topics.clone());
+                    self.known.began_ns = Some(head.began_ns);
+                    self.known.head = Some(head);
                 }
                 Record::Message { header, data } => {
-                    self.messages += 1;
-                    let began_ns = *self.began_ns.get_or_insert(header.log_time);
-                    if let Some(role) = self.roles.of(header.channel_id) {
+                    self.known.messages += 1;
+                    let began_ns = *self.known.began_ns.get_or_insert(header.log_time);
+                    if let Some(role) = self.known.roles.of(header.channel_id) {
                         return entry(role, &header, &data, began_ns).map(Some);
                     }
                 }
                 _ => {}
             }
         }
-        match self.roles.missing().next() {
-            Some((role, topic)) if self.head.is_none() => {
-                Err(Fault::NoTopic { role: role.name(), topic: topic.clone() })
-            }
-            _ => Ok(None),
-        }
+        Ok(None)
     }
 }
 

@@ -50,6 +50,8 @@ impl Role {
         Self::GoalPose,
         Self::Clock,
     ];
+    /// Those without which nothing can be decided.
+    pub const SENSORS: [Self; 3] = [Self::Scan, Self::Odometry, Self::Imu];
     /// Those of what was decided, and of what the node knows besides messages.
     pub const DECISIONS: [Self; 7] =
         [Self::Goal, Self::Tick, Self::Answer, Self::Spoilt, Self::Limits, Self::Planner, Self::Lost];
@@ -114,7 +116,7 @@ pub(crate) fn decision_topic(role: Role) -> String {
 }
 
 /// Finds the roles of a file's topics: those that are named, others by type.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Roles {
     named: TopicNames,
     found: BTreeMap<Role, String>,

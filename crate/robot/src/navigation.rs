@@ -64,7 +64,7 @@ struct Active<Id> {
 }
 
 /// The goal in service; `Id` is what the action calls it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Navigation<Id> {
     timeout: Duration,
     accepted: u64,

@@ -24,7 +24,7 @@ pub struct Answer {
 }
 
 /// The planner, and what it remembers of the goal.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Pilot {
     config: PlannerConfig,
     planner: Planner,
@@ -64,6 +64,12 @@ impl Pilot {
         self.planner = Planner::new(config.clone())?;
         (self.config, self.goal) = (config, None);
         Ok(())
+    }
+
+    /// The planner's last step.
+    #[must_use]
+    pub fn last_step(&self) -> Step<'_> {
+        self.planner.last_step()
     }
 
     /// What the planner is asked beyond its answers. After a panic it is made anew, and the answer is `None`:

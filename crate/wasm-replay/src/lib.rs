@@ -1,9 +1,36 @@
-//! Replays of recorded drives in the browser. A module of its own, so that the page opens without it.
+//! Recorded drives for the page: decided again to the bit, and shown at any moment. A module of its own, so
+//! that the page opens without it.
 
+#[path = "../../wasm/src/shared/crossing.rs"]
+mod crossing;
+#[path = "../../wasm/src/decision.rs"]
+mod decision;
+mod file;
+mod frame;
 #[path = "../../wasm/src/shared/panic.rs"]
 mod panic;
+#[path = "../../wasm/src/shared/pose.rs"]
+mod pose;
+mod recording;
+#[path = "../../wasm/src/returns.rs"]
+mod returns;
+mod scene;
+#[path = "../../wasm/src/sight.rs"]
+mod sight;
+mod surroundings;
 
+pub use decision::{
+    Activity, Cost, Forecast, PathPoint, ReachEnd, Refusal, Segment, Subgoal, Velocity, Verdict,
+};
+pub use file::RecordingFile;
+pub use frame::{RecordedFrame, RecordedGoal};
 use mapless_recording::{Options, Report, replay};
+pub use pose::Pose;
+pub use recording::{Change, ChangeList, Decided, Recording};
+pub use returns::SetAside;
+pub use scene::RecordedScene;
+pub use sight::{FrameBuffers, ImageSize, Mount, Point, SegmentDemands, SensorPose, TiltLimits};
+pub use surroundings::Surroundings;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// Runs once when the page loads the module.

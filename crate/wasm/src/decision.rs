@@ -1,10 +1,10 @@
 //! What a tick saw and weighed, for whoever explains it.
 
-use mapless::Step;
 use mapless::decision::subgoals;
 use mapless::route::forecast;
 use mapless::skyline::profile::Column;
 use mapless::skyline::segments;
+use mapless::{Command, Status, Step};
 use serde::Serialize;
 use tsify::Tsify;
 
@@ -167,6 +167,47 @@ impl Subgoal {
                 total: cost.total(),
             }),
         }
+    }
+}
+
+/// What the planner does at present.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Tsify)]
+#[serde(rename_all = "snake_case")]
+pub enum Activity {
+    /// Drives to the chosen subgoal.
+    Driving,
+    /// Stands at the goal.
+    Arrived,
+    /// Turns in place to find a subgoal.
+    Searching,
+    /// Stands still for good.
+    Stopped,
+    /// Goes back the way it came.
+    Backtracking,
+}
+
+impl From<Status> for Activity {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Driving => Self::Driving,
+            Status::Arrived => Self::Arrived,
+            Status::Searching => Self::Searching,
+            Status::Stopped(_) => Self::Stopped,
+            Status::Backtracking => Self::Backtracking,
+        }
+    }
+}
+
+/// Forward speed and counter-clockwise turn rate.
+#[derive(Debug, Serialize, Tsify)]
+pub struct Velocity {
+    v_m_s: f64,
+    omega_rad_s: f64,
+}
+
+impl From<Command> for Velocity {
+    fn from(command: Command) -> Self {
+        Self { v_m_s: command.linear_m_s, omega_rad_s: command.angular_rad_s }
     }
 }
 

@@ -11,21 +11,24 @@ mod places;
 mod returns;
 mod session;
 mod shared;
+mod sight;
 mod stroke;
 mod terrain;
 
-pub use decision::{Cost, Forecast, PathPoint, ReachEnd, Refusal, Segment, Subgoal, Verdict};
+pub use decision::{
+    Activity, Cost, Forecast, PathPoint, ReachEnd, Refusal, Segment, Subgoal, Velocity, Verdict,
+};
 pub use objects::{ObjectList, Solid, SolidList};
 pub use opening::{Learning, Preset, ScenarioRead, SessionOptions, TextFile, read_scenario};
 pub use parameters::{Parameter, ParameterGroup, ParameterKind, PresetValue};
 pub use places::{Goal, Heading, Place, Route};
 pub use returns::SetAside;
 pub use session::{
-    Activity, ClimbStep, Frame, FrameBuffers, HeadingThere, ImageSize, Inside, InsideQuestion, Mount,
-    PlaceReport, Placement, Point, Scene, SegmentDemands, SensorPose, Session, Standing, ThinkingWith,
-    Thought, Tick, TiltLimits, Timeline, Velocity,
+    ClimbStep, Frame, HeadingThere, Inside, InsideQuestion, PlaceReport, Placement, Scene, Session, Standing,
+    ThinkingWith, Thought, Tick, Timeline,
 };
 pub use shared::{Metrics, Outcome, OverrideValue, Overrides, Pose};
+pub use sight::{FrameBuffers, ImageSize, Mount, Point, SegmentDemands, SensorPose, TiltLimits};
 pub use stroke::{Stroke, StrokeKind};
 pub use terrain::{
     Ground, GroundPatch, ImportRequest, LevelPlaces, TerrainFiles, TerrainPreview, generated_recipe,

@@ -7,11 +7,11 @@ mod scene;
 mod tick;
 mod what_if;
 
-pub use frame::{Frame, FrameBuffers, Point, SensorPose, Timeline};
+pub use frame::{Frame, Timeline};
 pub use inside::{ClimbStep, Inside, InsideQuestion, Placement};
 pub use place::{HeadingThere, PlaceReport};
-pub use scene::{ImageSize, Mount, Scene, SegmentDemands, TiltLimits};
-pub use tick::{Activity, Standing, Tick, Velocity};
+pub use scene::Scene;
+pub use tick::{Standing, Tick};
 pub use what_if::{ThinkingWith, Thought};
 
 use what_if::Rethought;

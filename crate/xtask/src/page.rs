@@ -32,7 +32,7 @@ pub(crate) fn demo(sh: &Shell, port: u16) -> anyhow::Result<()> {
 }
 
 /// Builds the wasm modules and their JavaScript bindings into `web/src/wasm/`, and reports the size of the
-/// first: the page opens with it, and loads the baselines and the readers of heights on demand.
+/// first: the page opens with it, and loads the others on demand.
 fn bindings(sh: &Shell) -> anyhow::Result<()> {
     setup::wasm_target(sh)?;
     let wasm_bindgen = setup::wasm_bindgen(sh)?.join("wasm-bindgen");
@@ -41,16 +41,26 @@ fn bindings(sh: &Shell) -> anyhow::Result<()> {
     let cargo_home = env::var_os("CARGO_HOME").map_or(home, PathBuf::from);
     let flags = ["--remap-path-prefix".to_owned(), format!("{}=cargo", cargo_home.display())];
     let flags = format!("target.wasm32-unknown-unknown.rustflags={flags:?}");
-    let packages =
-        ["mapless-wasm", "mapless-wasm-baselines", "mapless-wasm-heights", "mapless-planner-template"]
-            .map(|package| format!("--package={package}"));
+    let packages = [
+        "mapless-wasm",
+        "mapless-wasm-baselines",
+        "mapless-wasm-heights",
+        "mapless-wasm-replay",
+        "mapless-planner-template",
+    ]
+    .map(|package| format!("--package={package}"));
     cmd!(sh, "cargo build --config {flags} --profile page {packages...} --target wasm32-unknown-unknown")
         .run()?;
     let built = setup::target_dir(sh).join("wasm32-unknown-unknown/page");
     // Without its names the file is 7 % smaller (brotli); wasm-opt would take another 1.5 %, and no time off
     // a step.
     let strip = ["--remove-name-section", "--remove-producers-section"];
-    for module in ["mapless_wasm.wasm", "mapless_wasm_baselines.wasm", "mapless_wasm_heights.wasm"] {
+    for module in [
+        "mapless_wasm.wasm",
+        "mapless_wasm_baselines.wasm",
+        "mapless_wasm_heights.wasm",
+        "mapless_wasm_replay.wasm",
+    ] {
         let module = built.join(module);
         cmd!(sh, "{wasm_bindgen} --target web {strip...} --out-dir web/src/wasm {module}").run()?;
     }

@@ -192,7 +192,7 @@ fn package(sh: &Shell) -> anyhow::Result<Count> {
 
 fn build_page(sh: &Shell) -> anyhow::Result<Count> {
     // The type files are in the repository, for checks of the page without a build of the modules.
-    let files = ["mapless_wasm", "mapless_wasm_baselines", "mapless_wasm_heights"]
+    let files = ["mapless_wasm", "mapless_wasm_baselines", "mapless_wasm_heights", "mapless_wasm_replay"]
         .map(|module| format!("web/src/wasm/{module}.d.ts"));
     let types = || files.clone().map(|file| sh.read_file(file).ok());
     let kept = types();

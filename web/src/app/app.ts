@@ -106,6 +106,10 @@ export class App {
     return { frame: this.#frame, info: this.#info };
   }
 
+  get speed(): number {
+    return this.#speed;
+  }
+
   get playing(): boolean {
     return this.#playing;
   }

@@ -18,6 +18,7 @@ import type { Editor } from '../editor/editor.ts';
 import { Autosave } from '../experiment/autosave.ts';
 import { entry, following } from '../experiment/catalogue.ts';
 import { countOverrides } from '../experiment/overrides.ts';
+import type { HeightField } from '../ground/heightField.ts';
 import { AttitudeInstrument, PITCH, ROLL } from '../inspector/attitude.ts';
 import { Inspector } from '../inspector/inspector.ts';
 import { OUTCOME_WORDS, StatusPanel } from '../inspector/status.ts';
@@ -27,12 +28,14 @@ import { watchFaults, watchGraphics } from '../notices/faults.ts';
 import { MountNotice } from '../notices/mountNotice.ts';
 import { Notice } from '../notices/notice.ts';
 import { keepOffline } from '../offline/register.ts';
+import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { published } from '../run/published.ts';
 import { GroundTools } from '../view/groundTools.ts';
 import { ObjectTool } from '../view/objectTool.ts';
 import { Stage } from '../view/stage.ts';
 import { AddressBar } from './addressBar.ts';
 import { ByHand } from './byHand.ts';
+import { Recordings } from './recordings.ts';
 import { beginAt, begun, core } from './startCore.ts';
 import { begin, leadOut } from './welcome.ts';
 
@@ -93,15 +96,13 @@ let stage: Stage | undefined;
 
 const app = new App(core, {
   session(info, field) {
-    stage?.session(info, field);
-    timeline.session(info.period_s);
+    // Something else was opened.
+    if (field) recordings.close();
+    if (recordings.drive) return;
+    shared.session(info, field);
     labCount(countOverrides(info.overrides));
     lab?.session(info);
     byHand.session(info);
-    inspector.session(info, field);
-    roll.limit(info.limits.roll_rad);
-    pitch.limit(info.limits.pitch_rad);
-    status.session(info);
     measure.session(info);
     controls.showSession(info);
     objectTool?.show(info.objects);
@@ -111,22 +112,17 @@ const app = new App(core, {
       brushPanel.ground(field.min_m, field.max_m);
       lab?.sculpted();
     }
-    const { group, title } = entry(info.scenario);
-    setText(element('scene-title'), `${group}: ${title}`);
     setText(element('next-title'), following(info.scenario).title);
   },
   frame(frame) {
-    stage?.frame(frame);
-    mountNotice.show(frame);
-    timeline.show(frame);
+    if (recordings.drive) return;
+    shared.frame(frame);
     lab?.frame(frame);
-    inspector.frame(frame);
     byHand.frame(frame);
     measure.frame(frame);
-    roll.show(frame.pose.roll, frame.metrics.max_abs_roll_rad);
-    pitch.show(frame.pose.pitch, frame.metrics.max_abs_pitch_rad);
   },
   status(frame, playing) {
+    if (recordings.drive) return;
     status.show(frame, playing);
     // Once a trial has ended, the button starts it anew.
     controls.showPlaying(playing && frame.outcome === 'running');
@@ -164,6 +160,53 @@ const app = new App(core, {
   clearSlow: () => notice.withdraw(SLOW),
 });
 
+const NO_LARGEST = { max_abs_roll_rad: undefined, max_abs_pitch_rad: undefined };
+
+/** What a run and a recording are shown by. */
+const shared = {
+  session(info: SessionInfo, field: HeightField | undefined) {
+    stage?.session(info, field);
+    timeline.session(info.period_s);
+    inspector.session(info, field);
+    roll.limit(info.limits.roll_rad);
+    pitch.limit(info.limits.pitch_rad);
+    status.session(info);
+    const { group, title } = entry(info.scenario);
+    setText(element('scene-title'), recordings.drive ? 'A robot’s recording' : `${group}: ${title}`);
+  },
+  frame(frame: Frame) {
+    stage?.frame(frame);
+    mountNotice.show(frame);
+    timeline.show(frame);
+    inspector.frame(frame);
+    // Of a recording the largest so far is not kept.
+    const { max_abs_roll_rad, max_abs_pitch_rad } = recordings.drive ? NO_LARGEST : frame.metrics;
+    roll.show(frame.pose.roll, max_abs_roll_rad);
+    pitch.show(frame.pose.pitch, max_abs_pitch_rad);
+  },
+};
+
+const recordings = new Recordings(app, {
+  session: shared.session,
+  surroundings: (field) => stage?.surroundings(field),
+  frame(frame, playing) {
+    shared.frame(frame);
+    status.show(frame, playing);
+  },
+  playing: (playing) => controls.showPlaying(playing),
+  speed(speed) {
+    controls.showSpeed(speed);
+    stage?.speed(speed);
+  },
+  notice: (message) => notice.show(message),
+  letGo() {
+    actions.letGo();
+    inspector.enlargeImage(false);
+  },
+});
+/** What buttons, keys and the timeline drive. */
+const driven = () => recordings.drive ?? app;
+
 const graphics = watchGraphics(
   (message) => notice.show(message),
   () => notice.hide(),
@@ -184,7 +227,9 @@ const measure = new Measure({
   notice: (message) => notice.show(message),
 });
 const inspector = new Inspector(app, stage, view, {
-  enlarged: (large) => byHand.imageEnlarged(large),
+  enlarged: (large) => {
+    if (!recordings.drive) byHand.imageEnlarged(large);
+  },
   byHand: (open) => byHand.process(open),
 });
 const byHand = new ByHand(app, inspector, stage, view);
@@ -229,12 +274,12 @@ async function orBack(choice: Promise<void>): Promise<void> {
 }
 
 const actions = {
-  togglePlay: () => app.attempt(app.togglePlay()),
-  step: () => app.attempt(app.step()),
-  restart: () => app.attempt(app.restart().then(() => app.play())),
+  togglePlay: () => app.attempt(driven().togglePlay()),
+  step: () => app.attempt(driven().step()),
+  restart: () => app.attempt(recordings.drive?.restart() ?? app.restart().then(() => app.play())),
   next: () => app.attempt(app.next()),
-  setSpeed: (speed: number) => app.attempt(app.setSpeed(speed)),
-  faster: (steps: number) => app.attempt(app.faster(steps)),
+  setSpeed: (speed: number) => app.attempt(driven().setSpeed(speed)),
+  faster: (steps: number) => app.attempt(driven().faster(steps)),
   load: (...args: Parameters<App['runScenario']>) => app.attempt(orBack(app.runScenario(...args))),
   selectTool(tool: Parameters<GroundTools['select']>[0]) {
     tools?.select(tool);
@@ -256,7 +301,7 @@ const actions = {
   addWaypoints: (adding: boolean) => tools?.addWaypoints(adding),
   clearWaypoints: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
   setGoalHeading: (heading_rad: number | undefined) => app.attempt(app.setGoalHeading(heading_rad)),
-  jump: (times: number) => app.attempt(app.jump(times)),
+  jump: (times: number) => app.attempt(driven().jump(times)),
   lab: () => app.attempt(openLab()),
   method: () => byHand.toggleProcess(),
   weigh: () => byHand.toggleCost(),
@@ -264,14 +309,18 @@ const actions = {
 const brushPanel = new BrushPanel((setting) => tools?.brush(setting));
 const groundKey = new GroundKey((colouring) => stage?.colouring(colouring));
 const undoButtons = new UndoButtons(app);
-const terrainsSheet = new TerrainsSheet(app, async ({ name, bytes }) => (await loadLab()).planner(name, bytes));
+const terrainsSheet = new TerrainsSheet(
+  app,
+  async ({ name, bytes }) => (await loadLab()).planner(name, bytes),
+  (file) => recordings.open(file),
+);
 const shareSheet = new ShareSheet(app);
 const autosave = new Autosave((why) => notice.show(why));
 const addressBar = new AddressBar((experiment) => app.attempt(app.run({ experiment })));
 const controls = new Controls(actions);
-const timeline = new TimelineBar((tick) => app.attempt(app.seek(tick)));
+const timeline = new TimelineBar((tick) => app.attempt(driven().seek(tick)));
 byId('lab', HTMLButtonElement).addEventListener('click', actions.lab);
-bindKeys(actions, inspector);
+bindKeys(actions, inspector, () => recordings.drive !== undefined);
 controls.showTool('look');
 controls.showSpeed(1);
 

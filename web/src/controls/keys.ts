@@ -35,7 +35,11 @@ export interface InspectorKeys {
   tour(): void;
 }
 
-export function bindKeys(actions: KeyActions, inspector: InspectorKeys): void {
+/** What can be done with a recording, which cannot be changed. */
+const RECORDED = new Set([' ', ...'srjkfetoxvg,.?']).add('escape');
+
+/** `recorded`: whether a recording is shown in place of a run. */
+export function bindKeys(actions: KeyActions, inspector: InspectorKeys, recorded: () => boolean): void {
   const keys: Record<string, () => void> = {
     ' ': () => actions.togglePlay(),
     s: () => actions.step(),
@@ -77,7 +81,7 @@ export function bindKeys(actions: KeyActions, inspector: InspectorKeys): void {
     // The browser closes a popover itself.
     if (event.key === 'Escape' && document.querySelector(':popover-open')) return;
     const act = keys[event.key.toLowerCase()];
-    if (!act) return;
+    if (!act || (recorded() && !RECORDED.has(event.key.toLowerCase()))) return;
     event.preventDefault();
     act();
   });

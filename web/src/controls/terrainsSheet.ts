@@ -37,6 +37,7 @@ export interface TerrainActions {
 export class TerrainsSheet {
   readonly #actions: TerrainActions;
   readonly #planner: (file: NamedFile) => Promise<void>;
+  readonly #recording: (file: File) => Promise<void>;
   readonly #sheet = byId('terrains-sheet', HTMLDialogElement);
   readonly #cards = byId('terrain-cards', HTMLElement);
   readonly #generated = byId('generated-cards', HTMLElement);
@@ -46,9 +47,13 @@ export class TerrainsSheet {
   readonly #works = byId('earlier-work', HTMLElement);
   readonly #holes = byId('holes', HTMLSelectElement);
 
-  /** `planner` has somebody's own planner drive. */
-  constructor(actions: TerrainActions, planner: (file: NamedFile) => Promise<void>) {
-    [this.#actions, this.#planner] = [actions, planner];
+  /** `planner` has somebody's own planner drive, `recording` opens a robot's recording. */
+  constructor(
+    actions: TerrainActions,
+    planner: (file: NamedFile) => Promise<void>,
+    recording: (file: File) => Promise<void>,
+  ) {
+    [this.#actions, this.#planner, this.#recording] = [actions, planner, recording];
     byId('generate', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
     for (const input of [this.#family, this.#seed]) input.addEventListener('change', () => this.#generate());
     byId('more-terrains', HTMLButtonElement).addEventListener('click', () => {
@@ -155,6 +160,12 @@ export class TerrainsSheet {
 
   async #open(list: ArrayLike<File>): Promise<void> {
     this.#sheet.close();
+    const [only] = list.length === 1 ? Array.from(list) : [];
+    // It may be larger than all memory: it is read as it is shown.
+    if (only && /\.mcap$/i.test(only.name)) {
+      await this.#recording(only);
+      return;
+    }
     const files: NamedFile[] = [];
     for (const file of Array.from(list)) {
       files.push({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });

@@ -2,6 +2,12 @@
 
 import type { Ground, GroundPatch } from '../protocol/simulationProtocol.ts';
 
+/** A ground whose south-western corner may lie anywhere. */
+export interface PlacedGround extends Ground {
+  /** That corner; the world's origin without it. */
+  readonly origin?: readonly [number, number] | undefined;
+}
+
 export interface Vector {
   x: number;
   y: number;
@@ -15,10 +21,14 @@ export class HeightField {
   readonly heights_m: Float32Array<ArrayBuffer>;
   readonly width_m: number;
   readonly depth_m: number;
+  /** The south-western corner. */
+  readonly west_m: number;
+  readonly south_m: number;
   min_m = 0;
   max_m = 0;
 
-  constructor(ground: Ground) {
+  constructor(ground: PlacedGround) {
+    [this.west_m, this.south_m] = ground.origin ?? [0, 0];
     this.columns = ground.columns;
     this.rows = ground.rows;
     this.cell_m = ground.cell_m;
@@ -48,24 +58,25 @@ export class HeightField {
   }
 
   /** As it is now, to be handed to a worker. */
-  get ground(): Ground {
-    const { columns, rows, cell_m, heights_m } = this;
-    return { columns, rows, cell_m, heights_m };
+  get ground(): PlacedGround {
+    const { columns, rows, cell_m, heights_m, west_m, south_m } = this;
+    return { columns, rows, cell_m, heights_m, origin: [west_m, south_m] };
   }
 
   contains(x: number, y: number): boolean {
-    return x >= 0 && y >= 0 && x <= this.width_m && y <= this.depth_m;
+    const [east_m, north_m] = [x - this.west_m, y - this.south_m];
+    return east_m >= 0 && north_m >= 0 && east_m <= this.width_m && north_m <= this.depth_m;
   }
 
   /** The ground as it is now, whatever becomes of this. */
   copy(): HeightField {
-    return new HeightField({ ...this, heights_m: this.heights_m.slice() });
+    return new HeightField({ ...this.ground, heights_m: this.heights_m.slice() });
   }
 
   /** Bilinear height; the nearest edge's outside the field. */
   height(x: number, y: number): number {
-    const u = Math.min(Math.max(x / this.cell_m, 0), this.columns - 1);
-    const v = Math.min(Math.max(y / this.cell_m, 0), this.rows - 1);
+    const u = Math.min(Math.max((x - this.west_m) / this.cell_m, 0), this.columns - 1);
+    const v = Math.min(Math.max((y - this.south_m) / this.cell_m, 0), this.rows - 1);
     const column = Math.min(Math.floor(u), this.columns - 2);
     const row = Math.min(Math.floor(v), this.rows - 2);
     const at = row * this.columns + column;
@@ -114,8 +125,8 @@ export class HeightField {
   #span(origin: Vector, direction: Vector): [number, number] {
     let [enter, leave] = [0, Number.POSITIVE_INFINITY];
     const slabs: [number, number, number, number][] = [
-      [origin.x, direction.x, 0, this.width_m],
-      [origin.y, direction.y, 0, this.depth_m],
+      [origin.x - this.west_m, direction.x, 0, this.width_m],
+      [origin.y - this.south_m, direction.y, 0, this.depth_m],
       [origin.z, direction.z, this.min_m - 0.01, this.max_m + 0.01],
     ];
     for (const [from, along, low, high] of slabs) {

@@ -64,16 +64,18 @@ export class AttitudeInstrument {
     );
   }
 
-  show(angle_rad: number, largest_rad: number): void {
+  /** `largest_rad` is the largest so far; nothing where that is not known. */
+  show(angle_rad: number, largest_rad: number | undefined): void {
     const turn = `rotate(${((this.#look.turn * angle_rad * 180) / Math.PI).toFixed(2)})`;
     this.#robot.setAttribute('transform', turn);
     this.#needle.setAttribute('transform', turn);
-    const reach_deg = Math.min((largest_rad * 180) / Math.PI, SPAN_DEG);
+    const reach_deg = Math.min(((largest_rad ?? 0) * 180) / Math.PI, SPAN_DEG);
     this.#extent.setAttribute('d', arc(-reach_deg, reach_deg));
     const part = Math.abs(angle_rad) / this.#limit_rad;
     this.element.dataset.state = part >= 1 ? 'over' : part >= WARN ? 'near' : 'safe';
     setText(this.#value, degrees(angle_rad, 1));
-    setText(this.#note, `max ${degrees(largest_rad)} / ${degrees(this.#limit_rad)}`);
+    const limit = degrees(this.#limit_rad);
+    setText(this.#note, largest_rad === undefined ? `limit ${limit}` : `max ${degrees(largest_rad)} / ${limit}`);
     this.element.title = `${this.#look.name} ${fixed(angle_rad, 3)} rad, limit ${fixed(this.#limit_rad, 3)} rad`;
   }
 }

@@ -31,7 +31,8 @@ export function reason(frame: Frame, info: SessionInfo): string {
 }
 
 function activity({ activity, tick, thought, subgoals, stop_reason }: Frame): string {
-  if (tick === 0 && thought === 'run') return 'At the start: the first scan is there, and no decision yet.';
+  if (tick === 0 && thought === 'run' && !stop_reason)
+    return 'At the start: the first scan is there, and no decision yet.';
   if (activity === 'backtracking')
     return 'The ground is steeper than predicted, or no path leads on: backtracks along its own path.';
   if (activity === 'searching') return 'No path is safe enough: turns on the spot and searches for one.';

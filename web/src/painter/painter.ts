@@ -3,8 +3,8 @@
 import { AmbientLight, DirectionalLight, Group, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import { wrap } from '../base/format.ts';
 import type { Theme } from '../colours/theme.ts';
-import { HeightField } from '../ground/heightField.ts';
-import type { Ground, GroundPatch, Pose, Solid } from '../protocol/simulationProtocol.ts';
+import { HeightField, type PlacedGround } from '../ground/heightField.ts';
+import type { GroundPatch, Pose, Solid } from '../protocol/simulationProtocol.ts';
 import { type Colouring, FIRST_LAYERS, type Layers } from '../scene/layers.ts';
 import { sensorAt } from '../scene/sensor.ts';
 import { Believed } from './believed.ts';
@@ -130,6 +130,9 @@ export class Painter {
       case 'scenery':
         this.#arrange(message.scenery, message.ground);
         break;
+      case 'surroundings':
+        this.#surround(message.ground);
+        break;
       case 'patch':
         this.#sculpt(message.patch, message.solids);
         break;
@@ -184,12 +187,13 @@ export class Painter {
     for (const part of [this.#relief, ...marks, this.#overlays]) part.theme(theme);
   }
 
-  #arrange(scenery: Scenery, ground: Ground | undefined): void {
+  #arrange(scenery: Scenery, ground: PlacedGround | undefined): void {
     this.#husky.mount(scenery.mount);
     this.#believed.mount(scenery.mount);
     this.#scenery = scenery;
     if (ground) {
       this.#relief.ground(new HeightField(ground));
+      this.#relief.mesh.visible = true;
       this.#robot = undefined;
       this.#colourByHeight();
     }
@@ -198,6 +202,12 @@ export class Painter {
     this.#places.show(scenery.goal, scenery.start, this.#height);
     this.#waypoints.show(scenery.waypoints, this.#height);
     this.#stand(scenery.solids);
+  }
+
+  #surround(ground: PlacedGround): void {
+    this.#relief.surroundings(new HeightField(ground));
+    this.#colourByHeight();
+    this.#places.settle(this.#height);
   }
 
   #sculpt(patch: GroundPatch, solids: readonly Solid[]): void {

@@ -2,7 +2,8 @@
 
 import type { Theme } from '../colours/theme.ts';
 import type { Place } from '../experiment/place.ts';
-import type { Frame, Ground, GroundPatch, Pose, SessionInfo, Solid } from '../protocol/simulationProtocol.ts';
+import type { PlacedGround } from '../ground/heightField.ts';
+import type { Frame, GroundPatch, Pose, SessionInfo, Solid } from '../protocol/simulationProtocol.ts';
 import type { Colouring, Layers } from '../scene/layers.ts';
 import type { Target } from '../scene/selection.ts';
 
@@ -73,7 +74,9 @@ export type ToPainter =
   | { type: 'begin'; canvas: OffscreenCanvas; theme: Theme; devicePixelRatio: number }
   | { type: 'size'; width_px: number; height_px: number }
   | { type: 'theme'; theme: Theme }
-  | { type: 'scenery'; scenery: Scenery; ground: Ground | undefined }
+  | { type: 'scenery'; scenery: Scenery; ground: PlacedGround | undefined }
+  /** Heights that only say how high marks stand: no ground is known, and none is drawn. */
+  | { type: 'surroundings'; ground: PlacedGround }
   | { type: 'patch'; patch: GroundPatch; solids: readonly Solid[] }
   /** The object in hand, if any, and how far it is dragged from where it stands. */
   | { type: 'held'; object: number | undefined; by: Place }

@@ -81,6 +81,8 @@ export class Places {
   settle(height: Height): void {
     if (!this.#at) return;
     const { goal, start } = this.#at;
+    // A goal whose place is no number is nowhere.
+    this.#goal.visible = Number.isFinite(goal.x);
     this.#goal.position.set(goal.x, goal.y, height(goal.x, goal.y));
     this.#point(goal, height);
     this.#start.position.set(start.x, start.y, height(start.x, start.y));

@@ -114,6 +114,12 @@ export class Relief {
     this.#fitRange();
   }
 
+  /** Heights for marks to stand on, where no ground is known: none is drawn. */
+  surroundings(field: HeightField): void {
+    this.#field = field;
+    this.mesh.visible = false;
+  }
+
   theme(theme: Theme): void {
     this.#set('relief', theme.relief.map(colour));
     this.#set('slopeColours', theme.slope.map(colour));

@@ -114,6 +114,16 @@ export class RunRecord {
     return Object.fromEntries(METRICS.map((name) => [name, this.get(row, name)])) as unknown as Metrics;
   }
 
+  /** x, y, z of each tick up to this one, and from it on. */
+  trailTo(tick: number): { trail: Float32Array<ArrayBuffer>; ahead: Float32Array<ArrayBuffer> } {
+    const places = (from: number, to: number) =>
+      Float32Array.from({ length: 3 * Math.max(to - from, 0) }, (_, at) =>
+        this.get(from + Math.floor(at / 3), POSE[at % 3] ?? 'x'),
+      );
+    const rows = this.before(tick);
+    return { trail: places(0, rows), ahead: places(Math.max(rows - 1, 0), this.#rows) };
+  }
+
   /** The row whose time is nearest to this one; -1 in an empty record. */
   at(time_s: number): number {
     let [low, high] = [0, this.#rows - 1];

@@ -93,9 +93,15 @@ export class Stage {
     this.#glide.reset();
     this.#believedGlide.reset();
     const { start, goal } = info;
-    const towards = Math.atan2(goal.y - start.y, goal.x - start.x);
+    const towards = Number.isFinite(goal.x) ? Math.atan2(goal.y - start.y, goal.x - start.x) : start.heading_rad;
     this.#viewpoint.reset();
     this.#viewpoint.follow({ ...start, z: field.height(start.x, start.y) }, towards - FIRST_LOOK_RAD);
+  }
+
+  /** Heights around the robot where no ground is known: marks stand on them, and nothing of them is drawn. */
+  surroundings(field: HeightField): void {
+    this.#field = field;
+    this.#painter.send({ type: 'surroundings', ground: field.ground });
   }
 
   frame(frame: Frame): void {

@@ -152,7 +152,7 @@ export class Viewpoint {
   /** The whole ground from the south, from above. */
   overview(field: HeightField): void {
     this.#enter('free');
-    this.#controls.target.set(field.width_m / 2, field.depth_m / 2, field.min_m);
+    this.#controls.target.set(field.west_m + field.width_m / 2, field.south_m + field.depth_m / 2, field.min_m);
     this.#stand(-Math.PI / 2, OVERVIEW_ELEVATION_RAD, overviewDistance_m(field, this.#camera.aspect));
   }
 
@@ -213,8 +213,8 @@ export class Viewpoint {
     const [from, heading_rad] = [target.clone(), this.heading_rad];
     const distance_m = this.#camera.position.distanceTo(target);
     const [sin, cos] = [distance_m * Math.sin(heading_rad), distance_m * Math.cos(heading_rad)];
-    target.x = MathUtils.clamp(from.x + ahead * cos + right * sin, 0, field.width_m);
-    target.y = MathUtils.clamp(from.y + ahead * sin - right * cos, 0, field.depth_m);
+    target.x = MathUtils.clamp(from.x + ahead * cos + right * sin, field.west_m, field.west_m + field.width_m);
+    target.y = MathUtils.clamp(from.y + ahead * sin - right * cos, field.south_m, field.south_m + field.depth_m);
     target.z += field.height(target.x, target.y) - field.height(from.x, from.y);
     this.#camera.position.add(target).sub(from);
     this.#enter('free');

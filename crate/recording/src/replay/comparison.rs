@@ -20,7 +20,7 @@ pub struct Difference {
 type Fields = Vec<(&'static str, String)>;
 
 /// Compares decisions, and makes a digest of all of either kind.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Comparison {
     recorded: Sha256,
     replayed: Sha256,

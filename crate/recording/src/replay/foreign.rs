@@ -45,6 +45,7 @@ impl Replay {
         self.status = answer.status;
         self.proposals = VecDeque::from([answer.proposal]);
         self.report.answers += 1;
+        self.looked(&answer, scan, at);
         self.comparison.answer(at, None, Some(&AnswerMessage::new(&answer, has_jumped)));
     }
 

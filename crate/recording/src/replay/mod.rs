@@ -2,30 +2,34 @@
 
 mod comparison;
 mod foreign;
+mod moment;
 mod report;
 mod settings;
 
 use core::time::Duration;
 use std::collections::VecDeque;
 use std::io::Read;
+use std::rc::Rc;
 
 use mapless::glam::DVec2;
 use mapless::{Pose, Status};
 use mapless_robot::drive_config::DriveConfig;
 use mapless_robot::messages::{Point, PoseStamped};
 use mapless_robot::navigation::{Navigation, Task};
-use mapless_robot::pilot::Pilot;
+use mapless_robot::pilot::{Answer, Pilot};
 use mapless_robot::senses::{Heard, Scan, Senses};
 use mapless_robot::supervisor::{Decision, Inputs, Proposal, Supervisor};
 
 use crate::entry::{Content, Entry};
 use crate::error::{Fault, RecordingError};
+use crate::head::Head;
 use crate::message::{AnswerMessage, TickMessage, nanoseconds};
 use crate::reader::Reader;
 use crate::topics::{Role, TopicNames};
 
 use comparison::Comparison;
 pub use comparison::Difference;
+pub use moment::{Moment, Seen};
 pub use report::{News, Report};
 
 /// Of a file without recorded ticks, the supervisor ticks this often: 50 Hz, as in the node.
@@ -57,21 +61,19 @@ pub fn replay(
     let mut replay = None;
     while let Some(entry) = reader.next_entry()? {
         if replay.is_none() {
-            let config = reader.head().map(|head| &head.config);
-            let new = settings::config(config, &options.settings)
-                .and_then(|config| Replay::new(config, reader.head().is_some(), options));
+            let new = Replay::new(reader.head(), options);
             replay = Some(new.map_err(|fault| reader.error(fault))?);
         }
         if let Some(replay) = &mut replay {
             replay.take(&entry, &mut tell).map_err(|fault| reader.error(fault))?;
         }
     }
-    for role in [Role::Scan, Role::Odometry, Role::Imu] {
+    for role in Role::SENSORS {
         if !reader.topics().contains_key(&role) && !reader.is_cut() {
             return Err(reader.error(Fault::Needed { role: role.name(), schema: role.schema() }));
         }
     }
-    let mut report = replay.map_or_else(Report::default, Replay::report);
+    let mut report = replay.as_ref().map_or_else(Report::default, Replay::report);
     if reader.head().is_none() && report.goals == 0 && options.goal_m.is_none() {
         return Err(reader.error(Fault::NoGoal));
     }
@@ -84,8 +86,8 @@ pub fn replay(
 /// A recording of the node tells when its threads took what: the supervisor's ticks and the planner's scans
 /// are those of the recording. For other files the supervisor ticks at 50 Hz, and the planner answers every
 /// scan at once.
-#[derive(Debug)]
-struct Replay {
+#[derive(Clone, Debug)]
+pub(crate) struct Replay {
     config: DriveConfig,
     settings: Vec<String>,
     has_schedule: bool,
@@ -93,7 +95,12 @@ struct Replay {
     pilot: Pilot,
     supervisor: Supervisor,
     inputs: Inputs,
-    scans: VecDeque<Scan>,
+    scans: VecDeque<Rc<Scan>>,
+    /// The scan that came last, and the one that the planner answered last with the number of its goal.
+    newest: Option<Rc<Scan>>,
+    answered: Option<(Rc<Scan>, u64)>,
+    /// When the planner last answered, or a scan came that it had no goal for.
+    looked: Option<Duration>,
     proposals: VecDeque<Proposal>,
     task: Option<Task>,
     /// Those before, too: a goal may change while the planner works for the last one.
@@ -112,11 +119,13 @@ struct Replay {
 }
 
 impl Replay {
-    /// Parts that have heard nothing. `has_schedule`: the entries tell when the threads took what.
+    /// Parts that have heard nothing. A head says that the entries tell when the threads took what.
     ///
     /// # Errors
     /// A value of the configuration that makes no sense.
-    fn new(config: DriveConfig, has_schedule: bool, options: &Options) -> Result<Self, Fault> {
+    pub(crate) fn new(head: Option<&Head>, options: &Options) -> Result<Self, Fault> {
+        let config = settings::config(head.map(|head| &head.config), &options.settings)?;
+        let has_schedule = head.is_some();
         let asked = options.goal_m.map(|goal_m| {
             let mut pose = PoseStamped::default();
             pose.header.frame_id.clone_from(&config.frames.odom);
@@ -131,6 +140,9 @@ impl Replay {
             supervisor: Supervisor::new(config.supervisor)?,
             inputs: Inputs::default(),
             scans: VecDeque::new(),
+            newest: None,
+            answered: None,
+            looked: None,
             proposals: VecDeque::new(),
             task: None,
             tasks: VecDeque::new(),
@@ -152,7 +164,7 @@ impl Replay {
     ///
     /// # Errors
     /// A configuration that makes no sense.
-    fn take(&mut self, entry: &Entry, tell: &mut dyn FnMut(&News)) -> Result<(), Fault> {
+    pub(crate) fn take(&mut self, entry: &Entry, tell: &mut dyn FnMut(&News)) -> Result<(), Fault> {
         let at = entry.arrival.at;
         while !self.has_schedule && self.due <= at {
             self.tick_freely(self.due, tell);
@@ -200,6 +212,7 @@ impl Replay {
             Content::Planner(planner) => {
                 self.configure(DriveConfig { planner: (**planner).clone(), ..self.config.clone() })?;
                 self.pilot.configure(self.config.planner.clone())?;
+                self.answered = None;
             }
             Content::Lost(lost) => self.report.lost += u64::from(lost.entries),
         }
@@ -219,7 +232,13 @@ impl Replay {
         heard.tell(&mut self.inputs);
         self.has_jumped |= heard.jump.is_some();
         self.poses = heard.poses.or(self.poses);
-        keep(&mut self.scans, heard.scan);
+        if let Some(scan) = heard.scan.map(Rc::new) {
+            if self.task.is_none() {
+                self.looked = Some(scan.arrived);
+            }
+            self.newest = Some(Rc::clone(&scan));
+            keep(&mut self.scans, Some(scan));
+        }
     }
 
     /// A tick of the recording.
@@ -236,6 +255,7 @@ impl Replay {
         replayed.answered_scan_ns = recorded.answered_scan_ns;
         self.report.ticks += 1;
         self.report.tell_change(at, &decision, tell);
+        self.decision = Some(decision);
         if let Some(difference) = self.comparison.tick(at, Some(recorded), &replayed) {
             self.report.different_ticks += 1;
             tell(&News::Difference(difference));
@@ -254,6 +274,7 @@ impl Replay {
         let replayed = scan.zip(task).map(|(scan, task)| {
             let answer = self.pilot.answer(&scan, task, recorded.has_jumped, |_, _| {});
             keep(&mut self.proposals, Some(answer.proposal));
+            self.looked(&answer, scan, at);
             AnswerMessage::new(&answer, recorded.has_jumped)
         });
         if let Some(difference) = self.comparison.answer(at, Some(recorded), replayed.as_ref()) {
@@ -262,11 +283,19 @@ impl Replay {
         }
     }
 
-    /// What was decided in all.
-    fn report(mut self) -> Report {
-        self.report.digest = self.comparison.replayed_digest();
-        self.report.recorded_digest = self.has_schedule.then(|| self.comparison.recorded_digest());
-        self.report
+    /// The planner answered a scan; after a panic it knows nothing of it any more.
+    fn looked(&mut self, answer: &Answer, scan: Rc<Scan>, at: Duration) {
+        self.answered = answer.status.is_some().then_some((scan, answer.proposal.goal));
+        self.looked = Some(at);
+    }
+
+    /// What was decided so far.
+    pub(crate) fn report(&self) -> Report {
+        Report {
+            digest: self.comparison.replayed_digest(),
+            recorded_digest: self.has_schedule.then(|| self.comparison.recorded_digest()),
+            ..self.report.clone()
+        }
     }
 }
 

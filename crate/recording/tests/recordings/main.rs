@@ -6,4 +6,5 @@ mod drive;
 mod files;
 mod foreign;
 mod kept;
+mod player;
 mod replaying;

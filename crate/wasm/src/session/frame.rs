@@ -1,21 +1,20 @@
 //! What the page shows of a tick.
 
-use glam::DVec3;
-use js_sys::{Float32Array, Uint8Array};
+use js_sys::Float32Array;
 use mapless::skyline::columns::{COLUMNS, column_azimuth_rad};
 use mapless_trials::PoseConfig;
 use mapless_world::{Caster, Skyline, true_skyline};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-use super::tick::{Activity, Velocity};
 use super::what_if::Thought;
 use super::{Moment, Session, TrueView, Truth};
-use crate::decision::{self, PathPoint, Segment, Subgoal};
+use crate::decision::{self, Activity, PathPoint, Segment, Subgoal, Velocity};
 use crate::objects::Solid;
-use crate::returns::{self, SetAside};
+use crate::returns::SetAside;
 use crate::shared::{Metrics, Outcome, Pose, give, read};
+use crate::sight::{FrameBuffers, SensorPose};
 
 /// Everything that one tick saw, decided and did. At tick 0 there is a scan but no decision yet.
 #[derive(Debug, Serialize, Tsify)]
@@ -59,85 +58,6 @@ pub struct Frame {
     movers: Vec<Solid>,
 }
 
-/// Typed arrays that a frame fills, each as far as it goes.
-#[derive(Debug, Deserialize, Tsify)]
-pub struct FrameBuffers {
-    /// LiDAR returns in the world frame: x, y, z of `Frame.returns` points.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Float32Array<ArrayBuffer>")]
-    points: Float32Array,
-    /// What the planner took each of them for: 0 surface, 1 invalid, 2 far, 3 the robot itself, 4 stray,
-    /// 5 overhead.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Uint8Array<ArrayBuffer>")]
-    return_kinds: Uint8Array,
-    /// Observed occupancy in metres, azimuth-major from straight behind over the right, lowest ring first;
-    /// NaN without a return.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Float32Array<ArrayBuffer>")]
-    observed: Float32Array,
-    /// Predicted occupancy in metres, azimuth-major likewise, the lowest row first.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Float32Array<ArrayBuffer>")]
-    occupancy: Float32Array,
-    /// Predictive variance as a share of the prior's, on the same lattice.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Float32Array<ArrayBuffer>")]
-    variance: Float32Array,
-    /// Elevation of the skyline in each column; NaN where there is none.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Float32Array<ArrayBuffer>")]
-    profile: Float32Array,
-    /// The skyline before somebody made the planner think again, likewise; NaN throughout where nobody did.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Float32Array<ArrayBuffer>")]
-    former: Float32Array,
-    /// The true skyline where it was asked for, NaN elsewhere: what endlessly many beams would show of
-    /// the bare ground.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Float32Array<ArrayBuffer>")]
-    truth: Float32Array,
-    /// What each column shows: 0 ground, 1 unknown, 2 wall.
-    #[serde(with = "serde_wasm_bindgen::preserve")]
-    #[tsify(type = "Uint8Array<ArrayBuffer>")]
-    kinds: Uint8Array,
-}
-
-/// A point or a direction in the world: x east, y north, z up.
-#[derive(Debug, Serialize, Tsify)]
-pub struct Point {
-    x: f64,
-    y: f64,
-    z: f64,
-}
-
-impl From<DVec3> for Point {
-    fn from(point: DVec3) -> Self {
-        Self { x: point.x, y: point.y, z: point.z }
-    }
-}
-
-/// Where the sensor is, and the directions of its axes: x forward, y to the left, z up.
-#[derive(Debug, Serialize, Tsify)]
-pub struct SensorPose {
-    position: Point,
-    x_axis: Point,
-    y_axis: Point,
-    z_axis: Point,
-}
-
-impl From<mapless_world::SensorPose> for SensorPose {
-    fn from(pose: mapless_world::SensorPose) -> Self {
-        let axes = pose.world_from_sensor;
-        Self {
-            position: pose.position.into(),
-            x_axis: axes.x_axis.into(),
-            y_axis: axes.y_axis.into(),
-            z_axis: axes.z_axis.into(),
-        }
-    }
-}
-
 /// Where in time one can go, in ticks.
 #[derive(Debug, Serialize, Tsify)]
 pub struct Timeline {
@@ -175,8 +95,8 @@ impl Session {
     ) -> Result<Ts<Frame>, JsError> {
         self.look_again()?;
         let buffers = read(buffers)?;
-        let returns = self.fill_points(&buffers.points);
-        self.fill_return_kinds(&buffers.return_kinds);
+        let returns = self.fill_points(&buffers);
+        buffers.fill_return_kinds(self.shown().return_kinds());
         self.fill_profile(&buffers);
         if surfaces {
             self.fill_surfaces(&buffers);
@@ -186,7 +106,7 @@ impl Session {
             self.fill_truth(&buffers.truth);
         }
         let decided = self.has_decided();
-        let trial = &self.shown().trial;
+        let &Moment { ref trial, scanned_from, .. } = self.shown();
         let (step, robot) = (trial.step(), trial.robot());
         give(&Frame {
             tick: trial.ticks(),
@@ -203,7 +123,7 @@ impl Session {
             returns,
             set_aside: SetAside::of(self.shown().return_kinds()),
             mount_misfit: self.now.mount_misfit.clone(),
-            sensor: self.shown().scanned_from.into(),
+            sensor: SensorPose::new(scanned_from.position, scanned_from.world_from_sensor),
             threshold: trial.planner_config().perception.variance_threshold,
             segments: if decided { decision::segments(&step) } else { Vec::new() },
             subgoals: if decided { decision::subgoals(&step) } else { Vec::new() },
@@ -238,26 +158,17 @@ impl Session {
     }
 
     /// Returns how many points fit.
-    fn fill_points(&mut self, out: &Float32Array) -> usize {
-        let mapless_world::SensorPose { position, world_from_sensor } = self.shown().scanned_from;
-        let fit = out.length() as usize / 3;
+    fn fill_points(&mut self, buffers: &FrameBuffers) -> usize {
         let mut scratch = std::mem::take(&mut self.scratch);
-        scratch.clear();
-        for point in self.shown().trial.scan().points.iter().take(fit) {
-            let world = position + world_from_sensor * point.as_dvec3();
-            scratch.extend(world.as_vec3().to_array());
-        }
+        let Moment { trial, scanned_from, .. } = self.shown();
+        let returns = buffers.fill_points(
+            &trial.scan().points,
+            scanned_from.position,
+            scanned_from.world_from_sensor,
+            &mut scratch,
+        );
         self.scratch = scratch;
-        self.send(out);
-        self.scratch.len() / 3
-    }
-
-    fn fill_return_kinds(&self, out: &Uint8Array) {
-        let kinds = self.shown().return_kinds().iter().take(out.length() as usize);
-        let codes: Vec<u8> = kinds.map(|&kind| returns::code(kind)).collect();
-        // What no planner has seen yet counts as a surface.
-        out.fill(0, codes.len() as u32, out.length());
-        out.subarray(0, codes.len() as u32).copy_from(&codes);
+        returns
     }
 
     /// Whether there is a decision to show.
@@ -266,27 +177,18 @@ impl Session {
     }
 
     fn fill_profile(&mut self, buffers: &FrameBuffers) {
-        let (profile, kinds) = (&buffers.profile, &buffers.kinds);
         buffers.former.fill(f32::NAN, 0, buffers.former.length());
         if let Some(rethought) = &self.rethought {
             let fit = rethought.former.len().min(buffers.former.length() as usize);
             buffers.former.subarray(0, fit as u32).copy_from(&rethought.former[..fit]);
         }
         if !self.has_decided() {
-            profile.fill(f32::NAN, 0, profile.length());
-            kinds.fill(0, 0, kinds.length());
+            buffers.forget_profile();
             return;
         }
         let mut scratch = std::mem::take(&mut self.scratch);
-        let columns = self.shown().trial.step().profile;
-        scratch.clear();
-        let elevations = columns.iter().take(profile.length() as usize);
-        scratch.extend(elevations.map(decision::column_elevation_rad));
-        let codes: Vec<u8> =
-            columns.iter().take(kinds.length() as usize).map(decision::column_kind).collect();
+        buffers.fill_profile(self.shown().trial.step().profile, &mut scratch);
         self.scratch = scratch;
-        self.send(profile);
-        kinds.subarray(0, codes.len() as u32).copy_from(&codes);
     }
 
     fn fill_truth(&mut self, out: &Float32Array) {
@@ -314,35 +216,15 @@ impl Session {
 
     /// Where there is no posterior, nothing was observed: 0 and 1.
     fn fill_surfaces(&mut self, buffers: &FrameBuffers) {
-        let FrameBuffers { observed, occupancy, variance, .. } = buffers;
-        observed.fill(f32::NAN, 0, observed.length());
-        occupancy.fill(0.0, 0, occupancy.length());
-        variance.fill(1.0, 0, variance.length());
+        buffers.forget_surfaces();
         if !self.has_decided() {
             return;
         }
         let mut scratch = std::mem::take(&mut self.scratch);
-        scratch.clear();
-        scratch.resize(observed.length() as usize, f32::NAN);
-        let seen = self.shown().trial.step().observed;
-        for cell in seen.cells() {
-            if let Some(place) = scratch.get_mut(cell.column * seen.rings() + cell.ring) {
-                *place = cell.occupancy_m as f32;
-            }
-        }
-        observed.subarray(0, scratch.len() as u32).copy_from(&scratch);
+        buffers.fill_observed(self.shown().trial.step().observed, &mut scratch);
         if let Ok(surface) = self.shown_mut().trial.predicted_surface() {
-            for (values, out) in [(&surface.mean_m, occupancy), (&surface.relative_variance, variance)] {
-                let fit = values.iter().take(out.length() as usize);
-                scratch.clear();
-                scratch.extend(fit.map(|&value| value as f32));
-                out.subarray(0, scratch.len() as u32).copy_from(&scratch);
-            }
+            buffers.fill_predicted(surface, &mut scratch);
         }
         self.scratch = scratch;
-    }
-
-    fn send(&self, out: &Float32Array) {
-        out.subarray(0, self.scratch.len() as u32).copy_from(&self.scratch);
     }
 }

@@ -1,7 +1,5 @@
 //! What changes only between trials and with the route.
 
-use mapless::SensorModel;
-use mapless::skyline::columns::COLUMNS;
 use mapless_trials::RealityPreset;
 use serde::Serialize;
 use tsify::{Ts, Tsify};
@@ -10,6 +8,7 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 use super::Session;
 use crate::places::{Goal, Heading, Place};
 use crate::shared::give;
+use crate::sight::{ImageSize, Mount, SegmentDemands, TiltLimits};
 
 /// What a scenario is made of, after its files were read.
 #[derive(Debug, Serialize, Tsify)]
@@ -33,61 +32,6 @@ pub struct Scene {
     reality: &'static str,
 }
 
-/// Where the sensor sits on the robot and how it is turned there, as the planner is told.
-#[derive(Debug, Serialize, Tsify)]
-pub struct Mount {
-    /// Ahead of the point on the ground between the wheels.
-    forward_m: f64,
-    left_m: f64,
-    /// Above the ground contact, along the body's z axis.
-    height_m: f64,
-    /// Left side up; π upside down. The mount is turned by yaw, pitch, roll.
-    roll_rad: f64,
-    /// Nose-up.
-    pitch_rad: f64,
-    yaw_rad: f64,
-}
-
-impl From<&SensorModel> for Mount {
-    fn from(sensor: &SensorModel) -> Self {
-        Self {
-            forward_m: sensor.forward_m,
-            left_m: sensor.left_m,
-            height_m: sensor.height_m,
-            roll_rad: sensor.roll_rad,
-            pitch_rad: sensor.pitch_rad,
-            yaw_rad: sensor.yaw_rad,
-        }
-    }
-}
-
-/// How far the robot may tilt.
-#[derive(Debug, Serialize, Tsify)]
-pub struct TiltLimits {
-    roll_rad: f64,
-    pitch_rad: f64,
-}
-
-/// Lattice of the predicted surfaces; the observed one has a row for each ring of the sensor.
-#[derive(Debug, Serialize, Tsify)]
-pub struct ImageSize {
-    columns: usize,
-    rows: usize,
-    rings: usize,
-}
-
-/// What a segment must be to carry subgoals.
-#[derive(Debug, Serialize, Tsify)]
-pub struct SegmentDemands {
-    /// Wider than the robot's width and the margin on it together.
-    robot_width_m: f64,
-    safety_margin_m: f64,
-    /// The skyline no higher and no lower than this, seen from the sensor's foot.
-    max_slope_rad: f64,
-    /// Whether columns without a return may carry subgoals, on ground that earlier scans saw.
-    subgoals_on_unknown: bool,
-}
-
 #[wasm_bindgen]
 impl Session {
     /// What changes only between trials and with the route.
@@ -99,26 +43,17 @@ impl Session {
         // A new route holds before it is thought about.
         let route = &self.now.trial;
         let config = trial.planner_config();
-        let grid = trial.step().observed.grid();
         give(&Scene {
             seed: self.seed,
             start: route.start().into(),
             waypoints: route.waypoints_m().iter().copied().map(Place::from).collect(),
             goal: Goal::new(route.goal_m(), route.goal_heading_rad()),
             period_s: trial.period_s(),
-            limits: TiltLimits {
-                roll_rad: config.robot.roll_limit_rad,
-                pitch_rad: config.robot.pitch_limit_rad,
-            },
+            limits: TiltLimits::from(&config.robot),
             occupancy_radius_m: config.perception.surface_radius_m,
             mount: Mount::from(&config.sensor),
-            image: ImageSize { columns: COLUMNS, rows: grid.rows(), rings: grid.rings() },
-            demands: SegmentDemands {
-                robot_width_m: config.robot.width_m,
-                safety_margin_m: config.segments.safety_margin_m,
-                max_slope_rad: config.segments.max_slope_rad,
-                subgoals_on_unknown: config.segments.subgoals_on_unknown,
-            },
+            image: ImageSize::from(trial.step().observed.grid()),
+            demands: SegmentDemands::from(config),
             reality: self.setting().0.reality.matching_preset().map_or("own", RealityPreset::word),
         })
     }

@@ -1,7 +1,6 @@
 //! A tick: what the record of a run keeps of it.
 
 use js_sys::global;
-use mapless::{Command, Status};
 use mapless_trials::Navigator as _;
 use mapless_trials::{History, Trial};
 use serde::Serialize;
@@ -11,6 +10,7 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 use web_sys::{Performance, WorkerGlobalScope};
 
 use super::Session;
+use crate::decision::{Activity, Velocity};
 use crate::places::Place;
 use crate::shared::{Metrics, Outcome, Pose, give};
 
@@ -43,19 +43,6 @@ pub struct Tick {
     rerouted: bool,
 }
 
-/// Forward speed and counter-clockwise turn rate.
-#[derive(Debug, Serialize, Tsify)]
-pub struct Velocity {
-    v_m_s: f64,
-    omega_rad_s: f64,
-}
-
-impl From<Command> for Velocity {
-    fn from(command: Command) -> Self {
-        Self { v_m_s: command.linear_m_s, omega_rad_s: command.angular_rad_s }
-    }
-}
-
 /// Where the robot stands, and whether the trial goes on: it does while the outcome is `running`.
 #[derive(Debug, Serialize, Tsify)]
 pub struct Standing {
@@ -70,34 +57,6 @@ impl Standing {
     fn of(trial: &Trial) -> Self {
         let [x, y, z] = trial.pose().position_m.to_array();
         Self { tick: trial.ticks(), x, y, z, outcome: Outcome::of(trial) }
-    }
-}
-
-/// What the planner does at present.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Tsify)]
-#[serde(rename_all = "snake_case")]
-pub enum Activity {
-    /// Drives to the chosen subgoal.
-    Driving,
-    /// Stands at the goal.
-    Arrived,
-    /// Turns in place to find a subgoal.
-    Searching,
-    /// Stands still for good.
-    Stopped,
-    /// Goes back the way it came.
-    Backtracking,
-}
-
-impl From<Status> for Activity {
-    fn from(status: Status) -> Self {
-        match status {
-            Status::Driving => Self::Driving,
-            Status::Arrived => Self::Arrived,
-            Status::Searching => Self::Searching,
-            Status::Stopped(_) => Self::Stopped,
-            Status::Backtracking => Self::Backtracking,
-        }
     }
 }
 

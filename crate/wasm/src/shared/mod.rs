@@ -1,25 +1,14 @@
 //! What both modules of the page say to it in the same words. Every name is the same on both sides, with its
 //! unit.
 
+mod crossing;
 mod motion;
 mod overrides;
 pub(crate) mod panic;
+mod pose;
 
-pub use motion::{Metrics, Outcome, Pose};
+pub(crate) use crossing::{give, read};
+pub use motion::{Metrics, Outcome};
 pub(crate) use overrides::changed;
 pub use overrides::{OverrideValue, Overrides};
-
-use serde::Serialize;
-use serde::de::DeserializeOwned;
-use tsify::{Ts, Tsify};
-use wasm_bindgen::prelude::{JsError, JsValue};
-
-/// Reads what JavaScript gave.
-pub(crate) fn read<T: Tsify + DeserializeOwned>(given: Ts<T>) -> Result<T, JsError> {
-    Ok(T::from_js(JsValue::from(given))?)
-}
-
-/// Gives something to JavaScript.
-pub(crate) fn give<T: Tsify + Serialize>(value: &T) -> Result<Ts<T>, JsError> {
-    Ok(Ts::new_unchecked(value.into_js()?.into()))
-}
+pub use pose::Pose;

@@ -1,31 +1,14 @@
-//! Where the robot is and how well it has driven.
+//! How well the robot has driven.
 
 use mapless_trials::{Navigator, Trial};
 use serde::Serialize;
 use tsify::Tsify;
 
-/// Where the robot is: x east, y north, z up; pitch positive nose-up, roll positive with the left side up.
-#[derive(Debug, Serialize, Tsify)]
-pub struct Pose {
-    x: f64,
-    y: f64,
-    /// Height of the ground contact under the body's centre.
-    z: f64,
-    roll: f64,
-    pitch: f64,
-    yaw: f64,
-}
+use super::pose::Pose;
 
 impl Pose {
     pub(crate) fn of<N: Navigator>(trial: &Trial<N>) -> Self {
         trial.pose().into()
-    }
-}
-
-impl From<mapless::Pose> for Pose {
-    fn from(pose: mapless::Pose) -> Self {
-        let [x, y, z] = pose.position_m.to_array();
-        Self { x, y, z, roll: pose.roll_rad, pitch: pose.pitch_rad, yaw: pose.yaw_rad }
     }
 }
 

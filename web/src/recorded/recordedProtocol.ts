@@ -1,0 +1,32 @@
+/** What the page and the worker that reads a recording say to each other. */
+
+import type { FrameBuffers } from '../protocol/simulationProtocol.ts';
+import type { Change, Decided, RecordedFrame, RecordedScene } from '../wasm/mapless_wasm_replay.js';
+
+export type { Change, Decided, RecordedFrame, RecordedScene };
+
+/** What was found since the news before, as far as everything was decided again. */
+export interface News {
+  readonly decided: Decided;
+  /** When the planner answered or, while it had no goal, scans came. */
+  readonly scans_s: Float64Array;
+  readonly differences_s: Float64Array;
+  readonly changes: readonly Change[];
+  /** When the robot was where: x, y, z of each time. */
+  readonly trail_s: Float64Array;
+  readonly trail_m: Float32Array;
+}
+
+export type ToRecording =
+  /** First of all; answered by `opened` or `failed`. */
+  | { type: 'open'; file: File }
+  /** Answered by `shown`, once the drive was decided so far; only the newest of several is. */
+  | { type: 'show'; time_s: number; since_s: number }
+  | { type: 'recycle'; buffers: FrameBuffers };
+
+export type FromRecording =
+  | { type: 'opened'; scene: RecordedScene }
+  | { type: 'news'; news: News }
+  | { type: 'shown'; frame: RecordedFrame; buffers: FrameBuffers }
+  /** Nothing more comes. */
+  | { type: 'failed'; message: string };
