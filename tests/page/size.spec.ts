@@ -22,11 +22,18 @@ test('the page keeps to its budget: 370 kB of wasm (470 kB as gzip) to begin wit
   // And by those alone who open a table in Parquet or a robot's recording.
   const isParquet = (name: string) => /^parquet-.*\.js$/.test(name);
   const parquet = sent(isParquet);
-  const replay = sent((name) => /^mapless_wasm_replay_bg.*\.wasm$/.test(name));
-  const rest = sent((name) => !name.endsWith('.wasm') && !isParquet(name));
-  test.info().annotations.push({ type: 'bytes', description: JSON.stringify({ core, heights, parquet, replay, rest }) });
-  expect(parquet.gzip).toBeGreaterThan(0);
-  expect(parquet.gzip, JSON.stringify(parquet)).toBeLessThan(20_000);
+  const isRecording = (name: string) =>
+    /^(recordedDrive|recordedFrame|drivePanel|recordingWorker|mapless_wasm_replay)-.*\.(js|css)$/.test(name);
+  const recording = sent(isRecording);
+  const rest = sent((name) => !name.endsWith('.wasm') && !isParquet(name) && !isRecording(name));
+  test.info().annotations.push({
+    type: 'bytes',
+    description: JSON.stringify({ core, heights, parquet, recording, rest }),
+  });
+  for (const onDemand of [parquet, recording]) {
+    expect(onDemand.gzip).toBeGreaterThan(0);
+    expect(onDemand.gzip, JSON.stringify(onDemand)).toBeLessThan(20_000);
+  }
   expect(core.brotli).toBeGreaterThan(0);
   // Hosts that know brotli send the first, all send the second.
   expect(core.brotli, JSON.stringify(core)).toBeLessThan(370_000);

@@ -185,8 +185,8 @@ impl Planner {
     ///   finite are passed over.
     /// - `pose`: the robot's in the world, at the time of the scan; points of a sweep should be corrected for
     ///   the motion since their firing.
-    /// - `elapsed`: the time since the step before, with that of scans that were lost; of the first step it only
-    ///   limits how far the command changes.
+    /// - `elapsed`: the time since the step before, with that of scans that were lost; of the first step it
+    ///   only limits how far the command changes.
     ///
     /// The answer to anything that makes no sense is a stop with its reason.
     pub fn step(&mut self, points_m: &[Vec3], pose: &Pose, elapsed: Duration) -> Step<'_> {

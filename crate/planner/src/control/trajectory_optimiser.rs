@@ -128,8 +128,8 @@ enum Law<'a> {
     Follow,
 }
 
-/// A trajectory's cost, infinite if it meets what it must not, what is left of the path at its end, and its first
-/// command.
+/// A trajectory's cost, infinite if it meets what it must not, what is left of the path at its end, and
+/// its first command.
 #[derive(Clone, Copy, Debug)]
 struct RolledOut {
     cost: f64,
@@ -160,8 +160,8 @@ impl TrajectoryOptimiser {
     }
 
     /// The command that begins the best trajectory from a pose and the last command. If every trajectory
-    /// meets what it must not, or the best one leaves the robot where it stands and the path does not, it begins
-    /// the drive along the path, which was found safe.
+    /// meets what it must not, or the best one leaves the robot where it stands and the path does not, it
+    /// begins the drive along the path, which was found safe.
     pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Command {
         let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
@@ -204,7 +204,8 @@ impl TrajectoryOptimiser {
         let progress_m = course.cost_to_go_m(&from.pose) - best.rolled.to_go_m;
         let path_leads_on = progress_m < LEAST_PROGRESS_M && following.cost.is_finite();
         if !best.rolled.cost.is_finite() || path_leads_on {
-            // The robot stands beside what was found safe, or where no short trajectory pays: the path leads off.
+            // The robot stands beside what was found safe, or where no short trajectory pays: the path leads
+            // off.
             self.reset();
             return following.first;
         }

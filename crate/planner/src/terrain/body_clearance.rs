@@ -6,8 +6,7 @@ use crate::terrain::elevation_window::TerrainQuery;
 
 /// The robot keeps this far from what is upright, or as far as it already is.
 const MARGIN_M: f64 = 0.05;
-/// Upright things as far from the middle of the robot as this beyond its body count: as far as it drives within
-/// the controller's horizon.
+/// Upright things this far beyond its body count: as far as it drives within the controller's horizon.
 const RADIUS_M: f64 = 1.8;
 const MOST_THINGS: usize = 256;
 
