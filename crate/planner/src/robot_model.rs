@@ -96,6 +96,13 @@ impl RobotModel {
     }
 }
 
+/// The distance of a point from a body with these half sides, along and across the unit vector `facing`;
+/// negative inside. Beside a corner it is the larger of both axes' distances.
+pub(crate) fn distance_from_body_m(half_body_m: DVec2, from_middle_m: DVec2, facing: DVec2) -> f64 {
+    let along_across_m = DVec2::new(from_middle_m.dot(facing), from_middle_m.perp_dot(facing));
+    (along_across_m.abs() - half_body_m).max_element()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::robot_model::distance_from_body_m;
 use crate::terrain::elevation_window::TerrainQuery;
 
 /// The robot keeps this far from what is upright, or as far as it already is.
@@ -9,13 +10,6 @@ const MARGIN_M: f64 = 0.05;
 /// Upright things this far beyond its body count: as far as it drives within the controller's horizon.
 const RADIUS_M: f64 = 1.8;
 const MOST_THINGS: usize = 256;
-
-/// The distance of a point from a rectangle with these half sides, along and across the unit vector `facing`;
-/// negative inside. Beside a corner it is the larger of both axes' distances.
-pub(crate) fn distance_m(half_sides_m: DVec2, from_middle_m: DVec2, facing: DVec2) -> f64 {
-    let along_across_m = DVec2::new(from_middle_m.dot(facing), from_middle_m.perp_dot(facing));
-    (along_across_m.abs() - half_sides_m).max_element()
-}
 
 /// What stands upright around the robot.
 #[derive(Clone, Debug)]
@@ -48,8 +42,10 @@ impl BodyClearance {
     }
 
     fn at_m(&self, place_m: DVec2, facing: DVec2) -> f64 {
-        let distances_m =
-            self.things_m.iter().map(|thing_m| distance_m(self.half_body_m, thing_m - place_m, facing));
+        let distances_m = self
+            .things_m
+            .iter()
+            .map(|thing_m| distance_from_body_m(self.half_body_m, thing_m - place_m, facing));
         distances_m.fold(f64::INFINITY, f64::min)
     }
 }

@@ -15,8 +15,8 @@ use glam::{DVec2, DVec3, IVec2};
 use crate::config::{ElevationWindowConfig, PlannerConfig};
 use crate::math::elementary::floor;
 use crate::pose::FrameChange;
+use crate::robot_model::distance_from_body_m;
 use crate::sensor_model::SensorModel;
-use crate::terrain::body_clearance;
 use crate::terrain::headings::{AXES, DIRECTIONS};
 use crate::terrain::plane::{Moments, Plane};
 use crate::terrain::rolling_grid::RollingGrid;
@@ -276,7 +276,7 @@ impl TerrainQuery for ElevationWindow {
         let half_m = self.half_body_m + UPRIGHT_MARGIN_M;
         self.each_upright(place_m, half_m.length(), &mut |thing_m| {
             for (touches, direction) in touches.iter_mut().zip(DIRECTIONS) {
-                *touches |= body_clearance::distance_m(half_m, thing_m - place_m, direction) < 0.0;
+                *touches |= distance_from_body_m(half_m, thing_m - place_m, direction) < 0.0;
             }
         });
         touches
