@@ -333,11 +333,13 @@ test('changes of mind are gone through, each with what changed it', async ({ map
 test('why not there? is answered for any place on the ground, by pointer and by keys', async ({ mapless: page }) => {
   await pausedAt(page, 40);
   await page.getByRole('button', { name: 'Weigh' }).click();
+  const bearing = page.getByRole('slider', { name: 'Bearing' });
+  // It is loaded on demand, and only then a press of the ground asks.
+  await expect(bearing).toBeVisible();
   const why = page.locator('.weighing-said').last();
   const { x, y } = await within(page.locator('#view'), 0.6, 0.45);
   await page.mouse.click(x, y);
   await expect(why).toHaveText(/^[\d.]+ m away, .+\. In truth .+/);
-  const bearing = page.getByRole('slider', { name: 'Bearing' });
   await bearing.focus();
   await page.keyboard.press('End');
   await expect(why).toHaveText(/^5\.0 m away, 180° /);
