@@ -174,7 +174,7 @@ impl StateLattice {
             recovers: false,
             facing: 0,
             turns: [0; 2],
-            body: BodyClearance::new(limits.half_body_m()),
+            body: BodyClearance::new(limits.half_body_m(), radius_m),
         }
     }
 
@@ -194,7 +194,8 @@ impl StateLattice {
         }
         self.traversability.drive_on(moved_m.length());
         self.traversability.places.look(ground, self.here_m);
-        self.body.look(ground, self.here_m, self.first_direction(self.facing));
+        let (sin, cos) = libm::sincos(pose.yaw_rad);
+        self.body.look(ground, self.here_m, DVec2::new(cos, sin));
         self.search_with(Caution::Usual);
     }
 

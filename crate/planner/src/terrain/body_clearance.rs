@@ -7,33 +7,29 @@ use crate::terrain::elevation_window::TerrainQuery;
 
 /// The robot keeps this far from what is upright, or as far as it already is.
 const MARGIN_M: f64 = 0.05;
-/// Upright things this far beyond its body count: as far as it drives within the controller's horizon.
-const RADIUS_M: f64 = 1.8;
-const MOST_THINGS: usize = 256;
+/// Things that there is room for without an allocation.
+const USUAL_THINGS: usize = 1024;
 
 /// What stands upright around the robot.
 #[derive(Clone, Debug)]
 pub(crate) struct BodyClearance {
     half_body_m: DVec2,
+    radius_m: f64,
     things_m: Vec<DVec2>,
     least_m: f64,
 }
 
 impl BodyClearance {
-    pub(crate) fn new(half_body_m: DVec2) -> Self {
-        Self { half_body_m, things_m: Vec::with_capacity(MOST_THINGS), least_m: MARGIN_M }
+    /// With things within `radius_m` of the robot.
+    pub(crate) fn new(half_body_m: DVec2, radius_m: f64) -> Self {
+        Self { half_body_m, radius_m, things_m: Vec::with_capacity(USUAL_THINGS), least_m: MARGIN_M }
     }
 
     /// Looks at the ground around a robot at `here_m`, which faces along a unit vector.
     pub(crate) fn look(&mut self, ground: &dyn TerrainQuery, here_m: DVec2, facing: DVec2) {
         self.things_m.clear();
-        let radius_m = self.half_body_m.length() + RADIUS_M;
-        ground.each_upright(here_m, radius_m, &mut |thing_m| {
-            if self.things_m.len() < MOST_THINGS {
-                self.things_m.push(thing_m);
-            }
-        });
-        self.least_m = self.at_m(here_m, facing).min(MARGIN_M);
+        ground.each_upright(here_m, self.radius_m, &mut |thing_m| self.things_m.push(thing_m));
+        self.least_m = self.at_m(here_m, facing);
     }
 
     /// Whether the body at a pose is too near to something upright.
@@ -41,12 +37,12 @@ impl BodyClearance {
         self.at_m(place_m, facing) < self.least_m
     }
 
+    /// The distance from the nearest thing, as far as it is below the margin.
     fn at_m(&self, place_m: DVec2, facing: DVec2) -> f64 {
-        let distances_m = self
-            .things_m
-            .iter()
-            .map(|thing_m| distance_from_body_m(self.half_body_m, thing_m - place_m, facing));
-        distances_m.fold(f64::INFINITY, f64::min)
+        let reach_m = self.half_body_m.length() + 2.0 * MARGIN_M;
+        let from_middle_m = self.things_m.iter().map(|thing_m| thing_m - place_m);
+        let near = from_middle_m.filter(|thing_m| thing_m.length_squared() < reach_m * reach_m);
+        near.map(|thing_m| distance_from_body_m(self.half_body_m, thing_m, facing)).fold(MARGIN_M, f64::min)
     }
 }
 
@@ -60,7 +56,7 @@ mod tests {
         let mut ground = ElevationWindow::new(&PlannerConfig::default());
         ground.add(thing_m.extend(0.3));
         (0..20).for_each(|_| ground.add_face(thing_m));
-        let mut body = BodyClearance::new(DVec2::new(0.5, 0.335));
+        let mut body = BodyClearance::new(DVec2::new(0.5, 0.335), 7.0);
         body.look(&ground, DVec2::ZERO, DVec2::X);
         body
     }
