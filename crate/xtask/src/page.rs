@@ -31,6 +31,15 @@ pub(crate) fn demo(sh: &Shell, port: u16) -> anyhow::Result<()> {
     become_command(command.into())
 }
 
+/// The wasm modules with bindings; the page opens with the first.
+pub(crate) const MODULES: [&str; 4] =
+    ["mapless_wasm", "mapless_wasm_baselines", "mapless_wasm_heights", "mapless_wasm_replay"];
+
+/// `--package` for each module's crate.
+pub(crate) fn package_flags() -> [String; 4] {
+    MODULES.map(|module| format!("--package={}", module.replace('_', "-")))
+}
+
 /// Builds the wasm modules and their JavaScript bindings into `web/src/wasm/`, and reports the size of the
 /// first: the page opens with it, and loads the others on demand.
 fn bindings(sh: &Shell) -> anyhow::Result<()> {
@@ -41,27 +50,16 @@ fn bindings(sh: &Shell) -> anyhow::Result<()> {
     let cargo_home = env::var_os("CARGO_HOME").map_or(home, PathBuf::from);
     let flags = ["--remap-path-prefix".to_owned(), format!("{}=cargo", cargo_home.display())];
     let flags = format!("target.wasm32-unknown-unknown.rustflags={flags:?}");
-    let packages = [
-        "mapless-wasm",
-        "mapless-wasm-baselines",
-        "mapless-wasm-heights",
-        "mapless-wasm-replay",
-        "mapless-planner-template",
-    ]
-    .map(|package| format!("--package={package}"));
+    let mut packages: Vec<String> = package_flags().into();
+    packages.push("--package=mapless-planner-template".to_owned());
     cmd!(sh, "cargo build --config {flags} --profile page {packages...} --target wasm32-unknown-unknown")
         .run()?;
     let built = setup::target_dir(sh).join("wasm32-unknown-unknown/page");
     // Without its names the file is 7 % smaller (brotli); wasm-opt would take another 1.5 %, and no time off
     // a step.
     let strip = ["--remove-name-section", "--remove-producers-section"];
-    for module in [
-        "mapless_wasm.wasm",
-        "mapless_wasm_baselines.wasm",
-        "mapless_wasm_heights.wasm",
-        "mapless_wasm_replay.wasm",
-    ] {
-        let module = built.join(module);
+    for module in MODULES {
+        let module = built.join(format!("{module}.wasm"));
         cmd!(sh, "{wasm_bindgen} --target web {strip...} --out-dir web/src/wasm {module}").run()?;
     }
     // Exports plain functions, so it needs no bindings.

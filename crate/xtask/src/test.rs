@@ -174,10 +174,8 @@ fn clippy_wasm(sh: &Shell) -> anyhow::Result<Count> {
     let libraries = ["mapless", "mapless-world", "mapless-trials", "mapless-baselines", "mapless-bench"]
         .map(|library| format!("--package={library}"));
     check(cmd!(sh, "cargo clippy --target {target} {libraries...} -- --deny warnings"))?;
-    check(cmd!(
-        sh,
-        "cargo clippy --target {target} -p mapless-wasm -p mapless-wasm-baselines -p mapless-wasm-heights -p mapless-wasm-replay --all-targets -- --deny warnings"
-    ))
+    let modules = page::package_flags();
+    check(cmd!(sh, "cargo clippy --target {target} {modules...} --all-targets -- --deny warnings"))
 }
 
 fn documentation(sh: &Shell) -> anyhow::Result<Count> {
@@ -192,8 +190,7 @@ fn package(sh: &Shell) -> anyhow::Result<Count> {
 
 fn build_page(sh: &Shell) -> anyhow::Result<Count> {
     // The type files are in the repository, for checks of the page without a build of the modules.
-    let files = ["mapless_wasm", "mapless_wasm_baselines", "mapless_wasm_heights", "mapless_wasm_replay"]
-        .map(|module| format!("web/src/wasm/{module}.d.ts"));
+    let files = page::MODULES.map(|module| format!("web/src/wasm/{module}.d.ts"));
     let types = || files.clone().map(|file| sh.read_file(file).ok());
     let kept = types();
     page::build(sh)?;
