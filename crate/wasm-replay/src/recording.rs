@@ -80,7 +80,7 @@ impl Recording {
     /// What it was made with, where somebody looks.
     ///
     /// # Errors
-    /// None that is known.
+    /// A recording without a single entry.
     pub fn scene(&self) -> Result<Ts<RecordedScene>, JsError> {
         let moment = self.player.moment().ok_or_else(|| JsError::new("the recording is empty"))?;
         give(&RecordedScene::of(&self.player, moment.config))
@@ -146,7 +146,7 @@ impl Recording {
     /// that differ are told of the time from `since_s` to there.
     ///
     /// # Errors
-    /// A file that cannot be read any more.
+    /// A file that cannot be read any more, or without a single entry.
     pub fn show(
         &mut self,
         at_s: f64,

@@ -505,7 +505,7 @@ export class Recording {
      * What it was made with, where somebody looks.
      *
      * # Errors
-     * None that is known.
+     * A recording without a single entry.
      */
     scene(): RecordedScene;
     /**
@@ -513,7 +513,7 @@ export class Recording {
      * that differ are told of the time from `since_s` to there.
      *
      * # Errors
-     * A file that cannot be read any more.
+     * A file that cannot be read any more, or without a single entry.
      */
     show(at_s: number, since_s: number, buffers: FrameBuffers, surfaces: boolean): RecordedFrame;
     /**
