@@ -2,7 +2,7 @@
 
 import { test as base, type Page } from '@playwright/test';
 import { DEVICES, faults } from './axe.ts';
-import { expect, fits, loaded, ownOf, press, state, until } from './page.ts';
+import { expect, fits, loaded, ownOf, press, state, still, until } from './page.ts';
 
 const HOST = 'https://worlds.example';
 const MAPS = 'verti_bench/main/envs/data/BenchMaps/sampled_maps';
@@ -54,10 +54,10 @@ async function serve(page: Page, host: string, files: Served): Promise<string[]>
   const asked: string[] = [];
   await page.route(`${host}/**`, async (route) => {
     const request = route.request();
-    const address = request.url();
+    const path = request.url().slice(host.length + 1);
     expect(await request.headerValue('referer')).toBeNull();
-    asked.push(address.slice(host.length + 1));
-    const found = files[address.slice(host.length + 1)];
+    asked.push(path);
+    const found = files[path.replace(/\?.*/, '')];
     if (found === undefined) return route.fulfill({ status: 404, body: 'Not Found' });
     const answer = typeof found === 'string' || Buffer.isBuffer(found) ? { body: found } : found;
     return route.fulfill({ headers: { 'access-control-allow-origin': '*' }, ...answer });
@@ -102,7 +102,7 @@ for (const [device, options] of Object.entries(DEVICES)) {
       await expect(task(page)).toContainText('Steep ground (mid) with rocks and trees');
       await expect(page.locator('#terrains-sheet')).toBeHidden();
       expect(await faults(page)).toEqual([]);
-      await fits(task(page).locator('*'));
+      await fits(task(page).locator('h2, p, label, select, button'));
       await task(page).getByLabel('Task').selectOption('2 of 2');
       await act(task(page).getByRole('button', { name: 'Open' }));
       await until(page, (now) => now.scenario === 'mid-003-02');
@@ -201,20 +201,22 @@ test('a closed sheet stops fetching', async ({ mapless: page }) => {
   const waiting = new Promise<void>((resolve) => {
     answer = resolve;
   });
-  await page.route(`${HOST}/**`, async (route) => {
+  await serve(page, HOST, {});
+  await page.route(`${HOST}/hill.asc`, async (route) => {
     await waiting;
+    // Nobody may be there to hear it any more.
     await route.fulfill({ headers: { 'access-control-allow-origin': '*' }, body: ASC }).catch(() => undefined);
   });
   const { scenario } = await state(page);
-  const failed = page.waitForEvent('requestfailed');
   await give(page, `${HOST}/hill.asc`);
   await expect(said(page)).toHaveText('Fetching…');
   await page.keyboard.press('Escape');
-  await failed;
-  answer();
-  expect((await state(page)).scenario).toBe(scenario);
-  await page.keyboard.press('g');
   await expect(said(page)).toHaveText('');
+  answer();
+  await give(page, `${HOST}/none.asc`);
+  await expect(said(page)).toContainText('not found');
+  await still(page);
+  expect((await state(page)).scenario).toBe(scenario);
 });
 
 test('a world of Verti-Bench opens by its two files; one alone says what it lacks', async ({ mapless: page }) => {
