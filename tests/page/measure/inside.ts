@@ -1,7 +1,7 @@
 /**
- * `npm run inside`: how long the core's worker takes for what looks inside a decision, from the question's arrival to its
- * answer, while the robot stands; and whether such questions hold up a run at normal speed. Prints medians and the slow
- * end, and fails when that is over the page's goal.
+ * `npm run inside`: how long the core's worker takes for what looks inside a decision, and for thinking again, from the
+ * question's arrival to its answer, while the robot stands; and whether such questions hold up a run at normal speed.
+ * Prints medians and the slow end, and fails where they are over the page's goals.
  */
 
 import { chromium, type Page, type Worker } from '@playwright/test';
@@ -9,7 +9,8 @@ import config from '../../../playwright.config.ts';
 import type { Command, FromSimulation } from '../../../web/src/protocol/simulationProtocol.ts';
 import { served } from './served.ts';
 
-const GOAL_MS = 50;
+/** 95 % of what looks inside; half of what thinks again. */
+const GOALS_MS = { inside: 50, again: 100 };
 /** Ticks of the run at which it is asked. */
 const PLACES = [20, 120, 220, 320, 420];
 /** Each question so often at each of them. */
@@ -28,10 +29,10 @@ const QUESTIONS: Readonly<Record<string, (time: number) => Command>> = {
   'farthest points': (time) => ({ type: 'inside', question: { placement: 'farthest_points', without: [time] } }),
   'every nth return': (time) => ({ type: 'inside', question: { placement: 'strided', without: [time] } }),
   'kernel at the pointer': (time) => ({ type: 'kernel', column: 29 * time, row: 10 + time }),
-  'another threshold': (time) => thinkWith({ variance_threshold: 0.4 + 0.04 * time }),
 };
 
-function thinkWith(perception: Readonly<Record<string, number>>): Command {
+function withThreshold(variance_threshold: number): Command {
+  const perception = { variance_threshold };
   return { type: 'think', setup: { preset: 'default', learning: 'fixed', overrides: { planner: { perception } } } };
 }
 
@@ -39,6 +40,8 @@ type Times = Record<string, number[]>;
 
 /** Has the worker note how long each of these questions takes, and answer the page no more than before. */
 async function instrument(worker: Worker): Promise<void> {
+  // tsx has functions keep their names by a helper that the worker does not have.
+  await worker.evaluate('globalThis.__name = (one) => one');
   await worker.evaluate(() => {
     const waiting = new Map<number, (message: FromSimulation) => void>();
     const post = self.postMessage.bind(self);
@@ -80,8 +83,9 @@ function tickOf(page: Page): Promise<number> {
   return page.evaluate(() => window.mapless?.state()?.tick ?? 0);
 }
 
-async function standing(page: Page, worker: Worker): Promise<Times> {
-  const times_ms: Times = {};
+/** Times of each question, and of thinking again with another threshold. */
+async function standing(page: Page, worker: Worker): Promise<{ inside: Times; again: number[] }> {
+  const [inside, again]: [Times, number[]] = [{}, []];
   for (const tick of PLACES) {
     await page.evaluate((to) => window.mapless?.seek(to), tick);
     await page.evaluate(() => window.mapless?.still());
@@ -91,13 +95,14 @@ async function standing(page: Page, worker: Worker): Promise<Times> {
       return { type: 'place', place };
     };
     for (const [name, question] of [...Object.entries(QUESTIONS), ['Why not there?', around] as const]) {
-      const noted = times_ms[name] ?? [];
-      times_ms[name] = noted;
+      const noted = inside[name] ?? [];
+      inside[name] = noted;
       for (let time = 0; time < TIMES; time += 1) noted.push(await ask(worker, question(time)));
     }
+    for (let time = 0; time < TIMES; time += 1) again.push(await ask(worker, withThreshold(0.4 + 0.04 * time)));
     await ask(worker, { type: 'think', setup: { preset: 'default', learning: 'fixed', overrides: {} } });
   }
-  return times_ms;
+  return { inside, again };
 }
 
 /** Ticks that a run drives, with or without questions on the way. */
@@ -106,9 +111,9 @@ async function driven(page: Page, worker: Worker, asks: boolean): Promise<number
   await page.evaluate(() => window.mapless?.play());
   await page.waitForFunction(() => (window.mapless?.state()?.tick ?? 0) > 10);
   const [began, until_ms] = [await tickOf(page), performance.now() + DRIVE_MS];
-  const questions = Object.entries(QUESTIONS).filter(([name]) => name !== 'another threshold');
+  const questions = Object.values(QUESTIONS);
   for (let time = 0; performance.now() < until_ms; time += 1) {
-    const question = questions[time % questions.length]?.[1](time % TIMES);
+    const question = questions[time % questions.length]?.(time % TIMES);
     if (asks && question) await ask(worker, question);
     await page.waitForTimeout(EVERY_MS);
   }
@@ -128,12 +133,21 @@ await served(async (address) => {
   await page.waitForFunction((tick) => (window.mapless?.state()?.tick ?? 0) > tick, PLACES.at(-1) ?? 0);
   await page.evaluate(() => window.mapless?.pause());
   await page.keyboard.press('m');
-  const times_ms = await standing(page, worker);
-  for (const [name, values] of [...Object.entries(times_ms), ['all', Object.values(times_ms).flat()] as const]) {
+  const { inside, again } = await standing(page, worker);
+  const whole = Object.values(inside).flat();
+  for (const [name, values] of [
+    ...Object.entries(inside),
+    ['all of these', whole],
+    ['thinking again', again],
+  ] as const) {
     const [median_ms, slow_ms, most_ms] = [0.5, 0.95, 1].map((share) => quantile(values, share).toFixed(1));
     process.stdout.write(`${name}: median ${median_ms} ms, 95 % within ${slow_ms} ms, most ${most_ms} ms\n`);
   }
-  if (!(quantile(Object.values(times_ms).flat(), 0.95) <= GOAL_MS)) process.exitCode = 1;
+  const within = quantile(whole, 0.95) <= GOALS_MS.inside && quantile(again, 0.5) <= GOALS_MS.again;
+  process.stdout.write(
+    `goals: 95 % inside within ${GOALS_MS.inside} ms, half of thinking again within ${GOALS_MS.again} ms\n`,
+  );
+  if (!within) process.exitCode = 1;
   await page.evaluate(() => window.mapless?.setSpeed(1));
   const [free, asked] = [await driven(page, worker, false), await driven(page, worker, true)];
   process.stdout.write(
