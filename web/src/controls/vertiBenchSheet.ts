@@ -7,8 +7,8 @@ import type { NamedFile } from '../protocol/simulationProtocol.ts';
 import type { VertiBenchTask, VertiBenchWorld } from '../wasm/mapless_wasm_verti_bench.js';
 
 const SCALES = [
-  ['1/5', '1/5: a Husky beside a rock as their car is'],
-  ['1', '1: full size'],
+  ['1/5', '1/5, for a Husky'],
+  ['1', 'full size'],
 ] as const;
 
 /** The files of the task that somebody chooses; nothing where that is called off. Throws what is wrong with the world's files. */
@@ -57,7 +57,7 @@ function ask({ number, difficulty, pairs }: VertiBenchWorld): Promise<{ pair: nu
   ]);
   form.method = 'dialog';
   form.addEventListener('submit', () => sheet.close('open'));
-  const words = `Steep ground (${difficulty}) with rocks and trees. Each task is a start and a goal; its scale holds for all lengths.`;
+  const words = `Steep ground (${difficulty}) with rocks and trees. Each task is a start and a goal. At 1/5 a rock is to the Husky what it is to the benchmark’s own car.`;
   sheet.append(title, html('p', 'sheet-note', [words]), form);
   document.body.append(sheet);
   return new Promise((resolve) => {

@@ -230,7 +230,7 @@ export class CompareTab implements Tab {
   #tellChoice(): void {
     const full = this.#chosen.length >= MOST;
     for (const { box } of this.#boxes) box.disabled = full && !box.checked;
-    const how = `They drive the same course from its start, with the same seed and parameters, A and B with what was kept, beside which what is in view stands in brackets. At most ${MOST} at once. One that is still catching up is compared with the robot in view at the time it has got to. Links and files of the run have nothing of them; A and B stay until this tab is closed.`;
+    const how = `All start where the run started, with the same seed. Planners use the parameters in view, A and B those that were kept (in brackets: the value in view). At most ${MOST} at once. One that is catching up is compared at its own time. Links and files of the run do not contain the comparison; A and B stay until this tab is closed.`;
     setText(this.#note, how);
     this.#choiceChanged?.();
   }
