@@ -69,7 +69,8 @@ impl ScaledWorld<'_> {
         Ok(text)
     }
 
-    /// The scenario of a pair, counted from 0, on the recipe in the folder `worlds` beside the scenario's own.
+    /// The scenario of a pair, counted from 0, on the recipe in the folder `worlds` beside the scenario's
+    /// own.
     ///
     /// # Errors
     /// A pair that the world does not have.
