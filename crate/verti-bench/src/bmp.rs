@@ -1,6 +1,6 @@
 //! Uncompressed grey BMP images of 8 bits, the form in which Verti-Bench has its heights.
 
-use crate::Fault;
+use crate::fault::Fault;
 
 /// Heights as grey levels.
 #[derive(Clone, Debug, PartialEq)]

@@ -24,17 +24,13 @@
 //! ```
 
 mod bmp;
+mod fault;
 mod scale;
 mod scaled;
 mod world;
 
 pub use bmp::GreyImage;
+pub use fault::Fault;
 pub use scale::Scale;
 pub use scaled::ScaledWorld;
 pub use world::{Difficulty, World, number_of_config};
-
-/// What is wrong with a file of the benchmark: the place, the value and what was expected, without the file's
-/// name.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{0}")]
-pub struct Fault(String);

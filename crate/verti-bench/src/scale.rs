@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::Fault;
+use crate::fault::Fault;
 
 /// Scales at which the pixels' spacing is one of a terrain.
 const SCALES: std::ops::RangeInclusive<f64> = 0.01..=100.0;

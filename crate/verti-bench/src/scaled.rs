@@ -2,7 +2,10 @@
 
 use std::fmt::Write as _;
 
-use crate::{Fault, GreyImage, Scale, World};
+use crate::bmp::GreyImage;
+use crate::fault::Fault;
+use crate::scale::Scale;
+use crate::world::World;
 
 /// The robot has reached a goal within this distance at full scale, metres.
 const GOAL_TOLERANCE_M: f64 = 8.0;

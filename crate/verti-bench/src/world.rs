@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::Fault;
+use crate::fault::Fault;
 
 /// How steep and how dense a world is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
