@@ -180,7 +180,7 @@ async function batch(page: Page): Promise<{ rows: string[]; summary: string | nu
   await page.getByLabel('How many').fill('6');
   await page.getByLabel('From seed').fill('41');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await expect(page.getByText('6 trials. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
+  await expect(page.getByText('6 trials of Best. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
   const rows = await page.locator('.trials-table tbody tr').allInnerTexts();
   return { rows, summary: await page.locator('.seeds-summary').textContent(), most };
 }
@@ -260,7 +260,9 @@ test.describe(() => {
     await page.getByLabel('How many').fill('6');
     await page.getByRole('button', { name: 'Run', exact: true }).click();
     await expect(page.getByRole('alert').filter({ hasText: /^Seed \d: unreachable$/ })).toBeVisible();
-    await expect(page.getByText('5 of 6 trials. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
+    await expect(page.getByText('5 of 6 trials of Best. Press a seed to see it driven.')).toBeVisible({
+      timeout: 200_000,
+    });
     await expect(page.locator('.trials-table tbody tr')).toHaveCount(5);
     await expect(page.locator('.seeds-summary')).toContainText('5 of 5');
   });

@@ -36,7 +36,7 @@ for (const [device, options] of Object.entries(DEVICES)) {
       await tab(page).getByLabel('Seeds').fill('2');
       const run = tab(page).getByRole('button', { name: 'Run' });
       await (device === 'phone' ? run.tap() : run.click());
-      await expect(tab(page).getByRole('status')).toHaveText('4 trials. Press a value to see it driven.');
+      await expect(tab(page).getByRole('status')).toHaveText('4 trials of Best. Press a value to see it driven.');
       const plots = tab(page).getByRole('img');
       await expect(plots).toHaveCount(2);
       await expect(plots.first()).toHaveAttribute('aria-label', '0.3: 100 %; 0.7: 100 %');
@@ -146,4 +146,61 @@ test('many seeds are saved as a table and as a campaign that gives the same dige
   const native = rows(readFileSync(join(folder, 'results/trials.csv'), 'utf8'));
   const key = ({ seed, outcome, ticks, digest }: Record<string, string>) => [seed, outcome, ticks, digest].join(' ');
   expect(table.map(key).sort()).toEqual(native.map(key).sort());
+});
+
+test('another planner drives a batch, which says so; a trial of it is seen as a ghost', async ({ mapless: page }) => {
+  await shortCourse(page, 3);
+  await openLab(page, 'Seeds');
+  const seeds = page.getByRole('tabpanel', { name: 'Seeds' });
+  await expect(seeds.getByLabel('Planner').locator('option').first()).toHaveText('the one in view: Best');
+  await seeds.getByLabel('Planner').selectOption('direct');
+  await seeds.getByLabel('How many').fill('2');
+  await seeds.getByRole('button', { name: 'Run', exact: true }).click();
+  await expect(seeds.getByRole('status')).toHaveText(
+    '2 trials of Direct. Press a seed to see it driven as a ghost beside the robot in view.',
+  );
+  const table = rows((await saved(page, 'Save as CSV', seeds)).toString());
+  expect(table.map(({ planner }) => planner)).toEqual(['direct', 'direct']);
+  const time = await seeds.locator('.trials-table tbody tr').nth(1).getByRole('cell').nth(1).textContent();
+  await seeds.getByRole('button', { name: 'Show seed 2' }).click();
+  await until(page, (now) => now.seed === 2 && now.outcome === 'reached');
+  await page.getByRole('tab', { name: 'Compare' }).click();
+  await expect(page.getByRole('checkbox', { name: /^Direct/ })).toBeChecked();
+  const compared = page.getByRole('tabpanel', { name: 'Compare' }).getByRole('row', { name: /^Time/ });
+  await expect(compared.locator('td').last()).toHaveText(time ?? '');
+});
+
+test('somebody’s own planner drives seeds and values; where it breaks off is told', async ({ mapless: page }) => {
+  await shortCourse(page, 3);
+  await openLab(page, 'Compare');
+  await page.getByRole('heading', { name: 'Your own planner' }).click();
+  await page.getByLabel('Your planner, in JavaScript').fill(`export default ({ pose, goal }) => {
+  const bearing = Math.atan2(goal.y - pose.y, goal.x - pose.x) - pose.yaw;
+  return { linear_m_s: 0.8, angular_rad_s: Math.atan2(Math.sin(bearing), Math.cos(bearing)) };
+};`);
+  await page.getByRole('tab', { name: 'Seeds' }).click();
+  const seeds = page.getByRole('tabpanel', { name: 'Seeds' });
+  await seeds.getByLabel('Planner').selectOption('own');
+  await seeds.getByLabel('How many').fill('3');
+  await seeds.getByRole('button', { name: 'Run', exact: true }).click();
+  await expect(seeds.getByRole('status')).toHaveText(/^3 trials of Yours\. .* there is no campaign to save\.$/);
+  await expect(seeds.locator('.seeds-summary')).toContainText('3 of 3');
+  await expect(seeds.getByRole('button', { name: 'Save as campaign' })).toBeHidden();
+  await page.getByRole('tab', { name: 'Sweep' }).click();
+  await tab(page).getByLabel('Planner').selectOption('own');
+  await tab(page).getByLabel('Parameter').selectOption('sensor.range_noise_m');
+  await tab(page).getByLabel('Values').fill('0.01, 0.1');
+  await tab(page).getByLabel('Seeds').fill('1');
+  await tab(page).getByRole('button', { name: 'Run' }).click();
+  await expect(tab(page).getByRole('status')).toHaveText(/^2 trials of Yours\./);
+  await tab(page).getByRole('button', { name: 'Show 0.1 with seed 1' }).click();
+  await until(page, (now) => now.outcome === 'reached');
+  await page.getByRole('tab', { name: 'Compare' }).click();
+  await expect(page.getByRole('checkbox', { name: /^Yours/ })).toBeChecked();
+  await page.getByLabel('Your planner, in JavaScript').fill('export default () => { throw new Error("no way"); };');
+  await page.getByRole('tab', { name: 'Seeds' }).click();
+  await seeds.getByLabel('How many').fill('2');
+  await seeds.getByRole('button', { name: 'Run', exact: true }).click();
+  await expect(seeds.getByRole('alert')).toContainText(/Seed 1: planner\.js at 0\.0 s: .*no way/);
+  await expect(seeds.getByRole('alert')).toContainText('Seed 2: planner.js');
 });

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Batch, type FromBatch, workersFor } from '../src/trials/batch.ts';
+import { Batch, type FromBatch, type Guest, workersFor } from '../src/trials/batch.ts';
 import type { startJob } from '../src/trials/trialsClient.ts';
 import type { FromTrials, Summary, ToTrials, TrialResult } from '../src/trials/trialsProtocol.ts';
 
@@ -27,7 +27,7 @@ class Worker {
   }
 }
 
-function batchOf(seeds: readonly number[], count: number) {
+function batchOf(seeds: readonly number[], count: number, guest?: Guest) {
   const workers: Worker[] = [];
   const told: FromBatch[] = [];
   const rows: number[] = [];
@@ -36,8 +36,11 @@ function batchOf(seeds: readonly number[], count: number) {
     worker.answer = (message) => !worker.stopped && answer(message);
     workers.push(worker);
     return {
-      // As across a real border, what is sent later changes nothing that was sent.
-      send: (message) => worker.heard.push(structuredClone(message)),
+      // As across a real border, what is sent later changes nothing that was sent; a port goes over.
+      send: (message) => {
+        const transfer = message.type === 'drive' && message.port ? [message.port] : [];
+        worker.heard.push(structuredClone(message, { transfer }));
+      },
       stop() {
         worker.stopped = true;
       },
@@ -47,7 +50,7 @@ function batchOf(seeds: readonly number[], count: number) {
     told.push(message);
     if (message.type === 'trial') rows.splice(message.place, 0, message.result.seed);
   };
-  const batch = new Batch({ course: {} as never, planner: 'default', seeds }, count, hear, start);
+  const batch = new Batch({ course: {} as never, planner: 'default', guest, seeds }, count, hear, start);
   const summed = () => told.flatMap((message) => (message.type === 'summary' ? [message.summary.trials] : []));
   return { batch, workers: workers as [Worker, Worker], told, rows, summed };
 }
@@ -120,4 +123,26 @@ test('cancelling ends every worker, and nothing is heard any more', () => {
   assert.ok(workers.every(({ stopped }) => stopped));
   workers[0].finish();
   assert.deepEqual(told, []);
+});
+
+test('a planner of one’s own begins anew with each seed; one that breaks off is told, and the rest is driven', () => {
+  let [begun, ended] = [0, 0];
+  const begin = () => {
+    begun += 1;
+    const end = () => {
+      ended += 1;
+    };
+    return { port: new MessageChannel().port1, end };
+  };
+  const { workers, told, rows } = batchOf([1, 2, 3], 1, { name: 'planner.js', begin });
+  const [a] = workers;
+  assert.ok(a.heard.every((message) => message.type !== 'drive' || message.port));
+  a.finish();
+  a.answer({ type: 'refused', planner: 'own', message: 'at 0.1 s: no' });
+  assert.deepEqual(told.at(-1), { type: 'failed', message: 'Seed 2: planner.js at 0.1 s: no' });
+  assert.deepEqual([begun, ended], [3, 2]);
+  a.finish();
+  assert.deepEqual(rows, [1, 3]);
+  assert.equal(told.at(-1)?.type, 'end');
+  assert.deepEqual([begun, ended, a.stopped], [3, 3, true]);
 });

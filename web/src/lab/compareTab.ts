@@ -207,6 +207,19 @@ export class CompareTab implements Tab {
     this.#card.open(name, bytes);
   }
 
+  /** Somebody's own planner: that which drives from bytes, or what is written in the card. */
+  get ownPlanner(): OwnPlanner {
+    return this.#own && typeof this.#own.code !== 'string' ? this.#own : this.#card.written;
+  }
+
+  /** Has one drive as a ghost; throws where there is no room for it. */
+  drive(rival: Rival, own?: OwnPlanner): void {
+    const { chosen, room } = this.stateOf(rival);
+    if (!chosen && !room) throw new Error(`Compare: ${MOST} others are driving: take one away first.`);
+    if (own) this.#drive(own);
+    else this.pick(rival, true);
+  }
+
   /** Has somebody's own planner drive from the start, in place of the one before. */
   #drive(planner: OwnPlanner): void {
     const { chosen, room } = this.stateOf(OWN_RIVAL);

@@ -33,7 +33,7 @@ export class Lab {
     this.#opener = opener;
     const compare = new CompareTab(app, stage);
     this.#compare = compare;
-    this.#tabs = [new ParametersTab(app, compare), compare, new SeedsTab(app), new SweepTab(app)];
+    this.#tabs = [new ParametersTab(app, compare), compare, new SeedsTab(app, compare), new SweepTab(app, compare)];
     this.#buttons = this.#tabs.map((tab, index) => this.#button(tab, index));
     const list = html('div', 'lab-tabs', this.#buttons);
     list.setAttribute('role', 'tablist');

@@ -16,6 +16,7 @@ import { courseKey, courseOf, drivenWith } from '../trials/course.ts';
 import type { Summary, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
+import { type Beside, type Driver, guestOf, noCampaign, PlannerChoice, seenHow } from './plannerChoice.ts';
 
 const MOST_SEEDS = 500;
 
@@ -23,6 +24,7 @@ export class SeedsTab implements Tab {
   readonly title = 'Seeds';
   readonly element = html('div');
   readonly #app: App;
+  readonly #planner: PlannerChoice;
   readonly #count = numberInput('seeds', 'How many', 1, MOST_SEEDS, 10);
   readonly #first = numberInput('seeds', 'From seed', 0, MAX_SEED, 1);
   readonly #start = button('lab-action', 'Run', () => this.#begin());
@@ -34,20 +36,21 @@ export class SeedsTab implements Tab {
   readonly #summary = html('table', 'comparison seeds-summary');
   readonly #rows = html('tbody');
   readonly #table = html('table', 'comparison trials-table');
-  readonly #saves = html('div', 'lab-row', [
-    button('plain', 'Save as CSV', () => this.#saveCsv()),
-    button('plain', 'Save as campaign', () => this.#saveCampaign()),
-  ]);
+  readonly #campaign = button('plain', 'Save as campaign', () => this.#saveCampaign());
+  readonly #saves = html('div', 'lab-row', [button('plain', 'Save as CSV', () => this.#saveCsv()), this.#campaign]);
   /** What is saved: the trials in the order of the seeds, and the files of the experiment as it was when they began. */
   #drawn: (Drawn & { readonly overrides: Overrides; readonly files: Promise<NamedFile[]> }) | undefined;
+  /** Who drives, or drove, the trials of the table, and how one of them is seen. */
+  #driver: (Driver & { readonly seen: string }) | undefined;
   #results: TrialResult[] = [];
   #batch: Batch | undefined;
   /** The course that the table stands for. */
   #course: { key: string; overrides: Overrides } | undefined;
   #total = 0;
 
-  constructor(app: App) {
+  constructor(app: App, beside: Beside) {
     this.#app = app;
+    this.#planner = new PlannerChoice('seeds', beside);
     this.#note.setAttribute('role', 'status');
     this.#fault.setAttribute('role', 'alert');
     this.#fault.hidden = true;
@@ -60,6 +63,7 @@ export class SeedsTab implements Tab {
     this.#table.append(html('thead', '', [html('tr', '', head)]), this.#rows);
     const row = html('div', 'lab-row', [...labelled(this.#count), ...labelled(this.#first), this.#start, this.#cancel]);
     this.element.append(
+      html('div', 'sweep-form', labelled(this.#planner.select)),
       row,
       this.#progress,
       this.#note,
@@ -72,11 +76,12 @@ export class SeedsTab implements Tab {
     this.#idle();
     setText(
       this.#note,
-      'Each seed gives other sensor noise. The planner in view drives them in the background; its own run goes on.',
+      'Each seed gives other sensor noise. They are driven in the background; the run in view goes on.',
     );
   }
 
   session(info: SessionInfo): void {
+    this.#planner.session(info);
     if (this.#course && courseKey(info) !== this.#course.key) this.#stale();
   }
 
@@ -110,7 +115,11 @@ export class SeedsTab implements Tab {
     const files = this.#app.files({ ...editor.experiment, overrides });
     files.catch(() => undefined);
     const route = routeOf(info.scenario, editor.experiment, editor.asItComes);
-    this.#drawn = { planner: info.preset, route, seeds, overrides, files };
+    const driver = this.#planner.driver(info);
+    this.#driver = { ...driver, seen: seenHow(driver, info) };
+    this.#campaign.hidden = driver.own !== undefined;
+    const planner = driver.rival.planner;
+    this.#drawn = { planner, route, seeds, overrides, files };
     this.#results = [];
     this.#saves.hidden = true;
     this.#rows.replaceChildren();
@@ -124,9 +133,11 @@ export class SeedsTab implements Tab {
     this.#progress.value = 0;
     for (const part of [this.#cancel, this.#progress, this.#summary, this.#table]) part.hidden = false;
     this.#start.disabled = true;
-    setText(this.#note, `0 of ${seeds.length} done.`);
+    this.#tellCount();
     const workers = workersFor(seeds.length, navigator.hardwareConcurrency);
-    this.#batch = new Batch({ course, planner: info.preset, seeds }, workers, (message) => this.#hear(message));
+    this.#batch = new Batch({ course, planner, guest: guestOf(driver), seeds }, workers, (message) =>
+      this.#hear(message),
+    );
   }
 
   get #done(): number {
@@ -139,7 +150,7 @@ export class SeedsTab implements Tab {
         this.#results.splice(message.place, 0, message.result);
         this.#rows.insertBefore(this.#row(message.result), this.#rows.children[message.place] ?? null);
         this.#progress.value = this.#done;
-        setText(this.#note, `${this.#done} of ${this.#total} done.`);
+        this.#tellCount();
         break;
       case 'summary':
         this.#sum(message.summary);
@@ -149,11 +160,21 @@ export class SeedsTab implements Tab {
         this.#fault.hidden = false;
         break;
       case 'end': {
-        const done = this.#done === this.#total ? this.#total : `${this.#done} of ${this.#total}`;
-        this.#end(this.#done === 0 ? '' : `${done} trials. Press a seed to see it driven.`);
+        this.#end(this.#done === 0 ? '' : this.#words);
         break;
       }
     }
+  }
+
+  #tellCount(): void {
+    setText(this.#note, `${this.#done} of ${this.#total} trials of ${this.#driver?.rival.name} done.`);
+  }
+
+  get #words(): string {
+    const [done, driver] = [this.#done === this.#total ? this.#total : `${this.#done} of ${this.#total}`, this.#driver];
+    return driver
+      ? `${done} trials of ${driver.rival.name}. Press a seed to see it ${driver.seen}.${noCampaign(driver)}`
+      : '';
   }
 
   #saveCsv(): void {
@@ -220,8 +241,9 @@ export class SeedsTab implements Tab {
   /** Drives a seed of the table in the view, on the ground and route that are there. */
   async #replay(seed: number): Promise<void> {
     this.#app.touch();
-    if (!this.#course) return;
+    if (!this.#course || !this.#driver) return;
     await this.#app.setOverrides(this.#course.overrides, seed);
+    this.#planner.show(this.#driver, this.#app.info);
     await this.#app.play();
   }
 }

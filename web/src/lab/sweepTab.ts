@@ -15,6 +15,7 @@ import { overridesWith, type Sweep, SweepRun, type SweptTrial, valuesIn } from '
 import type { Summary } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
+import { type Beside, type Driver, guestOf, noCampaign, PlannerChoice, seenHow } from './plannerChoice.ts';
 import { sweepPlot } from './sweepPlot.ts';
 
 const [MOST_VALUES, MOST_SEEDS] = [20, 100];
@@ -24,6 +25,7 @@ export class SweepTab implements Tab {
   readonly title = 'Sweep';
   readonly element = html('div');
   readonly #app: App;
+  readonly #planner: PlannerChoice;
   readonly #parameter = named('select', 'Parameter');
   readonly #values = named('input', 'Values');
   readonly #count = numberInput('sweep', 'Seeds', 1, MOST_SEEDS, 5);
@@ -41,14 +43,17 @@ export class SweepTab implements Tab {
   readonly #saves = html('div', 'lab-row', [this.#csv, this.#campaign]);
   #run: SweepRun | undefined;
   #sweep: Sweep | undefined;
+  /** Who drives, or drove, its trials, and how one of them is seen. */
+  #driver: (Driver & { readonly seen: string }) | undefined;
   /** What the command line reads, of the experiment as it was when the sweep began. */
   #files: Promise<NamedFile[]> | undefined;
   #trials: SweptTrial[] = [];
   #summaries = new Map<number, Summary>();
   #course: string | undefined;
 
-  constructor(app: App) {
+  constructor(app: App, beside: Beside) {
     this.#app = app;
+    this.#planner = new PlannerChoice('sweep', beside);
     this.#note.setAttribute('role', 'status');
     this.#fault.setAttribute('role', 'alert');
     this.#metric.append(...METRIC_ROWS.map(({ key, name }) => new Option(name, key)));
@@ -62,7 +67,12 @@ export class SweepTab implements Tab {
     });
     this.#table.append(html('thead', '', [html('tr', '', head)]), this.#rows);
     this.element.append(
-      html('div', 'sweep-form', [...labelled(this.#parameter), ...labelled(this.#values), ...labelled(this.#count)]),
+      html('div', 'sweep-form', [
+        ...labelled(this.#parameter),
+        ...labelled(this.#values),
+        ...labelled(this.#count),
+        ...labelled(this.#planner.select),
+      ]),
       html('div', 'lab-row', [this.#start, this.#cancel]),
       this.#note,
       this.#fault,
@@ -75,6 +85,7 @@ export class SweepTab implements Tab {
   }
 
   session(info: SessionInfo): void {
+    this.#planner.session(info);
     if (this.#parameter.options.length === 0) this.#fill(info);
     if (this.#course !== undefined && sweepKey(info) !== this.#course) this.sculpted();
   }
@@ -127,7 +138,10 @@ export class SweepTab implements Tab {
       const seeds = Array.from({ length: this.#count.valueAsNumber }, (_, index) => index + 1);
       const path = this.#parameter.value;
       const route = routeOf(info.scenario, experiment, this.#app.editor.asItComes);
-      this.#sweep = { course: courseOf(info, field), planner: info.preset, route, path, whole, values, seeds };
+      const driver = this.#planner.driver(info);
+      this.#driver = { ...driver, seen: seenHow(driver, info) };
+      const [planner, guest] = [driver.rival.planner, guestOf(driver)];
+      this.#sweep = { course: courseOf(info, field), planner, guest, route, path, whole, values, seeds };
     } catch (error) {
       setText(this.#fault, messageOf(error));
       this.#values.focus();
@@ -146,7 +160,7 @@ export class SweepTab implements Tab {
         this.#draw();
       },
       failed: (message) => this.#fault.append(html('span', 'fault-line', [message])),
-      end: () => this.#end(this.#trials.length > 0 ? `${this.#driven} Press a value to see it driven.` : ''),
+      end: () => this.#end(this.#trials.length > 0 ? this.#driven : ''),
     });
     this.#show();
     this.#draw();
@@ -169,7 +183,7 @@ export class SweepTab implements Tab {
   }
 
   #tellCount(): void {
-    setText(this.#note, `${this.#trials.length} of ${this.#total} done.`);
+    setText(this.#note, `${this.#trials.length} of ${this.#total} trials of ${this.#driver?.rival.name} done.`);
   }
 
   get #total(): number {
@@ -178,15 +192,19 @@ export class SweepTab implements Tab {
   }
 
   get #driven(): string {
-    const done = this.#trials.length;
-    return done === this.#total ? `${done} trials.` : `${done} of ${this.#total} trials.`;
+    const [count, driver] = [this.#trials.length, this.#driver];
+    const done = count === this.#total ? count : `${count} of ${this.#total}`;
+    return driver
+      ? `${done} trials of ${driver.rival.name}. Press a value to see it ${driver.seen}.${noCampaign(driver)}`
+      : '';
   }
 
   async #replay({ value, result }: SweptTrial): Promise<void> {
     this.#app.touch();
-    if (!this.#sweep || this.#course === undefined) return;
+    if (!this.#sweep || !this.#driver || this.#course === undefined) return;
     const { course, path } = this.#sweep;
     await this.#app.setOverrides(overridesWith(course, path, value), result.seed);
+    this.#planner.show(this.#driver, this.#app.info);
     await this.#app.play();
   }
 
@@ -202,6 +220,7 @@ export class SweepTab implements Tab {
     this.#start.disabled = this.#run !== undefined;
     for (const part of [this.#table, this.#saves, this.#shown]) part.hidden = this.#trials.length === 0;
     for (const save of [this.#csv, this.#campaign]) save.disabled = this.#run !== undefined;
+    this.#campaign.hidden = this.#driver?.own !== undefined;
   }
 
   #draw(): void {

@@ -1,15 +1,24 @@
 /** Many seeds of one planner, dealt over several workers: who has driven one gets the next. */
 
+import type { Confined } from '../guest/confinement.ts';
 import { type RunningJob, startJob } from './trialsClient.ts';
 import type { Course, FromTrials, Summary, TrialResult } from './trialsProtocol.ts';
 
 /** Each worker has the planners and the ground in memory of its own. */
 const MOST_WORKERS = 4;
 
+/** Somebody's own planner, which begins anew with each seed. */
+export interface Guest {
+  readonly name: string;
+  begin(): Confined;
+}
+
 /** What there is to drive: each seed once. */
 export interface Seeds {
   readonly course: Course;
   readonly planner: string;
+  /** In place of the planner. */
+  readonly guest?: Guest | undefined;
   readonly seeds: readonly number[];
 }
 
@@ -25,6 +34,8 @@ interface Member {
   readonly job: RunningJob;
   /** The seed that it drives; nothing once there are no more. */
   seed: number | undefined;
+  /** Somebody's own planner while it drives that seed. */
+  guest: Confined | undefined;
 }
 
 /** How many workers so many seeds are dealt over: one processor stays with the page. */
@@ -51,23 +62,29 @@ export class Batch {
 
   /** Ends all workers; nothing is heard of them any more. */
   stop(): void {
-    for (const { job } of this.#members) job.stop();
+    for (const { job, guest } of this.#members) {
+      job.stop();
+      guest?.end();
+    }
     this.#members.clear();
   }
 
   #employ(): void {
     const { course, planner } = this.#given;
     const job = this.#start({ type: 'seeds', course, planner }, (message) => this.#hear(member, message));
-    const member: Member = { job, seed: undefined };
+    const member: Member = { job, seed: undefined, guest: undefined };
     this.#members.add(member);
     this.#deal(member);
   }
 
   #deal(member: Member): void {
+    member.guest?.end();
+    member.guest = undefined;
     member.seed = this.#given.seeds[this.#dealt];
     if (member.seed === undefined) return;
     this.#dealt += 1;
-    member.job.send({ type: 'drive', seed: member.seed });
+    member.guest = this.#given.guest?.begin();
+    member.job.send({ type: 'drive', seed: member.seed, port: member.guest?.port });
   }
 
   #hear(member: Member, message: FromTrials): void {
@@ -81,6 +98,11 @@ export class Batch {
         this.#summed = message.summary.trials;
         this.#tell({ type: 'summary', summary: message.summary });
       }
+      if (member.seed === undefined) this.#leave(member);
+    } else if (message.type === 'refused') {
+      // Somebody's own planner may break off with one seed and not with another.
+      this.#tell({ type: 'failed', message: `Seed ${member.seed}: ${this.#given.guest?.name} ${message.message}` });
+      this.#deal(member);
       if (member.seed === undefined) this.#leave(member);
     } else if (message.type === 'failed') {
       this.#tell({ type: 'failed', message: `Seed ${member.seed}: ${message.message}` });
@@ -102,6 +124,7 @@ export class Batch {
 
   #leave(member: Member): void {
     member.job.stop();
+    member.guest?.end();
     this.#members.delete(member);
     if (this.#members.size === 0) this.#tell({ type: 'end' });
   }

@@ -41,6 +41,10 @@ export class GuestRun {
     this.ticks += 1;
   }
 
+  free(): void {
+    this.#core.free();
+  }
+
   /** For one decision, in the mean. */
   get decision_ms(): number {
     return this.#took_ms / this.#decisions;

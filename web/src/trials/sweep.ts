@@ -1,13 +1,15 @@
 /** One parameter over several values, each with the same seeds: one batch after the other, in the background. */
 
 import { withOverride } from '../experiment/overrides.ts';
-import { Batch, workersFor } from './batch.ts';
+import { Batch, type Guest, workersFor } from './batch.ts';
 import type { Drawn, Swept } from './batchFiles.ts';
 import type { Course, Summary, TrialResult } from './trialsProtocol.ts';
 
 /** What is driven. */
 export interface Sweep extends Drawn, Swept {
   readonly course: Course;
+  /** In place of the planner. */
+  readonly guest?: Guest | undefined;
 }
 
 export interface SweptTrial {
@@ -43,13 +45,13 @@ export class SweepRun {
 
   #next(): void {
     this.#at += 1;
-    const { course, planner, path, values, seeds } = this.#sweep;
+    const { course, planner, guest, path, values, seeds } = this.#sweep;
     const value = values[this.#at];
     if (value === undefined) {
       this.#events.end();
       return;
     }
-    const given = { course: { ...course, overrides: overridesWith(course, path, value) }, planner, seeds };
+    const given = { course: { ...course, overrides: overridesWith(course, path, value) }, planner, guest, seeds };
     const failures = new Set<string>();
     this.#batch = new Batch(given, workersFor(seeds.length, this.#processors), (message) => {
       if (message.type === 'trial') this.#events.trial({ value, result: message.result });

@@ -18,7 +18,7 @@ export function startJob(job: Job, hear: (message: FromTrials) => void): Running
   };
   worker.postMessage(job, job.type === 'own' ? [job.port] : []);
   return {
-    send: (message) => worker.postMessage(message),
+    send: (message) => worker.postMessage(message, message.type === 'drive' && message.port ? [message.port] : []),
     stop() {
       worker.onmessage = null;
       worker.onerror = null;

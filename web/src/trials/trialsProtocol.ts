@@ -56,7 +56,8 @@ export type ToTrials =
   | { type: 'until'; tick: number }
   /** In place of the ghosts before: whoever has the name of one drives on. */
   | { type: 'riders'; riders: readonly Rider[] }
-  | { type: 'drive'; seed: number }
+  /** With `port`, somebody's own planner drives, which is asked through it. */
+  | { type: 'drive'; seed: number; port: MessagePort | undefined }
   /** Asks for what these trials show together, whoever drove them. */
   | { type: 'sum'; results: readonly TrialResult[] };
 
@@ -84,7 +85,7 @@ export type FromTrials =
   | { type: 'took'; decision_ms: number }
   | { type: 'trial'; result: TrialResult }
   | { type: 'summary'; summary: Summary }
-  /** One that cannot drive this course, by its name. */
+  /** One that cannot drive this course, or not to its end, by its name. */
   | { type: 'refused'; planner: string; message: string }
   /** After a panic the worker is of no more use; another one may be. */
   | { type: 'failed'; message: string; panicked: boolean };

@@ -124,11 +124,25 @@ async function opened({ course, planner }: Extract<Job, { type: 'seeds' }>): Pro
   return { module, factory: new RunnerFactory(module, course), rider };
 }
 
-function drive({ factory, rider }: Batch, seed: number): void {
+async function drive({ factory, rider }: Batch, seed: number, port: MessagePort | undefined): Promise<void> {
+  if (port) return driveGuest(new GuestRun(factory.guest(seed), seed, port));
   const runner = factory.runner(rider, seed);
   while (runner.running) runner.tick();
   post({ type: 'trial', result: runner.result });
   runner.free();
+}
+
+async function driveGuest(run: GuestRun): Promise<void> {
+  try {
+    await run.begin();
+    while (run.running) await run.tick();
+    post({ type: 'trial', result: run.result });
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) throw error;
+    post({ type: 'refused', planner: OWN_PLANNER, message: messageOf(error) });
+  } finally {
+    run.free();
+  }
 }
 
 /** Whatever is asked of a batch while it loads is done in its order afterwards. */
@@ -150,7 +164,7 @@ function carryOut(message: ToTrials): Promise<void> | undefined {
       batch = opened(message);
       return;
     case 'drive':
-      return batch?.then((open) => drive(open, message.seed));
+      return batch?.then((open) => drive(open, message.seed, message.port));
     case 'sum':
       return batch?.then(({ module }) => post({ type: 'summary', summary: summary(module, message.results) }));
   }
