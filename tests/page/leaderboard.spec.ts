@@ -115,3 +115,22 @@ test('a row is driven by keyboard; another table says what it lacks', async ({ m
   await open(page, 'time_s,x_m\n0,1\n');
   await expect(page.locator('#notice-text')).toContainText('trials.csv: no column planner, route, seed, outcome');
 });
+
+test('every row of a long table is reached, and a filter begins with its first ones', async ({ mapless: page }) => {
+  const [names = '', line = ''] = csv.split('\n');
+  const at = names.split(',').indexOf('seed');
+  const lines = Array.from({ length: 450 }, (_, seed) => line.split(',').with(at, String(seed)).join(','));
+  await open(page, [names, ...lines, ''].join('\n'));
+  const trials = sheet(page).getByRole('table', { name: 'Trials' });
+  await expect(trials.locator('tbody tr')).toHaveCount(200);
+  await expect(sheet(page).getByRole('status').last()).toHaveText(/^The first 200 of 450 trials\./);
+  await sheet(page).getByRole('button', { name: 'Show 200 more' }).click();
+  await expect(trials.locator('tbody tr')).toHaveCount(400);
+  await sheet(page).getByRole('button', { name: 'Show 50 more' }).focus();
+  await page.keyboard.press('Enter');
+  await expect(trials.locator('tbody tr').last()).toContainText(', 449');
+  await expect(sheet(page).getByRole('status').last()).toHaveText(/^450 trials\./);
+  await expect(sheet(page).getByRole('button', { name: /more$/ })).toBeHidden();
+  await sheet(page).getByLabel('Outcome').selectOption('reached');
+  await expect(trials.locator('tbody tr')).toHaveCount(200);
+});

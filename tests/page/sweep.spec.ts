@@ -204,3 +204,29 @@ test('somebody’s own planner drives seeds and values; where it breaks off is t
   await expect(seeds.getByRole('alert')).toContainText(/Seed 1: planner\.js at 0\.0 s: .*no way/);
   await expect(seeds.getByRole('alert')).toContainText('Seed 2: planner.js');
 });
+
+test('the table of a comparison is saved, with parameters and digests of each', async ({ mapless: page }) => {
+  await shortCourse(page, 3);
+  await page.evaluate(() => window.mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } }));
+  await openLab(page, 'Compare');
+  const compare = page.getByRole('tabpanel', { name: 'Compare' });
+  await expect(compare.getByRole('button', { name: 'Save as CSV' })).toBeHidden();
+  await page.getByRole('checkbox', { name: /^Best/ }).check();
+  await page.getByRole('checkbox', { name: /^Direct/ }).check();
+  await page.evaluate(() => window.mapless?.play());
+  await until(page, (now) => now.outcome === 'reached');
+  await expect(compare.getByRole('row', { name: 'Outcome' }).getByText('Goal reached')).toHaveCount(3);
+  const [own, best, direct] = rows((await saved(page, 'Save as CSV', compare)).toString());
+  const { digest, seed, tick } = await state(page);
+  expect(own).toMatchObject({
+    planner: 'default',
+    seed: String(seed),
+    outcome: 'reached',
+    ticks: String(tick),
+    digest,
+  });
+  expect(own?.parameters).toBe('sensor.range_noise_m=0.03');
+  expect(best).toEqual(own);
+  expect(direct).toMatchObject({ planner: 'direct', parameters: 'sensor.range_noise_m=0.03', outcome: 'reached' });
+  expect(direct?.digest).not.toBe(digest);
+});

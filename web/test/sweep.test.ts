@@ -50,7 +50,11 @@ test('a table says with which parameters each trial was driven, as the page read
     sensor: { columns: 900 },
     planner: { decision: { cost_model: 'paper' }, perception: { kernel: { length_scales_rad: [0.12, 0.05] } } },
   };
-  const csv = trialsCsv({ planner: 'paper', route: 'ht', seeds: [3] }, [{ overrides, result }]);
+  const csv = trialsCsv('ht', [{ planner: 'paper', overrides, result }]);
   const [row] = campaignRows(rowsOf(csv), () => true);
   assert.deepEqual(row?.replay, { scenario: 'ht', preset: 'paper', overrides, seed: 3 });
+  assert.equal(row?.digest, 'd');
+  const underWay = { ...result, outcome: 'running' } as const;
+  const [half] = rowsOf(trialsCsv('ht', [{ planner: 'paper', overrides, result: underWay }]));
+  assert.deepEqual([half?.outcome, half?.digest], ['running', '']);
 });

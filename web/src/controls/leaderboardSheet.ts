@@ -7,8 +7,8 @@ import { loadTrials, type TrialsModule } from '../bindings/trialsModule.ts';
 import { type CampaignRow, nameOf, type Replay } from '../trials/campaignRows.ts';
 import { PathsMap, type Scene } from './pathsMap.ts';
 
-/** Rows in sight: more make no table that anybody reads. */
-const MOST_ROWS = 200;
+/** Rows that come at once: a table of all takes long to lay out. */
+const ROWS = 200;
 
 const METRICS = [
   ['Distance, m', 'distance_m', 1],
@@ -27,6 +27,9 @@ export class LeaderboardSheet {
   readonly #where = html('select');
   readonly #note = html('p', 'sheet-note');
   readonly #trials = html('tbody');
+  readonly #more = button('plain', '', () => this.#showMore());
+  /** The rows that pass the filters. */
+  #chosen: readonly CampaignRow[] = [];
 
   /** `scene` brings a route into the view. */
   constructor(
@@ -59,7 +62,17 @@ export class LeaderboardSheet {
     const trials = table('Trials', ['Drive', 'Planner', 'Outcome', ...METRICS.map(([name]) => name)], this.#trials);
     const map = new PathsMap(rows, scene);
     const means = html('p', 'sheet-note', [MEANS]);
-    this.#sheet.append(close, title, html('div', 'leaderboard'), means, map.element, filters, this.#note, trials);
+    this.#sheet.append(
+      close,
+      title,
+      html('div', 'leaderboard'),
+      means,
+      map.element,
+      filters,
+      this.#note,
+      trials,
+      this.#more,
+    );
     this.#sheet.addEventListener('close', () => {
       map.stop();
       this.#sheet.remove();
@@ -76,18 +89,27 @@ export class LeaderboardSheet {
 
   #list(): void {
     const [whose, which, where] = [this.#whose.value, this.#which.value, this.#where.value];
-    const chosen = this.#rows.filter(
+    this.#chosen = this.#rows.filter(
       (row) =>
         (whose === '' || nameOf(row) === whose) &&
         (where === '' || row.route === where) &&
         (which === '' || (row.outcome === 'reached') === (which === 'reached')),
     );
-    const seen = Math.min(chosen.length, MOST_ROWS);
-    const count = seen < chosen.length ? `The first ${seen} of ${chosen.length} trials.` : `${seen} trials.`;
+    this.#trials.replaceChildren();
+    this.#showMore();
+  }
+
+  /** The next rows, below those in sight. */
+  #showMore(): void {
+    const from = this.#trials.childElementCount;
+    this.#trials.append(...this.#chosen.slice(from, from + ROWS).map((row) => this.#row(row)));
+    const [seen, all] = [this.#trials.childElementCount, this.#chosen.length];
+    this.#more.hidden = seen === all;
+    setText(this.#more, `Show ${Math.min(ROWS, all - seen)} more`);
+    const count = seen < all ? `The first ${seen} of ${all} trials.` : `${seen} trials.`;
     // Why some cannot be driven in the view.
-    const reasons = new Set(chosen.flatMap(({ replay }) => (typeof replay === 'string' ? [replay] : [])));
+    const reasons = new Set(this.#chosen.flatMap(({ replay }) => (typeof replay === 'string' ? [replay] : [])));
     setText(this.#note, reasons.size > 0 ? `${count} What cannot be pressed: ${[...reasons].join(' ')}` : count);
-    this.#trials.replaceChildren(...chosen.slice(0, MOST_ROWS).map((row) => this.#row(row)));
   }
 
   #row(row: CampaignRow): HTMLElement {

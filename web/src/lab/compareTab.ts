@@ -5,16 +5,18 @@ import { button, html, setText } from '../base/dom.ts';
 import { fixed } from '../base/format.ts';
 import { differences } from '../experiment/differences.ts';
 import { inIdealWorld } from '../experiment/reality.ts';
+import { download } from '../files/download.ts';
 import { type Confined, confine, type OwnPlanner } from '../guest/confinement.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
-import { courseOf } from '../trials/course.ts';
+import { routeOf, trialsCsv } from '../trials/batchFiles.ts';
+import { courseOf, drivenWith } from '../trials/course.ts';
 import { GhostRun } from '../trials/ghostRun.ts';
 import { type RunningJob, startJob } from '../trials/trialsClient.ts';
-import { type Course, type FromTrials, OWN_PLANNER, type Rider } from '../trials/trialsProtocol.ts';
+import { type Course, type FromTrials, OWN_PLANNER, type Rider, type TrialResult } from '../trials/trialsProtocol.ts';
 import type { Stage } from '../view/stage.ts';
 import { ComparisonTable } from './comparisonTable.ts';
-
 import { GhostTrails } from './ghostTrails.ts';
+import { shownTick } from './inStep.ts';
 import { KeptSets } from './keptSets.ts';
 import type { Tab } from './lab.ts';
 import { OwnPlannerCard } from './ownPlanner.ts';
@@ -48,6 +50,7 @@ export class CompareTab implements Tab {
   readonly #note = html('p', 'lab-note');
   readonly #fault = html('p', 'parameter-fault');
   readonly #table = new ComparisonTable();
+  readonly #save = html('div', 'lab-row', [button('plain', 'Save as CSV', () => this.#saveCsv())]);
   readonly #card = new OwnPlannerCard((planner) => this.#drive(planner));
   #own: OwnPlanner | undefined;
   #confined: Confined | undefined;
@@ -95,8 +98,10 @@ export class CompareTab implements Tab {
       this.#note,
       this.#fault,
       this.#table.element,
+      this.#save,
       this.#card.element,
     );
+    this.#save.hidden = true;
     this.#tellChoice();
   }
 
@@ -262,6 +267,7 @@ export class CompareTab implements Tab {
     }
     this.#showGhosts();
     this.#table.choose(this.#chosen);
+    this.#save.hidden = this.#chosen.length === 0;
     this.#show();
   }
 
@@ -327,13 +333,28 @@ export class CompareTab implements Tab {
   #show(): void {
     const frame = this.#frame;
     if (!frame || this.#chosen.length === 0) return;
-    const running = this.#running();
-    // Once the page's robot has ended, those that are still on their way are shown as far as they are.
-    const ended = frame.outcome !== 'running';
-    const shown = ({ lastTick }: GhostRun) => (ended ? lastTick : Math.min(frame.tick, lastTick));
-    this.#stage?.ghostSteps(this.#trails.steps(running.map(([, run]) => shown(run))));
+    this.#stage?.ghostSteps(this.#trails.steps(this.#running().map(([, run]) => shownTick(run, frame))));
     if (this.element.hidden) return;
-    const results = new Map(running.map(([rival, run]) => [rival.planner, run.at(shown(run))]));
-    this.#table.show(frame, this.#app.record, results, this.#broken);
+    this.#table.show(frame, this.#app.record, this.#results(frame), this.#broken);
+  }
+
+  /** How those stand that run, by their rivals' planners. */
+  #results(frame: Frame): Map<string, TrialResult> {
+    return new Map(this.#running().map(([rival, run]) => [rival.planner, run.at(shownTick(run, frame))]));
+  }
+
+  /** What the table shows now, with the robot in view first. */
+  #saveCsv(): void {
+    const [frame, { info, editor }] = [this.#frame, this.#app];
+    if (!frame || !info || !editor.experiment) return;
+    const [setup, results] = [info.runsWith ?? info, this.#results(frame)];
+    const inView = { planner: setup.preset, overrides: drivenWith(setup), result: { ...frame, seed: info.seed } };
+    const others = this.#chosen.flatMap((rival) => {
+      const [rider, result] = [this.#rider(rival, info), results.get(rival.planner)];
+      return result ? [{ planner: rider.planner, overrides: drivenWith(rider), result }] : [];
+    });
+    const route = routeOf(info.scenario, editor.experiment, editor.asItComes);
+    const csv = trialsCsv(route, [inView, ...others]);
+    download(`mapless-${route}-comparison.csv`, new Blob([csv], { type: 'text/csv' }));
   }
 }

@@ -2,6 +2,7 @@
 
 import type { Frame, Metrics } from '../protocol/simulationProtocol.ts';
 import type { RunRecord } from '../run/record.ts';
+import type { GhostRun } from '../trials/ghostRun.ts';
 import type { TrialResult } from '../trials/trialsProtocol.ts';
 
 /** Whether a ghost has yet to drive to where the robot in view is. */
@@ -16,4 +17,12 @@ export function counterpart(
   record: RunRecord,
 ): Metrics | undefined {
   return isBehind(ghost, frame) ? record.metricsAt(ghost.tick) : frame.metrics;
+}
+
+/** Once the page's robot has ended, those that are still on their way are shown as far as they are. */
+export function shownTick(
+  { lastTick }: Pick<GhostRun, 'lastTick'>,
+  { outcome, tick }: Pick<Frame, 'outcome' | 'tick'>,
+): number {
+  return outcome === 'running' ? Math.min(tick, lastTick) : lastTick;
 }

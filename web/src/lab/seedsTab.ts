@@ -180,8 +180,8 @@ export class SeedsTab implements Tab {
   #saveCsv(): void {
     const drawn = this.#drawn;
     if (!drawn) return;
-    const rows = this.#results.map((result) => ({ overrides: drawn.overrides, result }));
-    download(`mapless-${drawn.route}-seeds.csv`, new Blob([trialsCsv(drawn, rows)], { type: 'text/csv' }));
+    const rows = this.#results.map((result) => ({ planner: drawn.planner, overrides: drawn.overrides, result }));
+    download(`mapless-${drawn.route}-seeds.csv`, new Blob([trialsCsv(drawn.route, rows)], { type: 'text/csv' }));
   }
 
   async #saveCampaign(): Promise<void> {

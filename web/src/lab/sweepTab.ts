@@ -240,10 +240,11 @@ export class SweepTab implements Tab {
     const sweep = this.#sweep;
     if (!sweep) return;
     const rows = this.#trials.map(({ value, result }) => ({
+      planner: sweep.planner,
       overrides: overridesWith({ overrides: drivenWith(sweep.course) }, sweep.path, value),
       result,
     }));
-    download(`mapless-${sweep.route}-sweep.csv`, new Blob([trialsCsv(sweep, rows)], { type: 'text/csv' }));
+    download(`mapless-${sweep.route}-sweep.csv`, new Blob([trialsCsv(sweep.route, rows)], { type: 'text/csv' }));
   }
 
   async #saveCampaign(): Promise<void> {

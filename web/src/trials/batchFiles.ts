@@ -35,13 +35,19 @@ export function routeOf(scenario: string, experiment: Experiment, asItComes: boo
   return `${name === 'terrain' ? 'scenario' : name}-changed-${hashOf({ ...experiment, seed: 0, overrides: {} })}`;
 }
 
-/** `overrides` are those with which each trial was driven. */
-export function trialsCsv(
-  { planner, route }: Drawn,
-  trials: readonly { readonly overrides: Overrides; readonly result: TrialResult }[],
-): string {
-  const lines = trials.map(({ overrides, result }) => {
-    const { seed, outcome, metrics, time_s, tick, digest } = result;
+/** A trial as a line of a table. */
+export interface TrialLine {
+  readonly planner: string;
+  /** Those with which it was driven. */
+  readonly overrides: Overrides;
+  readonly result: Omit<TrialResult, 'planner'>;
+}
+
+/** A table of trials; one that is under way has no digest in it. */
+export function trialsCsv(route: string, trials: readonly TrialLine[]): string {
+  const lines = trials.map(({ planner, overrides, result }) => {
+    const { seed, outcome, metrics, time_s, tick } = result;
+    const digest = outcome === 'running' ? '' : result.digest;
     const numbers = METRICS.map((name) => metrics[name]);
     const parameters = quoted(assignmentsOf(overrides).map((one) => one.replace(' = ', '=')));
     return [planner, route, parameters, seed, outcome, ...numbers, time_s, tick, digest].join(',');
