@@ -5,7 +5,7 @@ import { deflateRawSync } from 'node:zlib';
 import { type Page, test as plain } from '@playwright/test';
 import { unzipSync } from 'fflate';
 import { driven, said } from './commandLine.ts';
-import { elsewhere, expect, kept, loaded, runToEnd, state, test, until } from './page.ts';
+import { driveTo, elsewhere, expect, kept, loaded, runToEnd, state, test, until } from './page.ts';
 
 /** A boulder and a rough patch ahead of the start of `ht`, another goal with a heading behind a waypoint, and another parameter. */
 async function shape(page: Page): Promise<void> {
@@ -151,4 +151,46 @@ plain('a generated task by name is driven as by the command line', async ({ page
   await expect(page.locator('#scene-lesson')).toContainText('a safe path exists');
   const { outcome, ticks, digest } = driven(join(folder, 'easy-6-0002.toml'), '--seed', '5');
   expect(await runToEnd(page)).toEqual({ outcome, ticks, digest });
+});
+
+test('a link from this moment opens the run there, paused, as far as the run follows from its start', async ({
+  mapless: page,
+  browser,
+  baseURL,
+}) => {
+  await page.evaluate(() => window.mapless?.loadScenario('ht', { seed: 3 }));
+  await page.evaluate(() => window.mapless?.restart());
+  await page.evaluate(() => window.mapless?.play());
+  await driveTo(page, 40);
+  const { tick, digest, time_s, pose } = await state(page);
+  await page.getByRole('button', { name: 'Share and save' }).click();
+  const moment = page.getByRole('checkbox', { name: /^From this moment \(0:\d\d\.\d\), paused$/ });
+  await expect(page.locator('#link')).toHaveValue(/#e=[^&]*$/);
+  await moment.check();
+  await expect(page.locator('#link')).toHaveValue(new RegExp(`&t=${Number(time_s.toFixed(3))}$`));
+  const link = await page.locator('#link').inputValue();
+  const other = await elsewhere(browser, baseURL);
+  for (const address of [link, `/?scenario=ht&seed=3&t=${time_s}`]) {
+    await other.goto('about:blank');
+    await other.goto(address);
+    await loaded(other);
+    await until(other, (now) => now.tick >= tick && !now.playing);
+    expect(await state(other)).toMatchObject({ tick, digest, pose, playing: false });
+  }
+  await expect(other.getByRole('button', { name: 'Play' })).toBeVisible();
+  await other.goto('about:blank');
+  await other.goto('/?scenario=ht&t=soon');
+  await expect(other.locator('#notice-text')).toContainText('t = "soon": expected a number from 0 to 3600');
+  await other.close();
+  // What is only tried, or was changed under way, no link drives again.
+  await page.getByRole('button', { name: 'Close' }).click();
+  await page.evaluate(() => window.mapless?.adjust({ preset: 'paper' }));
+  await page.getByRole('button', { name: 'Share and save' }).click();
+  const none = page.getByRole('checkbox', { name: /^Not from this moment: / });
+  await expect(none).toBeDisabled();
+  await expect(none).toHaveAccessibleName(/other settings are only tried here/);
+  await page.getByRole('button', { name: 'Close' }).click();
+  await page.evaluate(() => window.mapless?.step());
+  await page.getByRole('button', { name: 'Share and save' }).click();
+  await expect(none).toHaveAccessibleName(/changed during this run/);
 });

@@ -190,7 +190,9 @@ test('undoing leads from an experiment of somebody else back to one’s own', as
   const core = new Core();
   const own = { ...EXPERIMENT, name: 'own' };
   core.editor.loaded({ experiment: EXPERIMENT, scenario: undefined });
-  await core.editor.begin(Promise.resolve({ from: 'link', own: { id: 'a', experiment: own }, unread: undefined }));
+  await core.editor.begin(
+    Promise.resolve({ from: 'link', own: { id: 'a', experiment: own }, unread: undefined, moment_s: undefined }),
+  );
   assert.equal(core.editor.experiment?.name, EXPERIMENT.name);
   await core.editor.undo();
   assert.equal(core.editor.experiment, own);

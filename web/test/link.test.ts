@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { deflateRawSync } from 'node:zlib';
+import { momentIn } from '../src/experiment/address.ts';
 import type { Experiment } from '../src/experiment/experiment.ts';
 import { carriesExperiment, experimentIn, linkTo, MAX_LINK_CHARACTERS } from '../src/experiment/link.ts';
 import { EXPERIMENT, OBJECTS } from './example.ts';
@@ -33,6 +34,14 @@ test('a link gives the same experiment back', async () => {
   assert.deepEqual(await experimentIn(hashOf(await linkTo(ADDRESS, turned))), turned);
   const furnished: Experiment = { ...EXPERIMENT, objects: OBJECTS };
   assert.deepEqual(await experimentIn(hashOf(await linkTo(ADDRESS, furnished))), furnished);
+});
+
+test('a link may hold a moment beside the experiment', async () => {
+  const link = await linkTo(ADDRESS, EXPERIMENT, 0.1 + 0.2);
+  assert.match(link, /&t=0\.3$/);
+  assert.deepEqual(await experimentIn(hashOf(link)), EXPERIMENT);
+  assert.equal(momentIn(hashOf(link)), 0.3);
+  assert.equal(momentIn(hashOf(await linkTo(ADDRESS, EXPERIMENT))), undefined);
 });
 
 test('a recipe fits into a chat message, and so does an afternoon of sculpting', async () => {

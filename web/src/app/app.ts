@@ -222,7 +222,9 @@ export class App {
     });
     await this.#drive(this.editor.begin(beginning));
     this.#showWarnings();
-    return beginning;
+    const known = await beginning;
+    if (known.moment_s !== undefined) this.#show(false);
+    return known;
   }
 
   /** A terrain by itself, with a start and a goal where it is level. */

@@ -1,6 +1,7 @@
 /** The sheet for links and files. */
 
 import { byId, setText } from '../base/dom.ts';
+import { clock } from '../base/format.ts';
 import { messageOf } from '../base/messageOf.ts';
 import type { Experiment } from '../experiment/experiment.ts';
 import { linkTo, MAX_LINK_CHARACTERS } from '../experiment/link.ts';
@@ -14,8 +15,10 @@ import type { NamedFile } from '../protocol/simulationProtocol.ts';
 export interface Shared {
   readonly editor: { readonly experiment: Experiment | undefined };
   readonly field: HeightField | undefined;
-  /** Whether ground or route changed during the run. */
-  state(): { readonly disturbed: boolean } | undefined;
+  /** When the run stands, and whether ground, route or planner changed during it. */
+  state(): { readonly disturbed: boolean; readonly time_s: number } | undefined;
+  /** What the run drives with, where other settings are tried. */
+  readonly info: { readonly runsWith: unknown } | undefined;
   /** The files with which `mapless run` drives the same run. */
   files(): Promise<NamedFile[]>;
 }
@@ -27,10 +30,13 @@ export class ShareSheet {
   readonly #state = byId('share-state', HTMLElement);
   readonly #link = byId('link', HTMLInputElement);
   readonly #copy = byId('copy-link', HTMLButtonElement);
+  readonly #moment = byId('link-moment', HTMLInputElement);
+  readonly #momentSaid = byId('link-moment-said', HTMLElement);
 
   constructor(shared: Shared) {
     this.#shared = shared;
     this.#copy.addEventListener('click', () => this.#copyLink());
+    this.#moment.addEventListener('change', () => this.#show());
     this.#saves('save-experiment', async (name) => {
       const json = `${JSON.stringify(shared.editor.experiment, undefined, 1)}\n`;
       download(`${name}.json`, new Blob([json], { type: 'application/json' }));
@@ -41,25 +47,39 @@ export class ShareSheet {
   }
 
   async open(): Promise<void> {
-    const { experiment } = this.#shared.editor;
+    this.#moment.checked = false;
+    await this.#show();
+    if (!this.#sheet.open) this.#sheet.showModal();
+    if (!this.#copy.disabled) this.#copy.focus();
+  }
+
+  async #show(): Promise<void> {
+    const { editor, info } = this.#shared;
+    const { experiment } = editor;
+    const { disturbed = false, time_s = 0 } = this.#shared.state() ?? {};
     if (!experiment) return;
     setText(this.#state, '');
-    const link = await linkTo(location.href.split('?')[0] ?? '', experiment);
+    const obstacle = disturbed
+      ? 'ground, route or planner changed during this run, and a link drives from the start'
+      : info?.runsWith && 'other settings are only tried here';
+    this.#moment.disabled = Boolean(obstacle);
+    setText(
+      this.#momentSaid,
+      obstacle ? `Not from this moment: ${obstacle}.` : `From this moment (${clock(time_s)}), paused`,
+    );
+    const moment_s = this.#moment.checked && !obstacle ? time_s : undefined;
+    const link = await linkTo(location.href.split('?')[0] ?? '', experiment, moment_s);
     const short = link.length <= MAX_LINK_CHARACTERS;
     this.#link.value = short ? link : '';
     this.#copy.disabled = !short;
     this.#link.hidden = !short;
-    const changed = this.#shared.state()?.disturbed
-      ? ' Ground or route changed during this run: restart it to see that run.'
-      : '';
+    const changed = disturbed ? ' Ground or route changed during this run: restart it to see that run.' : '';
     setText(
       this.#note,
       short
-        ? `The link holds terrain, strokes, start, route and settings (${link.length} characters) and drives the same run from its start.${changed}`
+        ? `The link holds terrain, strokes, start, route and settings (${link.length} characters) and ${moment_s === undefined ? 'drives the same run from its start' : 'opens the same run at this moment, paused'}.${changed}`
         : `This is too much for a link that chats carry (${link.length} characters, ${MAX_LINK_CHARACTERS} at most). Save the experiment as a file and send that.`,
     );
-    if (!this.#sheet.open) this.#sheet.showModal();
-    if (short) this.#copy.focus();
   }
 
   async #copyLink(): Promise<void> {

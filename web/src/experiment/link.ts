@@ -13,13 +13,16 @@ export const MAX_LINK_CHARACTERS = 4000;
 const MAX_READ_CHARACTERS = 200_000;
 const MAX_UNPACKED_BYTES = 4 << 20;
 const KEY = '#e=';
+/** Between the experiment and the moment of its run. */
+const MOMENT = '&t=';
 
-/** The experiment's link below `address`, whatever its length. */
-export async function linkTo(address: string, experiment: Experiment): Promise<string> {
+/** The experiment's link below `address`, whatever its length; with a time, its run opens there and stands. */
+export async function linkTo(address: string, experiment: Experiment, time_s?: number): Promise<string> {
   const json = JSON.stringify({ ...experiment, strokes: experiment.strokes.map(pack) });
   const stream = new Blob([json]).stream().pipeThrough(new CompressionStream('deflate-raw'));
   const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-  return address.split('#')[0] + KEY + base64url(bytes);
+  const moment = time_s === undefined ? '' : `${MOMENT}${Number(time_s.toFixed(3))}`;
+  return address.split('#')[0] + KEY + base64url(bytes) + moment;
 }
 
 /** Whether an address carries an experiment. */
@@ -30,7 +33,8 @@ export function carriesExperiment(hash: string): boolean {
 /** The experiment in an address's fragment, or an error that says what is wrong with the link. */
 export async function experimentIn(hash: string): Promise<Experiment> {
   try {
-    return readExperiment(unpackAll(await unpacked(hash.slice(KEY.length))));
+    const [letters = ''] = hash.slice(KEY.length).split('&');
+    return readExperiment(unpackAll(await unpacked(letters)));
   } catch (cause) {
     const why = messageOf(cause);
     throw new Error(`This link does not work, so nothing was changed. ${why}`, { cause });

@@ -151,6 +151,8 @@ export interface Beginning {
   readonly own: Work | undefined;
   /** Why that cannot be read, where it cannot. */
   readonly unread: string | undefined;
+  /** The time at which its run stands; without it, it drives. */
+  readonly moment_s: number | undefined;
 }
 
 export type Command =

@@ -197,6 +197,26 @@ async function seek(tick: number, id: number): Promise<void> {
   show();
 }
 
+/** Drives on to a time of the run as fast as it goes, and stands there. */
+async function driveTo(time_s: number): Promise<void> {
+  if (!session) return;
+  const tick = Math.round(time_s / session.info.period_s);
+  playing = true;
+  try {
+    let rested_ms = performance.now();
+    while (session.running && session.standing.tick < tick) {
+      advance();
+      if (performance.now() - rested_ms < SLICE_MS) continue;
+      showIfDue();
+      await new Promise((resolve) => setTimeout(resolve));
+      rested_ms = performance.now();
+    }
+  } finally {
+    playing = false;
+  }
+  show();
+}
+
 function showPatch(patch: GroundPatch): void {
   post({ type: 'ground', patch, solids: session?.solids() ?? [] }, [patch.heights_m.buffer]);
   beginOtherFuture();
@@ -238,7 +258,8 @@ async function load(source: Source, play: boolean, id: number): Promise<void> {
 async function carryOut(command: Command, id: number): Promise<unknown> {
   if (command.type === 'begin') {
     const { source, ...beginning } = await beginningAt(command.address);
-    await load(source, true, id);
+    await load(source, beginning.moment_s === undefined, id);
+    if (beginning.moment_s !== undefined) await driveTo(beginning.moment_s);
     return beginning;
   }
   if (command.type === 'load') {
