@@ -148,10 +148,55 @@ test('two lines put a scene into a page, and its API drives it', async ({ page }
   expect(shown.state).toMatchObject({ scenario: 'gsb', seed: 7, preset: 'paper', tick: 1 });
   expect(shown.refused).toContain('nowhere');
   expect(shown.scan).toBeGreaterThan(3000);
-  const box = await page.locator('mapless-scene').boundingBox();
+  const size = () => page.locator('mapless-scene').boundingBox();
+  const { height: window_px = 0 } = page.viewportSize() ?? {};
+  expect((await size())?.height).toBeCloseTo(0.8 * window_px, 0);
+  await page.setViewportSize({ width: 800, height: window_px });
+  const box = await size();
   expect((box?.width ?? 0) / (box?.height ?? 1)).toBeCloseTo(1.6, 1);
   await expect(page.frameLocator('mapless-scene iframe').getByRole('button', { name: 'Play' })).toBeVisible();
   expect(faults).toEqual([]);
+});
+
+test('a wheel over a scene scrolls the page, until Ctrl is held or the scene was pressed into', async ({ page }) => {
+  await open(
+    page,
+    'reading.html',
+    `<script type="module" src="node_modules/mapless-scene/scene.js"></script>
+<h1>Reading</h1>
+<mapless-scene scenario="gsb" t="1"></mapless-scene>
+<div style="height: 3000px">More to read</div>`,
+  );
+  const stands = await page.evaluate(async () => await (await document.querySelector('mapless-scene')?.api)?.state());
+  expect(stands).toMatchObject({ playing: false, tick: 10 });
+  const scrolled = () => page.evaluate(() => window.scrollY);
+  const picture = async () => {
+    await page.evaluate(async () => (await document.querySelector('mapless-scene')?.api)?.still());
+    return page.locator('mapless-scene').screenshot();
+  };
+  const box = await page.locator('mapless-scene').boundingBox();
+  const [x, y] = [(box?.x ?? 0) + 300, (box?.y ?? 0) + 200];
+  await page.mouse.move(x, y);
+  await page.mouse.wheel(0, 120);
+  await expect.poll(scrolled).toBe(120);
+  await page.mouse.wheel(0, -120);
+  await expect.poll(scrolled).toBe(0);
+  const before = await picture();
+  await page.keyboard.down('Control');
+  await page.mouse.wheel(0, -240);
+  await page.keyboard.up('Control');
+  await expect.poll(async () => (await picture()).equals(before)).toBe(false);
+  expect(await scrolled()).toBe(0);
+  await page.mouse.click(x, y);
+  await page.mouse.wheel(0, 120);
+  const zoomed = await picture();
+  expect(zoomed.equals(before)).toBe(false);
+  expect(await scrolled()).toBe(0);
+  // Whoever presses elsewhere reads on.
+  await page.getByRole('heading', { name: 'Reading' }).click();
+  await page.mouse.move(x, y);
+  await page.mouse.wheel(0, 120);
+  await expect.poll(scrolled).toBe(120);
 });
 
 test('the example page runs and is used by its button', async ({ page }) => {

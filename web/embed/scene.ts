@@ -16,7 +16,7 @@ export type SceneApi = {
 };
 
 /** What the address of the scene says. */
-const ASKED = ['scenario', 'seed', 'preset', 'learning', 'reality'] as const;
+const ASKED = ['scenario', 'seed', 'preset', 'learning', 'reality', 't'] as const;
 
 export class MaplessScene extends HTMLElement {
   /** Another place where the page is served, set before the scene is in the document; the package has it beside this file. */
@@ -43,7 +43,7 @@ export class MaplessScene extends HTMLElement {
     this.#frame.src = `${MaplessScene.page}?${['embed', ...asked].join('&')}`;
     this.#frame.title = this.getAttribute('title') ?? 'A robot drives over uneven ground';
     Object.assign(this.#frame.style, { border: '0', width: '100%', height: '100%', display: 'block' });
-    if (!this.style.display) Object.assign(this.style, { display: 'block', aspectRatio: '16 / 10' });
+    if (!this.style.display) Object.assign(this.style, { display: 'block', aspectRatio: '16 / 10', maxHeight: '80vh' });
     window.addEventListener('message', this.#hear);
     this.replaceChildren(this.#frame);
   }

@@ -8,6 +8,7 @@ import { type Experiment, FIRST_SETUP } from '../experiment/experiment.ts';
 import { linkTo } from '../experiment/link.ts';
 import type { Notice } from '../notices/notice.ts';
 import type { Beginning } from '../protocol/simulationProtocol.ts';
+import { leaveWheel } from '../view/frameWheel.ts';
 
 /** `begun` is what the core loads; `beginAt` has it load what it would at a shorter address. Returns what it began with, if anything of it worked. */
 export async function begin(
@@ -17,7 +18,10 @@ export async function begin(
   beginAt: (search: string) => Promise<Beginning>,
 ): Promise<Beginning | undefined> {
   // In another page's frame: the view alone, with a way out of it.
-  if (new URLSearchParams(location.search).has('embed')) document.documentElement.toggleAttribute('data-embed', true);
+  if (new URLSearchParams(location.search).has('embed')) {
+    document.documentElement.toggleAttribute('data-embed', true);
+    leaveWheel();
+  }
   try {
     const beginning = await app.begin(begun);
     welcome(app, notice, beginning);
