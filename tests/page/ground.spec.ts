@@ -139,3 +139,34 @@ test('a press beside the ground says so, and the next one on it works', async ({
   await until(page, (now) => moved(now.goal, old.goal));
   await expect(hint).toHaveText('Press for the goal, drag for a final heading');
 });
+
+test('a run that has ended stands still under a brush, gives no advice on the mount, and goes on by Play', async ({
+  mapless: page,
+}) => {
+  await page.evaluate(() => window.mapless?.pause());
+  await page.evaluate(() => window.mapless?.restart());
+  const { start } = await state(page);
+  const beside = (left_m: number) => [
+    Math.round(100 * (start.x - left_m * Math.sin(start.heading_rad))),
+    Math.round(100 * (start.y + left_m * Math.cos(start.heading_rad))),
+  ];
+  // One side of the robot stands on a steep hill.
+  await page.evaluate(
+    (points_cm) => window.mapless?.sculpt({ kind: 'raise', radius_m: 3, strength_m: 3, points_cm }),
+    [...beside(1.5)],
+  );
+  await page.evaluate(() => window.mapless?.play());
+  await until(page, (now) => now.outcome !== 'running');
+  const ended = await state(page);
+  expect(ended.outcome).toBe('tilt_limit');
+  expect(ended.mountMisfit).toBeDefined();
+  await expect(page.locator('#notice')).toBeHidden();
+  await page.evaluate(
+    (points_cm) => window.mapless?.sculpt({ kind: 'lower', radius_m: 3, strength_m: 3, points_cm }),
+    [...beside(1.5)],
+  );
+  await still(page);
+  expect(await state(page)).toMatchObject({ tick: ended.tick, playing: false, metrics: ended.metrics });
+  await page.getByRole('button', { name: 'Play' }).click();
+  await until(page, (now) => now.tick > ended.tick);
+});

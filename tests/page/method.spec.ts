@@ -457,3 +457,54 @@ test.describe('on a phone', () => {
     expect((await state(page)).timeline.first).toBe(tick);
   });
 });
+
+test('a process without a solution is named as such, with what to do', async ({ mapless: page }) => {
+  await pausedAt(page, 40);
+  await openByHand(page);
+  const kernel = { variance: 1e9, length_scales_rad: [1, 1] };
+  await adjust(page, { planner: { perception: { noise_variance_m2: 1e-9, kernel } } });
+  await expect(page.locator('.method-error')).toHaveText(
+    'No skyline: the noise is too small for this kernel. Press Default, or As it was.',
+  );
+  await expect(page.locator('#notice-text')).toHaveText(/^The Gaussian process has no solution: /);
+  await page.locator('#what-if-go-on').click();
+  await until(page, (now) => now.outcome === 'no_subgoal');
+  await expect(page.locator('#outcome')).toHaveText('Perception failed');
+  await expect(page.locator('#result-words')).toHaveText('Perception failed');
+  await expect(page.locator('#reason')).toHaveText(/^The Gaussian process has no solution for this scan: /);
+});
+
+test('a press in the image moves the slice; with By press it takes an inducing input away', async ({
+  mapless: page,
+}) => {
+  await pausedAt(page, 60);
+  await openByHand(page);
+  const count = page.locator('.method-count');
+  await expect(count).toHaveText(/^\d+$/);
+  const all = await count.textContent();
+  const image = page.locator('#variance');
+  /** Presses below the middle, until one meets an inducing input if any does. */
+  const press = async () => {
+    for (const across of [0.4, 0.42, 0.44, 0.46]) {
+      for (const down of [0.5, 0.55, 0.6, 0.65]) {
+        const { x, y } = await within(image, across, down);
+        await page.mouse.click(x, y);
+        if ((await count.textContent()) !== all) return;
+      }
+    }
+  };
+  await press();
+  await expect(page.locator('.slice-canvas')).toHaveAttribute('aria-label', /^Slice \d+° left: /);
+  await still(page);
+  await expect(count).toHaveText(all ?? '');
+  const byPress = page.getByRole('button', { name: 'By press' });
+  await byPress.focus();
+  await page.keyboard.press('Enter');
+  await expect(byPress).toHaveAttribute('aria-pressed', 'true');
+  await press();
+  await expect(count).toHaveText(new RegExp(`^\\d+ of ${all}$`));
+  // The next time the panel opens, a press takes nothing.
+  await page.getByRole('button', { name: 'By hand' }).click();
+  await page.getByRole('button', { name: 'By hand' }).click();
+  await expect(byPress).toHaveAttribute('aria-pressed', 'false');
+});

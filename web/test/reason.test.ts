@@ -44,6 +44,10 @@ test('names what the body touched, and where', () => {
 test('passes on why the planner stopped', () => {
   const stopped = frame({ outcome: 'no_subgoal', stop_reason: 'no subgoal found after looking around' });
   assert.equal(reason(stopped, info), 'No subgoal found after looking around.');
+  assert.equal(standing(stopped, true), 'No safe path found');
+  const unseen = frame({ outcome: 'no_subgoal', stop_reason: 'no perception: no inducing inputs' });
+  assert.equal(reason(unseen, info), 'The Gaussian process has no solution for this scan: no inducing inputs.');
+  assert.equal(standing(unseen, true), 'Perception failed');
 });
 
 test('says what it does without a candidate', () => {

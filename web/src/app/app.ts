@@ -211,6 +211,7 @@ export class App {
     this.#core.listen({
       session: (info, loaded) => this.#onSession(info, loaded),
       frame: (frame) => this.#onFrame(frame),
+      stands: () => this.#show(false),
       ground: (patch, solids) => this.#onPatch(patch, solids),
       failure: (message, panicked) => this.#onFailure(message, panicked),
       slow: () => this.#views.slow(() => this.#stopOpening()),

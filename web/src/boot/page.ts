@@ -21,11 +21,10 @@ import { countOverrides } from '../experiment/overrides.ts';
 import type { HeightField } from '../ground/heightField.ts';
 import { AttitudeInstrument, PITCH, ROLL } from '../inspector/attitude.ts';
 import { Inspector } from '../inspector/inspector.ts';
-import { OUTCOME_WORDS, StatusPanel } from '../inspector/status.ts';
+import { outcomeWords, StatusPanel } from '../inspector/status.ts';
 import type { Lab } from '../lab/lab.ts';
 import { Measure } from '../measurements/measurements.ts';
 import { watchFaults, watchGraphics } from '../notices/faults.ts';
-import { MountNotice } from '../notices/mountNotice.ts';
 import { Notice } from '../notices/notice.ts';
 import { keepOffline } from '../offline/register.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
@@ -42,7 +41,6 @@ import { begin, leadOut } from './welcome.ts';
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
 const notice = new Notice();
-const mountNotice = new MountNotice(notice);
 const roll = new AttitudeInstrument(ROLL);
 const pitch = new AttitudeInstrument(PITCH);
 element('attitude').append(roll.element, pitch.element);
@@ -128,7 +126,7 @@ const app = new App(core, {
     controls.showPlaying(playing && frame.outcome === 'running');
     result.hidden = frame.outcome === 'running';
     result.dataset.outcome = frame.outcome;
-    setText(element('result-words'), OUTCOME_WORDS[frame.outcome]);
+    setText(element('result-words'), outcomeWords(frame));
   },
   sculpted(patch, solids) {
     stage?.sculpted(patch, solids);
@@ -176,7 +174,6 @@ const shared = {
   },
   frame(frame: Frame) {
     stage?.frame(frame);
-    mountNotice.show(frame);
     timeline.show(frame);
     inspector.frame(frame);
     // Of a recording the largest so far is not kept.

@@ -1,8 +1,16 @@
-/** Why the robot does what it does, in one sentence. */
+/** Why the robot does what it does, in one sentence, and what ended its run. */
 
 import { degrees, fixed } from '../base/format.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { direction } from './decision.ts';
+
+/** What the core says before the fault of a Gaussian process that has no solution. */
+const NO_PERCEPTION = 'no perception: ';
+
+/** Why there were no surfaces to decide on, where that is what stopped the robot. */
+export function perceptionFault({ stop_reason }: Pick<Frame, 'stop_reason'>): string | undefined {
+  return stop_reason?.startsWith(NO_PERCEPTION) ? stop_reason.slice(NO_PERCEPTION.length) : undefined;
+}
 
 export function reason(frame: Frame, info: SessionInfo): string {
   const { metrics, stop_reason } = frame;
@@ -22,7 +30,7 @@ export function reason(frame: Frame, info: SessionInfo): string {
     case 'stuck':
       return 'It stayed within half a metre for a minute.';
     case 'no_subgoal':
-      return stop_reason ? sentence(stop_reason) : 'It found no subgoal.';
+      return stop_reason ? stopped(stop_reason) : 'It found no subgoal.';
     case 'left_terrain':
       return 'A wheel would have left the terrain.';
     case 'timeout':
@@ -36,7 +44,7 @@ function activity({ activity, tick, thought, subgoals, stop_reason }: Frame): st
   if (activity === 'backtracking')
     return 'The ground is steeper than predicted, or no path leads on: backtracks along its own path.';
   if (activity === 'searching') return 'No path is safe enough: turns on the spot and searches for one.';
-  if (activity === 'stopped') return stop_reason ? sentence(stop_reason) : 'Stands still.';
+  if (activity === 'stopped') return stop_reason ? stopped(stop_reason) : 'Stands still.';
   const chosen = subgoals.find((one) => one.chosen);
   if (!chosen) return '';
   if (!chosen.cost) return 'The goal is in sight and the path is clear: drives to it.';
@@ -44,6 +52,11 @@ function activity({ activity, tick, thought, subgoals, stop_reason }: Frame): st
   const bearing = direction(chosen.azimuth_rad);
   const heads = bearing === 'ahead' ? 'Straight ahead' : `Heads ${bearing}`;
   return candidates === 1 ? `${heads}: the only candidate.` : `${heads}: the cheapest of ${candidates} candidates.`;
+}
+
+function stopped(stop_reason: string): string {
+  const fault = perceptionFault({ stop_reason });
+  return fault ? `The Gaussian process has no solution for this scan: ${fault}.` : sentence(stop_reason);
 }
 
 function sentence(text: string): string {

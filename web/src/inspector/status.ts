@@ -3,7 +3,7 @@
 import { setText } from '../base/dom.ts';
 import { clock, fixed, grouped } from '../base/format.ts';
 import type { Activity, Frame, Outcome, SessionInfo } from '../protocol/simulationProtocol.ts';
-import { reason } from './reason.ts';
+import { perceptionFault, reason } from './reason.ts';
 
 export const OUTCOME_WORDS: Record<Outcome, string> = {
   running: 'Driving',
@@ -18,6 +18,12 @@ export const OUTCOME_WORDS: Record<Outcome, string> = {
   timeout: 'Out of time',
 };
 
+/** How a trial ended; a planner that saw nothing has not looked for a path in vain. */
+export function outcomeWords(frame: Pick<Frame, 'outcome' | 'stop_reason'>): string {
+  const unseen = frame.outcome === 'no_subgoal' && perceptionFault(frame) !== undefined;
+  return unseen ? 'Perception failed' : OUTCOME_WORDS[frame.outcome];
+}
+
 const ACTIVITY_WORDS: Record<Activity, string> = {
   driving: 'Driving',
   arrived: 'Driving',
@@ -27,9 +33,10 @@ const ACTIVITY_WORDS: Record<Activity, string> = {
 };
 
 /** How the trial stands, in two or three words. */
-export function standing({ outcome, activity, thought }: Frame, playing: boolean): string {
+export function standing(frame: Frame, playing: boolean): string {
+  const { outcome, activity, thought } = frame;
   if (!playing && thought === 'what_if') return 'What if';
-  if (outcome !== 'running') return OUTCOME_WORDS[outcome];
+  if (outcome !== 'running') return outcomeWords(frame);
   return playing ? ACTIVITY_WORDS[activity] : 'Paused';
 }
 

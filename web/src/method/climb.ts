@@ -52,6 +52,7 @@ export class Climb {
     try {
       this.#steps = await this.#host.begin();
     } catch (error) {
+      this.#open(false);
       this.#host.failed(error);
       return;
     }

@@ -33,6 +33,10 @@ export class InducingInputs {
   readonly #choice = html('select');
   readonly #said = html('span', 'method-count');
   readonly #take = button('plain', 'Take one away', () => this.#takeNearest());
+  /** Without it, a press in the image only moves the slice. */
+  readonly #byPress = button('plain', 'By press', () => {
+    this.#byPress.setAttribute('aria-pressed', String(!this.#pressTakes));
+  });
   readonly #back = button('plain', 'Put back', () => this.#putBack());
   readonly #newest = new Newest();
   #without: readonly number[] = [];
@@ -49,11 +53,13 @@ export class InducingInputs {
       this.#without = [];
       this.#answer(true);
     });
-    this.#take.title = 'The one nearest to the slice: a false hole may open there. Or press any in the image.';
+    this.#take.title = 'The one nearest to the slice: a false hole may open there';
+    this.#byPress.title = 'A press in the image takes an inducing input away, or puts it back';
+    this.#byPress.setAttribute('aria-pressed', 'false');
     this.#back.disabled = true;
     this.element = html('div', 'method-inputs', [
       html('label', 'method-choice', [html('span', '', ['Inducing inputs']), this.#choice]),
-      html('div', 'method-row', [this.#said, this.#take, this.#back]),
+      html('div', 'method-row', [this.#said, this.#take, this.#byPress, this.#back]),
     ]);
   }
 
@@ -84,12 +90,18 @@ export class InducingInputs {
 
   reset(): void {
     this.#choice.value = '';
+    this.#byPress.setAttribute('aria-pressed', 'false');
     this.#forget();
   }
 
-  /** Takes away the input pressed, or puts it back. */
-  toggleAt(column: number, row: number): void {
+  get #pressTakes(): boolean {
+    return this.#byPress.getAttribute('aria-pressed') === 'true';
+  }
+
+  /** The image was pressed here: takes away the input there, or puts it back, where presses do. */
+  pressed(column: number, row: number): void {
     this.#at = { column, row };
+    if (!this.#pressTakes) return;
     const near = this.#nearest(
       (one) => this.#apart(one, column) <= REACH.columns && Math.abs(one.row - row) <= REACH.rows,
     );

@@ -7,11 +7,13 @@ import '../style/method.css';
 import type { App } from '../app/app.ts';
 import { button, html, setText } from '../base/dom.ts';
 import { degrees, fixed, wrap } from '../base/format.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { Newest } from '../base/newest.ts';
 import { readTheme, type Theme } from '../colours/theme.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Plot } from '../inspector/imagePlot.ts';
 import { azimuthOf, columnOf, rowOf } from '../inspector/lattice.ts';
+import { perceptionFault } from '../inspector/reason.ts';
 import type { VarianceImage } from '../inspector/varianceImage.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { Climb } from './climb.ts';
@@ -27,6 +29,9 @@ import {
 import { errorWords, skylineError } from './skylineError.ts';
 import { drawSlice } from './slice.ts';
 import { ThresholdHandle } from './thresholdHandle.ts';
+
+/** What helps where the process has no solution. */
+const REMEDY = 'the noise is too small for this kernel. Press Default, or As it was.';
 
 export class Method {
   readonly #app: App;
@@ -68,7 +73,7 @@ export class Method {
       look: (question) => app.insight.lookInside(question),
       changed: () => this.#showInside(),
       pause: () => app.pause(),
-      failed: (error) => app.attempt(Promise.reject(error)),
+      failed: (error) => app.attempt(Promise.reject(unsolved(error))),
     });
     this.#climb = new Climb({
       begin: async () => {
@@ -77,7 +82,7 @@ export class Method {
       },
       move: (values) => this.#move(values),
       set: (values) => this.#set(values),
-      failed: (error) => app.attempt(Promise.reject(error)),
+      failed: (error) => app.attempt(Promise.reject(unsolved(error))),
     });
     this.#build();
     seen.append(this.#element);
@@ -89,7 +94,7 @@ export class Method {
     });
     canvas.addEventListener('click', (event) => {
       this.#point(event);
-      if (this.#open) this.#inputs.toggleAt(this.#column, this.#row);
+      if (this.#open) this.#inputs.pressed(this.#column, this.#row);
     });
     if (app.info) this.session(app.info);
     if (app.frame) this.frame(app.frame);
@@ -249,8 +254,13 @@ export class Method {
     this.#image.again();
   }
 
-  #sayError({ occupancy_radius_m }: SessionInfo, { buffers, thought }: Frame): void {
+  #sayError({ occupancy_radius_m }: SessionInfo, frame: Frame): void {
+    const { buffers, thought } = frame;
     const { truth } = buffers;
+    if (perceptionFault(frame)) {
+      setText(this.#error, `No skyline: ${REMEDY}`);
+      return;
+    }
     const profile = (this.#inputs.isOwn === false && this.#inputs.inside?.profile) || buffers.profile;
     const now = skylineError(profile, truth);
     const before = thought === 'what_if' ? skylineError(buffers.former, truth) : undefined;
@@ -309,4 +319,12 @@ export class Method {
     context.lineTo(x, plot.top + plot.height);
     context.stroke();
   }
+}
+
+/** The core's words for a process without a solution, and what to do. */
+function unsolved(error: unknown): Error {
+  const why = messageOf(error);
+  return new Error(
+    why.includes('positive definite') ? `The Gaussian process has no solution: ${REMEDY} (${why})` : why,
+  );
 }

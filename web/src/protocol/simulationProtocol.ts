@@ -217,6 +217,8 @@ export type FromSimulation =
   | { type: 'opening'; id: number }
   | { type: 'session'; info: SessionInfo; loaded: Loaded | undefined }
   | { type: 'frame'; frame: Frame }
+  /** It plays no longer, though nobody asked for that. */
+  | { type: 'stands' }
   /** New heights, and the shapes of what stands on them now. */
   | { type: 'ground'; patch: GroundPatch; solids: readonly Solid[] }
   | { type: 'done'; id: number; value: unknown }

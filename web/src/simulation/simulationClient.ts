@@ -20,6 +20,8 @@ const SLOW_MS = 5000;
 export interface SimulationEvents {
   session(info: SessionInfo, loaded: Loaded | undefined): void;
   frame(frame: Frame): void;
+  /** It plays no longer, though nobody asked for that. */
+  stands(): void;
   ground(patch: GroundPatch, solids: readonly Solid[]): void;
   /** An error that no request is waiting for, or any panic. After a panic the simulation is gone. */
   failure(message: string, panicked: boolean): void;
@@ -119,6 +121,9 @@ export class SimulationClient {
         break;
       case 'frame':
         events.frame(message.frame);
+        break;
+      case 'stands':
+        events.stands();
         break;
       case 'ground':
         events.ground(message.patch, message.solids);

@@ -222,6 +222,14 @@ function showPatch(patch: GroundPatch): void {
   beginOtherFuture();
 }
 
+/** A run that has ended badly stands, though a change of the ground under it lets it go on. */
+function standIfEnded(): void {
+  const outcome = session?.standing.outcome;
+  if (!playing || outcome === 'running' || outcome === 'reached') return;
+  playing = false;
+  post({ type: 'stands' });
+}
+
 /** What is only tried at this pose holds for the run from here on. */
 function adoptTried(): void {
   if (!session?.tries) return;
@@ -345,16 +353,19 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
       openFromStart();
       break;
     case 'objects':
+      standIfEnded();
       session.setObjects(command.objects);
       tellSession();
       beginOtherFuture();
       break;
     case 'sculpt': {
+      standIfEnded();
       const patch = session.sculpt(command.stroke);
       if (patch) showPatch(patch);
       break;
     }
     case 'replace':
+      standIfEnded();
       session.replaceGround(command.patch);
       showPatch(command.patch);
       break;
