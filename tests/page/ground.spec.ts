@@ -165,7 +165,8 @@ test('a run that has ended stands still under a brush, gives no advice on the mo
     (points_cm) => window.mapless?.sculpt({ kind: 'lower', radius_m: 3, strength_m: 3, points_cm }),
     [...beside(1.5)],
   );
-  await still(page);
+  // Two ticks would have come by now.
+  await page.waitForTimeout(300);
   expect(await state(page)).toMatchObject({ tick: ended.tick, playing: false, metrics: ended.metrics });
   await page.getByRole('button', { name: 'Play' }).click();
   await until(page, (now) => now.tick > ended.tick);

@@ -90,8 +90,8 @@ test('a value that is none is said at once, one that is refused when it is drive
   await expect(page.getByRole('tab', { name: 'Parameters' })).toBeFocused();
   for (let tabs = 0; tabs < 3; tabs += 1) await page.keyboard.press('ArrowRight');
   await expect(page.getByRole('tab', { name: 'Sweep' })).toBeFocused();
-  // The button that closes the drawer, the parameter, the values.
-  for (let tabs = 0; tabs < 3; tabs += 1) await page.keyboard.press('Tab');
+  // The button that closes the drawer, the planner, the parameter, the values.
+  for (let tabs = 0; tabs < 4; tabs += 1) await page.keyboard.press('Tab');
   await expect(tab(page).getByLabel('Values')).toBeFocused();
   await page.keyboard.press('Control+A');
   // With letters that are keys of the page elsewhere.

@@ -68,10 +68,10 @@ export class SweepTab implements Tab {
     this.#table.append(html('thead', '', [html('tr', '', head)]), this.#rows);
     this.element.append(
       html('div', 'sweep-form', [
+        ...labelled(this.#planner.select),
         ...labelled(this.#parameter),
         ...labelled(this.#values),
         ...labelled(this.#count),
-        ...labelled(this.#planner.select),
       ]),
       html('div', 'lab-row', [this.#start, this.#cancel]),
       this.#note,
