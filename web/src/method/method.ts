@@ -257,8 +257,9 @@ export class Method {
   #sayError({ occupancy_radius_m }: SessionInfo, frame: Frame): void {
     const { buffers, thought } = frame;
     const { truth } = buffers;
-    if (perceptionFault(frame)) {
-      setText(this.#error, `No skyline: ${REMEDY}`);
+    const fault = perceptionFault(frame);
+    if (fault) {
+      setText(this.#error, `No skyline: ${helpWith(fault)}`);
       return;
     }
     const profile = (this.#inputs.isOwn === false && this.#inputs.inside?.profile) || buffers.profile;
@@ -321,10 +322,14 @@ export class Method {
   }
 }
 
-/** The core's words for a process without a solution, and what to do. */
+/** What to do where the process has no solution; the core's own words for anything else. */
+function helpWith(why: string): string {
+  return why.includes('positive definite') ? REMEDY : `${why}.`;
+}
+
+/** As it is said over the view. */
 function unsolved(error: unknown): Error {
   const why = messageOf(error);
-  return new Error(
-    why.includes('positive definite') ? `The Gaussian process has no solution: ${REMEDY} (${why})` : why,
-  );
+  const help = helpWith(why);
+  return new Error(help === REMEDY ? `The Gaussian process has no solution: ${REMEDY} (${why})` : why);
 }
