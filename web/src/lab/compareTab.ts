@@ -2,17 +2,15 @@
 
 import type { App } from '../app/app.ts';
 import { button, html, setText } from '../base/dom.ts';
-import { fixed } from '../base/format.ts';
 import { differences } from '../experiment/differences.ts';
 import { inIdealWorld } from '../experiment/reality.ts';
 import { download } from '../files/download.ts';
-import { type Confined, confine, type OwnPlanner } from '../guest/confinement.ts';
+import type { OwnPlanner } from '../guest/confinement.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { routeOf, trialsCsv } from '../trials/batchFiles.ts';
 import { courseOf, drivenWith } from '../trials/course.ts';
-import { GhostRun } from '../trials/ghostRun.ts';
-import { type RunningJob, startJob } from '../trials/trialsClient.ts';
-import { type Course, type FromTrials, OWN_PLANNER, type Rider, type TrialResult } from '../trials/trialsProtocol.ts';
+import type { GhostRun } from '../trials/ghostRun.ts';
+import type { Rider, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Stage } from '../view/stage.ts';
 import { ComparisonTable } from './comparisonTable.ts';
 import { GhostTrails } from './ghostTrails.ts';
@@ -20,6 +18,7 @@ import { shownTick } from './inStep.ts';
 import { KeptSets } from './keptSets.ts';
 import type { Tab } from './lab.ts';
 import { OwnPlannerCard } from './ownPlanner.ts';
+import { OwnRider, type OwnRiderHeard } from './ownRider.ts';
 import { IDEAL_RIVAL, OWN_RIVAL, RIVALS, type Rival, SET_RIVALS } from './planners.ts';
 import { Riders } from './riders.ts';
 
@@ -53,20 +52,20 @@ export class CompareTab implements Tab {
   readonly #save = html('div', 'lab-row', [button('plain', 'Save as CSV', () => this.#saveCsv())]);
   readonly #card = new OwnPlannerCard((planner) => this.#drive(planner));
   #own: OwnPlanner | undefined;
-  #confined: Confined | undefined;
-  /** Those that broke off: what they have driven stays in sight. */
-  readonly #broken = new Set<string>();
-  readonly #riders = new Riders({
+  readonly #heard: OwnRiderHeard = {
     driven: (entered) => {
       if (entered) this.#showGhosts();
       this.#show();
     },
     fault: (planner, message) => this.#refused(planner, message),
-  });
-  #ownJob: RunningJob | undefined;
-  #ownRun: GhostRun | undefined;
-  /** What somebody's own planner began on. */
-  #ownKey = '';
+    said: (words) => this.#card.say(words),
+    broke: (words) => {
+      this.#card.fault(words);
+      this.#show();
+    },
+  };
+  readonly #riders = new Riders(this.#heard);
+  readonly #ownRider = new OwnRider(this.#heard);
   #chosen: readonly Rival[] = [];
   #session = '';
   /** How often the ground has become another one. */
@@ -127,7 +126,7 @@ export class CompareTab implements Tab {
   frame(frame: Frame): void {
     this.#frame = frame;
     this.#riders.until(this.#until);
-    this.#ownJob?.send({ type: 'until', tick: this.#until });
+    this.#ownRider.until(this.#until);
     this.#show();
   }
 
@@ -233,7 +232,7 @@ export class CompareTab implements Tab {
       return;
     }
     this.#own = planner;
-    this.#ownKey = '';
+    this.#ownRider.replaced();
     this.pick(OWN_RIVAL, true);
   }
 
@@ -263,7 +262,7 @@ export class CompareTab implements Tab {
       const course = courseOf(info, field);
       const riders = this.#chosen.filter((rival) => rival !== OWN_RIVAL).map((rival) => this.#rider(rival, info));
       this.#riders.set(course, seed, key, riders);
-      this.#beginOwn(course, seed, key);
+      this.#ownRider.set(course, seed, key, this.#chosen.includes(OWN_RIVAL) ? this.#own : undefined);
     }
     this.#showGhosts();
     this.#table.choose(this.#chosen);
@@ -271,43 +270,9 @@ export class CompareTab implements Tab {
     this.#show();
   }
 
-  #beginOwn(course: Course, seed: number, course_key: string): void {
-    const key = this.#own && this.#chosen.includes(OWN_RIVAL) ? course_key + JSON.stringify(course.overrides) : '';
-    if (key !== '' && key === this.#ownKey) return;
-    this.#ownJob?.stop();
-    this.#confined?.end();
-    [this.#ownJob, this.#confined, this.#ownRun, this.#ownKey] = [undefined, undefined, undefined, key];
-    this.#broken.clear();
-    if (!this.#own || key === '') return;
-    this.#confined = confine(this.#own);
-    this.#card.say(`${this.#own.name} is opened.`);
-    const { port } = this.#confined;
-    this.#ownJob = startJob({ type: 'own', course, seed, port }, (message) => this.#hearOwn(message));
-    this.#ownJob.send({ type: 'until', tick: this.#until });
-  }
-
   get #until(): number {
     if (!this.#frame) return 0;
     return this.#frame.outcome === 'running' ? this.#frame.timeline.end : TO_THE_END;
-  }
-
-  #hearOwn(message: FromTrials): void {
-    if (message.type === 'ghost') {
-      const { rows, result } = message;
-      if (this.#ownRun) this.#ownRun.extend(rows, result);
-      else {
-        this.#ownRun = new GhostRun(rows, result);
-        this.#showGhosts();
-      }
-      this.#show();
-    } else if (message.type === 'took') {
-      this.#card.say(`${this.#own?.name} takes ${fixed(message.decision_ms, 1)} ms for a decision.`);
-    } else if (message.type === 'refused') {
-      this.#confined?.end();
-      this.#broken.add(OWN_PLANNER);
-      this.#card.fault(`${this.#own?.name} ${message.message}`);
-      this.#show();
-    } else if (message.type === 'failed') this.#refused(undefined, message.message);
   }
 
   #refused(planner: string | undefined, message: string): void {
@@ -325,7 +290,7 @@ export class CompareTab implements Tab {
 
   #running(): [Rival, GhostRun][] {
     return this.#chosen.flatMap((rival) => {
-      const run = rival === OWN_RIVAL ? this.#ownRun : this.#riders.runs.get(rival.planner);
+      const run = rival === OWN_RIVAL ? this.#ownRider.run : this.#riders.runs.get(rival.planner);
       return run ? [[rival, run] as [Rival, GhostRun]] : [];
     });
   }
@@ -335,7 +300,7 @@ export class CompareTab implements Tab {
     if (!frame || this.#chosen.length === 0) return;
     this.#stage?.ghostSteps(this.#trails.steps(this.#running().map(([, run]) => shownTick(run, frame))));
     if (this.element.hidden) return;
-    this.#table.show(frame, this.#app.record, this.#results(frame), this.#broken);
+    this.#table.show(frame, this.#app.record, this.#results(frame), this.#ownRider.broken);
   }
 
   /** How those stand that run, by their rivals' planners. */

@@ -6,7 +6,7 @@ import { OUTCOME_WORDS } from '../inspector/status.ts';
 import { METRIC_ROWS } from '../measurements/metrics.ts';
 import type { Frame, Metrics, Outcome, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { RunRecord } from '../run/record.ts';
-import type { TrialResult } from '../trials/trialsProtocol.ts';
+import { OWN_PLANNER, type TrialResult } from '../trials/trialsProtocol.ts';
 import { counterpart, isBehind } from './inStep.ts';
 import { RIVALS, type Rival } from './planners.ts';
 
@@ -44,8 +44,8 @@ export class ComparisonTable {
     this.element.replaceChildren(caption, html('thead', '', [head]), html('tbody', '', rows));
   }
 
-  /** A ghost that is behind is compared with what `record` has of its own last tick. `broken` are those that broke off. */
-  show(frame: Frame, record: RunRecord, results: ReadonlyMap<string, TrialResult>, broken: ReadonlySet<string>): void {
+  /** A ghost that is behind is compared with what `record` has of its own last tick. `ownBroke` says that somebody's own planner broke off. */
+  show(frame: Frame, record: RunRecord, results: ReadonlyMap<string, TrialResult>, ownBroke: boolean): void {
     for (const { planner, cells } of this.#columns) {
       if (planner === undefined) {
         fill(cells, frame.outcome, clock(frame.time_s), (key, decimals) => fixed(frame.metrics[key], decimals));
@@ -54,7 +54,7 @@ export class ComparisonTable {
       const ghost = results.get(planner);
       if (!ghost) continue;
       const own = counterpart(ghost, frame, record);
-      const stands = broken.has(planner);
+      const stands = ownBroke && planner === OWN_PLANNER;
       const time = `${clock(ghost.time_s)}${isBehind(ghost, frame) && !stands ? ', catching up' : ''}`;
       fill(cells, stands ? 'broken' : ghost.outcome, time, (key, decimals) => {
         const difference = own ? ghost.metrics[key] - own[key] : Number.NaN;

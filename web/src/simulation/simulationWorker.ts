@@ -2,31 +2,14 @@
 
 import { messageOf } from '../base/messageOf.ts';
 import { loadCore } from '../bindings/simulationModule.ts';
-import {
-  type Command,
-  type Frame,
-  type FromSimulation,
-  type GroundPatch,
-  type Source,
-  type ToSimulation,
-  transferables,
-} from '../protocol/simulationProtocol.ts';
-import { rowOf } from '../run/record.ts';
+import type { Command, FromSimulation, GroundPatch, Source, ToSimulation } from '../protocol/simulationProtocol.ts';
 import { beginningAt } from './beginning.ts';
+import { Frames } from './frames.ts';
 import { filesOf, openingFrom, preview } from './opening.ts';
 import { Session } from './session.ts';
-import { Trail } from './trail.ts';
 
-/** Frames that the page may have at once, the one it shows among them; while it is slower, frames are skipped. */
-const FRAMES_IN_FLIGHT = 3;
 /** How long the loop may simulate before it listens again, in milliseconds. */
 const SLICE_MS = 12;
-/** No frame is posted sooner after the one before than this. */
-const FRAME_INTERVAL_MS = 50;
-/** No surfaces are predicted sooner after those before than this, which lets every tick have its own at normal speed. */
-const SURFACE_INTERVAL_MS = 80;
-/** Part of the time that predicting surfaces may take while the robot drives. */
-const SURFACE_DUTY = 0.25;
 
 /** Begun at once: it compiles while the page builds its view. Who needs it hears if that fails. */
 const loading = loadCore();
@@ -38,28 +21,11 @@ let speed = 1;
 /** When the next tick is due, on the clock of `performance.now()`. */
 let due_ms = 0;
 let scheduled = false;
-let inFlight = 0;
-let lastFrame_ms = 0;
-let unsent = false;
-/** Whether the page shows the surfaces. */
-let watched = false;
-/** Whether the page shows the true skyline. */
-let truthShown = false;
-/** Whether the newest frame lacks the true skyline though it is shown. */
-let truthLacks = false;
 /** Whether something has changed since the decision that is shown. */
 let rethink = false;
-/** When the next surfaces may be predicted, and whether those that the page has are older than its frame. */
-let surfacesDue_ms = 0;
-let surfacesOld = false;
-const trail = new Trail();
-/** The newest tick that the page has seen; nothing after a jump. */
-let seen: number | undefined;
-let rewound = false;
+const frames = new Frames(post);
 /** The newest wish to go elsewhere in time: older ones are given up. */
 let newestSeek: number | undefined;
-/** Rows of the record since the newest frame. */
-let rows: number[] = [];
 /** Requests are carried out one after the other: loading waits for files. */
 let queue: Promise<void> = Promise.resolve();
 
@@ -109,25 +75,21 @@ function loop(): void {
 }
 
 function advance(): void {
-  if (!session) return;
-  rows.push(...rowOf(session.tick()));
-  notePlace();
-  unsent = true;
+  if (session) frames.drove(session.tick());
 }
 
 /** Posts the newest state unless the page is still busy with earlier ones. */
 function showIfDue(): void {
-  const wait_ms = lastFrame_ms + FRAME_INTERVAL_MS - performance.now();
-  const last = !session?.running;
-  if (!unsent || inFlight >= FRAMES_IN_FLIGHT) return;
-  if (last || wait_ms <= 0) show();
+  if (!frames.due) return;
+  const wait_ms = frames.wait_ms;
+  if (!session?.running || wait_ms <= 0) show();
   // What stands still has no tick after which to look again.
   else if (!running()) setTimeout(loop, wait_ms);
 }
 
 /** What stands still is shown whole: its last tick, and the surfaces where they are looked at. */
 function showAtRest(): void {
-  if (!running() && (unsent || (watched && surfacesOld) || truthLacks)) show();
+  if (!running() && frames.lacking) show();
 }
 
 function show(): void {
@@ -135,35 +97,12 @@ function show(): void {
   if (rethink && !running() && session.running) session.thinkAgain();
   rethink = false;
   if (session.followRoute()) tellSession();
-  const began_ms = performance.now();
-  lastFrame_ms = began_ms;
-  // What stands still shows everything.
-  const surfaces = watched && (!running() || began_ms >= surfacesDue_ms);
-  const { tick } = session.standing;
-  const anew = seen === undefined;
-  const newest = trail.part(seen === undefined ? 0 : seen + 1, tick);
-  const ahead = rewound ? trail.after(tick) : undefined;
-  const truth = truthShown && !running();
-  const frame: Frame = session.frame({ trail: newest, anew, ahead, rows: new Float64Array(rows) }, surfaces, truth);
-  surfacesOld = !surfaces;
-  truthLacks = truthShown && !truth;
-  if (surfaces) {
-    const took_ms = performance.now() - began_ms;
-    surfacesDue_ms = began_ms + Math.max(SURFACE_INTERVAL_MS, took_ms / SURFACE_DUTY);
-  }
-  [seen, rewound] = [tick, false];
-  rows = [];
-  unsent = false;
-  inFlight += 1;
-  post({ type: 'frame', frame }, [...transferables(frame.buffers), frame.trail.buffer, frame.rows.buffer]);
+  frames.show(session, !running());
 }
 
 function openFromStart(): void {
   if (!session) return;
-  const { tick, x, y, z } = session.standing;
-  trail.begin(tick, x, y, z);
-  seen = undefined;
-  rows = [];
+  frames.begin(session.standing);
   due_ms = performance.now();
   show();
 }
@@ -171,12 +110,6 @@ function openFromStart(): void {
 /** Says what is loaded now, on the ground that the page has. */
 function tellSession(): void {
   if (session) post({ type: 'session', info: session.info, loaded: undefined });
-}
-
-function notePlace(): void {
-  if (!session) return;
-  const { tick, x, y, z } = session.standing;
-  trail.put(tick, x, y, z);
 }
 
 /** Goes to a tick: from the nearest copy before it, the ticks in between are run again. */
@@ -192,7 +125,7 @@ async function seek(tick: number, id: number): Promise<void> {
     await new Promise((resolve) => setTimeout(resolve));
     rested_ms = performance.now();
   }
-  [seen, rewound] = [undefined, true];
+  frames.jumped();
   rethink = session.tries;
   show();
 }
@@ -234,16 +167,15 @@ function standIfEnded(): void {
 function adoptTried(): void {
   if (!session?.tries) return;
   session.goOn();
-  trail.cut(session.standing.tick);
-  notePlace();
+  frames.cut(session.standing);
   tellSession();
 }
 
 /** The ground or what stands on it has changed: what came after the present tick happened on another one. */
 function beginOtherFuture(): void {
-  trail.cut(session?.standing.tick ?? 0);
-  notePlace();
-  [unsent, rethink] = [true, true];
+  if (session) frames.cut(session.standing);
+  frames.outdate();
+  rethink = true;
   // The stroke goes on first: a scan of the new ground takes longer than a touch. What drives is shown by the loop.
   if (!running()) setTimeout(loop);
 }
@@ -275,8 +207,8 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
     return;
   }
   if (command.type === 'watch') {
-    watched = command.surfaces;
-    if (watched && surfacesOld) show();
+    frames.watched = command.surfaces;
+    if (frames.surfacesLack) show();
     return;
   }
   if (command.type === 'preview') {
@@ -336,12 +268,12 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
     case 'kernel':
       return session.kernelFrom(command.column, command.row);
     case 'truth':
-      truthShown = command.shown;
+      frames.truthShown = command.shown;
       if (!running()) show();
       break;
     case 'goal':
       session.setRoute(command.waypoints, command.goal);
-      trail.cut(session.standing.tick);
+      frames.cut(session.standing);
       rethink = true;
       tellSession();
       show();
@@ -374,8 +306,7 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
 
 function hear(message: ToSimulation): void {
   if (message.type === 'recycle') {
-    // Frames from before a panic come back to the worker that took over.
-    inFlight = Math.max(0, inFlight - 1);
+    frames.returned();
     session?.recycle(message.buffers);
     try {
       showIfDue();
