@@ -155,7 +155,13 @@ test('two lines put a scene into a page, and its API drives it', async ({ page }
   await page.setViewportSize({ width: 800, height: window_px });
   const box = await size();
   expect((box?.width ?? 0) / (box?.height ?? 1)).toBeCloseTo(1.6, 1);
-  await expect(page.frameLocator('mapless-scene iframe').getByRole('button', { name: 'Play' })).toBeVisible();
+  const scene = page.frameLocator('mapless-scene iframe');
+  await expect(scene.getByRole('button', { name: 'Play' })).toBeVisible();
+  // On a phone, nothing lies over another thing that can be pressed.
+  await page.setViewportSize({ width: 390, height: 844 });
+  await scene.getByRole('link', { name: 'Open in mapless' }).click({ trial: true });
+  for (const name of ['Layers', 'Play', 'See the whole terrain', 'max'])
+    await scene.getByRole('button', { name, exact: true }).click({ trial: true, timeout: 10_000 });
   expect(faults).toEqual([]);
 });
 

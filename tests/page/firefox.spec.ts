@@ -92,6 +92,8 @@ test.describe('in Firefox', () => {
     const shared = await experiment();
     const link = await firefox.evaluate(() => window.mapless?.link());
     await firefox.evaluate(() => window.mapless?.loadScenario('vta'));
+    // What is only looked at is not kept.
+    await firefox.evaluate(() => window.mapless?.setGoal({ x: 30, y: 31 }));
     const own = await kept(firefox);
     expect(own).not.toEqual(shared);
     await firefox.goto('about:blank');
@@ -114,7 +116,7 @@ test.describe('in Firefox', () => {
       const count = document.getElementById('seeds-how-many');
       if (count instanceof HTMLInputElement) count.value = '3';
     });
-    await firefox.click('.lab-action');
+    await firefox.click('[role=tabpanel]:not([hidden]) .lab-action');
     const text = (selector: string) =>
       firefox.evaluate((asked) => document.querySelector(asked)?.textContent, selector);
     await expect.poll(() => text('.seeds-summary')).toContain('3 of 3 (95 %: 44 % to 100 %)');

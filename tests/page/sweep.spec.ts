@@ -183,7 +183,9 @@ test('somebody’s own planner drives seeds and values; where it breaks off is t
   await seeds.getByLabel('Planner').selectOption('own');
   await seeds.getByLabel('How many').fill('3');
   await seeds.getByRole('button', { name: 'Run', exact: true }).click();
-  await expect(seeds.getByRole('status')).toHaveText(/^3 trials of Yours\. .* there is no campaign to save\.$/);
+  await expect(seeds.getByRole('status')).toHaveText(
+    /^3 trials of your planner\.js\. .* there is no campaign to save\.$/,
+  );
   await expect(seeds.locator('.seeds-summary')).toContainText('3 of 3');
   await expect(seeds.getByRole('button', { name: 'Save as campaign' })).toBeHidden();
   await page.getByRole('tab', { name: 'Sweep' }).click();
@@ -192,7 +194,7 @@ test('somebody’s own planner drives seeds and values; where it breaks off is t
   await tab(page).getByLabel('Values').fill('0.01, 0.1');
   await tab(page).getByLabel('Seeds').fill('1');
   await tab(page).getByRole('button', { name: 'Run' }).click();
-  await expect(tab(page).getByRole('status')).toHaveText(/^2 trials of Yours\./);
+  await expect(tab(page).getByRole('status')).toHaveText(/^2 trials of your planner\.js\./);
   await tab(page).getByRole('button', { name: 'Show 0.1 with seed 1' }).click();
   await until(page, (now) => now.outcome === 'reached');
   await page.getByRole('tab', { name: 'Compare' }).click();

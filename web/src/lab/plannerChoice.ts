@@ -62,6 +62,11 @@ export function guestOf({ own }: Driver): Guest | undefined {
   return own && { name: own.name, begin: () => confine(own) };
 }
 
+/** Who drove, in a sentence. */
+export function driverWords({ rival, own }: Driver): string {
+  return own ? `your ${own.name}` : rival.name;
+}
+
 /** How a trial of such a driver is seen. */
 export function seenHow({ rival }: Driver, { preset }: Pick<SessionInfo, 'preset'>): string {
   return rival.planner === preset ? 'driven' : 'driven as a ghost beside the robot in view';

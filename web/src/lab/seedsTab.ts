@@ -16,7 +16,7 @@ import { courseKey, courseOf, drivenWith } from '../trials/course.ts';
 import type { Summary, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
-import { type Beside, type Driver, guestOf, noCampaign, PlannerChoice, seenHow } from './plannerChoice.ts';
+import { type Beside, type Driver, driverWords, guestOf, noCampaign, PlannerChoice, seenHow } from './plannerChoice.ts';
 
 const MOST_SEEDS = 500;
 
@@ -167,13 +167,13 @@ export class SeedsTab implements Tab {
   }
 
   #tellCount(): void {
-    setText(this.#note, `${this.#done} of ${this.#total} trials of ${this.#driver?.rival.name} done.`);
+    setText(this.#note, `${this.#done} of ${this.#total} trials of ${this.#driver && driverWords(this.#driver)} done.`);
   }
 
   get #words(): string {
     const [done, driver] = [this.#done === this.#total ? this.#total : `${this.#done} of ${this.#total}`, this.#driver];
     return driver
-      ? `${done} trials of ${driver.rival.name}. Press a seed to see it ${driver.seen}.${noCampaign(driver)}`
+      ? `${done} trials of ${driverWords(driver)}. Press a seed to see it ${driver.seen}.${noCampaign(driver)}`
       : '';
   }
 

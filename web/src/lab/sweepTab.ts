@@ -15,7 +15,7 @@ import { overridesWith, type Sweep, SweepRun, type SweptTrial, valuesIn } from '
 import type { Summary } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
-import { type Beside, type Driver, guestOf, noCampaign, PlannerChoice, seenHow } from './plannerChoice.ts';
+import { type Beside, type Driver, driverWords, guestOf, noCampaign, PlannerChoice, seenHow } from './plannerChoice.ts';
 import { sweepPlot } from './sweepPlot.ts';
 
 const [MOST_VALUES, MOST_SEEDS] = [20, 100];
@@ -183,7 +183,10 @@ export class SweepTab implements Tab {
   }
 
   #tellCount(): void {
-    setText(this.#note, `${this.#trials.length} of ${this.#total} trials of ${this.#driver?.rival.name} done.`);
+    setText(
+      this.#note,
+      `${this.#trials.length} of ${this.#total} trials of ${this.#driver && driverWords(this.#driver)} done.`,
+    );
   }
 
   get #total(): number {
@@ -195,7 +198,7 @@ export class SweepTab implements Tab {
     const [count, driver] = [this.#trials.length, this.#driver];
     const done = count === this.#total ? count : `${count} of ${this.#total}`;
     return driver
-      ? `${done} trials of ${driver.rival.name}. Press a value to see it ${driver.seen}.${noCampaign(driver)}`
+      ? `${done} trials of ${driverWords(driver)}. Press a value to see it ${driver.seen}.${noCampaign(driver)}`
       : '';
   }
 
