@@ -7,6 +7,7 @@ import type { AddressInfo } from 'node:net';
 import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 import { type Page, test } from '@playwright/test';
+import { DEVICES } from './axe.ts';
 import { driven } from './commandLine.ts';
 import { expect } from './page.ts';
 
@@ -157,12 +158,24 @@ test('two lines put a scene into a page, and its API drives it', async ({ page }
   expect((box?.width ?? 0) / (box?.height ?? 1)).toBeCloseTo(1.6, 1);
   const scene = page.frameLocator('mapless-scene iframe');
   await expect(scene.getByRole('button', { name: 'Play' })).toBeVisible();
-  // On a phone, nothing lies over another thing that can be pressed.
-  await page.setViewportSize({ width: 390, height: 844 });
-  await scene.getByRole('link', { name: 'Open in mapless' }).click({ trial: true });
-  for (const name of ['Layers', 'Play', 'See the whole terrain'])
-    await scene.getByRole('button', { name, exact: true }).click({ trial: true, timeout: 10_000 });
   expect(faults).toEqual([]);
+});
+
+test.describe('on a phone', () => {
+  test.use(DEVICES.phone);
+
+  test('nothing in a scene lies over what can be pressed', async ({ page }) => {
+    await open(
+      page,
+      'phone.html',
+      `<meta name="viewport" content="width=device-width, initial-scale=1">
+<script type="module" src="node_modules/mapless-scene/scene.js"></script><mapless-scene scenario="gsb"></mapless-scene>`,
+    );
+    const scene = page.frameLocator('mapless-scene iframe');
+    await scene.getByRole('link', { name: 'Open in mapless' }).tap({ trial: true });
+    for (const name of ['Layers', 'Pause', 'See the whole terrain'])
+      await scene.getByRole('button', { name, exact: true }).tap({ trial: true, timeout: 30_000 });
+  });
 });
 
 test('a wheel over a scene scrolls the page, until Ctrl is held or the scene was pressed into', async ({ page }) => {
