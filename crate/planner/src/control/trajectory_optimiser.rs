@@ -19,9 +19,10 @@ const EARLY_S: f64 = 0.6;
 const HORIZON_S: f64 = STEP_S * STEPS as f64;
 /// After lost scans, a command changes by no more than in this time.
 const MOST_ELAPSED_S: f64 = 0.2;
-/// A point of a path is passed within this distance; turn rate for each radian to the next one, and the angle
-/// beyond which the robot turns on the spot.
+/// A point of a path is passed within this distance, and its last one reached within this; turn rate for each
+/// radian to the next one, and the angle beyond which the robot turns on the spot.
 const PASSED_M: f64 = 0.3;
+const ARRIVED_M: f64 = 0.05;
 const FOLLOW_GAIN: f64 = 2.0;
 const TURN_FIRST_RAD: f64 = 0.5;
 /// A trajectory that gains less than this, in metres of level ground, leaves the robot where it stands.
@@ -238,14 +239,20 @@ impl TrajectoryOptimiser {
         let mut met = course.met(&pose).unwrap_or(Met { risk: 1.0, utilisation: 1.0 });
         met.utilisation = met.utilisation.max(utilisation);
         let mut way = course.path().peekable();
+        let mut next = way.next();
         for step in 0..STEPS {
             let time_s = STEP_S * (step + 1) as f64;
             let (wanted_speed, wanted) = match law {
                 Law::Plan(plan) => (plan.speed_m_s, plan.turn_rate_rad_s(time_s, last.angular_rad_s)),
                 Law::Follow => {
-                    while way.next_if(|(point_m, _)| point_m.distance(pose.position_m) < PASSED_M).is_some() {
+                    while let Some((point_m, _)) = next
+                        && way.peek().is_some()
+                        && point_m.distance(pose.position_m) < PASSED_M
+                    {
+                        next = way.next();
                     }
-                    way.peek().map_or((0.0, 0.0), |&(point_m, reverse)| self.towards(&pose, point_m, reverse))
+                    let left = next.filter(|(point_m, _)| point_m.distance(pose.position_m) > ARRIVED_M);
+                    left.map_or((0.0, 0.0), |(point_m, reverse)| self.towards(&pose, point_m, reverse))
                 }
             };
             let change_s = if step == 0 { elapsed_s.min(MOST_ELAPSED_S) } else { STEP_S };
