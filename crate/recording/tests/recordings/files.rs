@@ -109,6 +109,18 @@ fn what_is_no_recording_is_refused_with_its_place() {
     assert!(error.messages >= 20 && error.to_string().contains("(byte "), "{error}");
 }
 
+#[test]
+fn a_record_that_claims_more_than_its_chunk_is_an_error_or_a_cut() {
+    let bytes = file(&drive(Plan { seconds: 0.6, ..SHORT }));
+    let ends = message_ends(&bytes);
+    for pair in ends.windows(2).rev().take(5) {
+        let mut bytes = bytes.clone();
+        // The second byte of the length of the record that begins here: the file is long enough, the chunk is not.
+        bytes[pair[0] + 2] += 8;
+        assert!(read(&bytes).map_or(true, |(_, is_cut)| is_cut), "it is taken for whole");
+    }
+}
+
 proptest! {
     #[test]
     fn no_bytes_make_the_reader_panic(mut noise in prop::collection::vec((0_usize..60_000, any::<u8>()), 1..8)) {
