@@ -2,8 +2,8 @@ import { defineConfig, type Plugin } from 'vite';
 import { offline } from './web/build/offline.ts';
 
 /**
- * Nothing leaves the page's own origin: scripts, the worker, wasm and styles come from `self` and nothing else is
- * allowed. Only the built page carries the policy, because the development server injects inline styles.
+ * Scripts, the worker, wasm and styles come from `self` and nothing else is allowed. Data may be fetched from an address
+ * that somebody gives. Only the built page carries the policy, because the development server injects inline styles.
  */
 const contentSecurityPolicy: Plugin = {
   name: 'content-security-policy',
@@ -19,7 +19,7 @@ const contentSecurityPolicy: Plugin = {
           "script-src 'self' 'wasm-unsafe-eval'",
           "style-src 'self'",
           "img-src 'self' data: blob:",
-          "connect-src 'self'",
+          "connect-src 'self' https:",
           "worker-src 'self'",
           // planner.html has a policy of its own: there somebody's own planner is kept.
           "frame-src 'self'",

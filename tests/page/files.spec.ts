@@ -191,6 +191,7 @@ test('files that cannot be opened say why, and change nothing', async ({ mapless
     ['f.toml', 'terrain = "gone.toml"\nstart = [1, 1, 0]\ngoal = [2, 2]\nseed = 1\n', 'choose that file together'],
     ['g.toml', 'terrain = "../ht.toml"\nstart = [1, 1]\ngoal = [2, 2]\nseed = 1\n', 'g.toml'],
     ['h.txt', 'hello', 'h.txt: expected a scenario or recipe'],
+    ['i.toml', 'planners = ["default"]\nroutes = ["a.toml"]\n', 'i.toml: a campaign, which `mapless trials` drives: '],
     ['i.asc', Buffer.alloc((16 << 20) + 1), 'expected at most 16777216'],
   ];
   for (const [name, content, words] of cases) {

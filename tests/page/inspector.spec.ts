@@ -170,6 +170,33 @@ test('the tour goes through by keyboard, pauses for each page and puts everythin
   await expect(page.locator('#detail')).toBeHidden();
 });
 
+test.describe('in a low window', () => {
+  test.use({ viewport: { width: 1280, height: 720 } });
+
+  test('each page of the tour is in sight, and goes on by keys from what was pressed', async ({ mapless: page }) => {
+    await until(page, (now) => now.tick > 5);
+    await page.keyboard.press('h');
+    const card = page.getByRole('dialog', { name: 'Guided tour' });
+    for (let step = 1; step <= 8; step += 1) {
+      await expect(card).toContainText(`${step} of 11`);
+      await expect
+        .poll(async () => {
+          const [box, view] = [await card.boundingBox(), await page.locator('#view').boundingBox()];
+          return (box?.y ?? 0) >= (view?.y ?? 0);
+        })
+        .toBe(true);
+      if (step < 8) await page.keyboard.press('ArrowRight');
+    }
+    await page.getByRole('button', { name: 'Learned…' }).press('Enter');
+    await until(page, (now) => now.thought === 'what_if');
+    await page.keyboard.press('ArrowLeft');
+    await expect(card).toContainText('7 of 11');
+    await page.getByRole('button', { name: 'Default', exact: true }).press('Enter');
+    await page.keyboard.press('Escape');
+    await expect(card).toBeHidden();
+  });
+});
+
 plain.describe('on a phone', () => {
   plain.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 

@@ -78,6 +78,38 @@ test('by keyboard alone; what was kept outlasts a reload, not in links', async (
   await expect(box(page, 'B')).toBeHidden();
 });
 
+test('other parameters in view begin only those anew that drive with them', async ({ mapless: page }) => {
+  const begun: string[] = [];
+  page.on('worker', (worker) => {
+    if (worker.url().includes('trialsWorker')) begun.push(worker.url());
+  });
+  await shortCourse(page, 4);
+  await openLab(page, 'Compare');
+  const direct = tab(page).getByRole('checkbox', { name: /^Direct/ });
+  await direct.check();
+  await keep(page, 'A').click();
+  await page.evaluate(() => window.mapless?.play());
+  await until(page, (now) => now.outcome === 'reached');
+  await expect(cell(page, 'Outcome', 1)).toHaveText('Goal reached');
+  await expect(cell(page, 'Outcome', 2)).toHaveText('Goal reached');
+  const [fast, kept] = [await cell(page, 'Time', 1).textContent(), await cell(page, 'Time', 2).textContent()];
+
+  await page.evaluate((slow) => window.mapless?.setOverrides(slow), SLOW);
+  await page.evaluate(() => window.mapless?.play());
+  await until(page, (now) => now.outcome === 'reached');
+  await expect(cell(page, 'Outcome', 1)).toHaveText('Goal reached');
+  const time_s = (words: string | null) => Number.parseFloat(words?.replace(/^.*:/, '') ?? '');
+  expect(time_s(await cell(page, 'Time', 1).textContent())).toBeGreaterThan(1.2 * time_s(fast));
+  expect(time_s(await cell(page, 'Time', 2).textContent())).toBe(time_s(kept));
+  // One worker for all: it drives on with A, and has Direct begin anew.
+  expect(begun).toHaveLength(1);
+
+  // Another course is another matter.
+  await page.evaluate(() => window.mapless?.restart());
+  await shortCourse(page, 3);
+  await expect.poll(() => begun.length).toBe(2);
+});
+
 test('a set that the core refuses says why, and the others drive', async ({ mapless: page }) => {
   await shortCourse(page, 3);
   await page.evaluate(() =>

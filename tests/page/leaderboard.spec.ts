@@ -44,8 +44,14 @@ for (const [device, options] of Object.entries(DEVICES)) {
       await expect(trials.locator('tbody tr')).toHaveCount(4);
       expect(await faults(page)).toEqual([]);
       await expect(trials.getByRole('button', { name: 'Drive ht, 3 with direct' })).toBeDisabled();
+      await expect(sheet(page).getByRole('status').last()).toHaveText(
+        /^4 trials\. What cannot be pressed: The view drives the planners default and paper;/,
+      );
+      await sheet(page).getByLabel('On route').selectOption('ht');
+      await expect(trials.locator('tbody tr')).toHaveCount(4);
       await sheet(page).getByLabel('Planner').selectOption('default');
       await expect(trials.locator('tbody tr')).toHaveCount(2);
+      await expect(sheet(page).getByRole('status').last()).toHaveText('2 trials.');
       const drive = trials.getByRole('button', { name: 'Drive ht, 4 with default' });
       await (device === 'phone' ? drive.tap() : drive.click());
       await expect(sheet(page)).toHaveCount(0);

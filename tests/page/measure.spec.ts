@@ -261,8 +261,13 @@ test('the digest goes to the clipboard, the paper’s numbers stand beside the r
   await expect(page.locator('.plot-paper')).toHaveCount(0);
   await expect(lesson).toHaveText('Changed: ground, objects, start or route are no longer the scenario’s.');
   await page.evaluate(() => window.mapless?.undo());
-  await expect(paper).toBeVisible();
   await expect(lesson).toContainText('too steep');
+  // The course is the scenario's own again; what drives was changed under way.
+  expect((await state(page)).disturbed).toBe(true);
+  await expect(paper).toBeHidden();
+  await page.evaluate(() => window.mapless?.restart());
+  await expect(paper).toBeVisible();
+  await expect(page.locator('.plot-paper')).toHaveCount(2);
   await page.evaluate(() =>
     window.mapless?.sculpt({ kind: 'raise', radius_m: 2, strength_m: 1, points_cm: [3000, 2000] }),
   );

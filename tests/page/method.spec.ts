@@ -288,6 +288,18 @@ test('learning without bounds climbs step by step, and its skyline runs away', a
   await expect(said).toContainText('Step 0 of');
   // It began where the run's own values are.
   await expect(page.locator('.method-error')).toHaveText(/by (.*); the run’s: \1\.$/);
+  // Other values to begin with are those of no step.
+  await page.getByRole('button', { name: 'Default', exact: true }).click();
+  await expect(said).toBeHidden();
+  await expect(page.getByRole('button', { name: 'Learned…' })).toHaveAttribute('aria-expanded', 'false');
+});
+
+test('a threshold that nothing passes leaves no skyline, and says so', async ({ mapless: page }) => {
+  await pausedAt(page, 60);
+  await openByHand(page);
+  await page.getByRole('slider', { name: 'V_th' }).first().focus();
+  await page.keyboard.press('Home');
+  await expect(page.locator('.method-error')).toHaveText('No skyline: nowhere does the variance cross V_th.');
 });
 
 test('weights are dragged, the candidates weighed anew and the path with them', async ({ mapless: page }) => {

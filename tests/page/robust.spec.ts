@@ -170,10 +170,12 @@ plain('an error in drawing is explained, ends a film with what it has, and all e
   await until(page, (now) => now.tick > tick);
 });
 
-test('the policy of the page allows its own origin only', async ({ mapless: page }) => {
+test('the policy of the page allows its own origin only, and to fetch data', async ({ mapless: page }) => {
   const policy = await page.locator('meta[http-equiv="Content-Security-Policy"]').getAttribute('content');
   expect(policy).toContain("default-src 'none'");
-  expect(policy).not.toMatch(/https?:|\*|unsafe-inline|unsafe-eval'(?<!wasm-unsafe-eval')/);
+  // From an address that somebody gives; nothing that is run.
+  expect(policy).toContain("connect-src 'self' https:;");
+  expect(policy?.replace('https:', '')).not.toMatch(/https?:|\*|unsafe-inline|unsafe-eval'(?<!wasm-unsafe-eval')/);
 });
 
 plain('a damaged wasm file is explained', async ({ page }) => {

@@ -7,7 +7,7 @@ import type { Page } from '@playwright/test';
 import { unzipSync } from 'fflate';
 import { DEVICES, faults } from './axe.ts';
 import { said } from './commandLine.ts';
-import { expect, openLab, shortCourse, state, test, until } from './page.ts';
+import { expect, file, openLab, shortCourse, state, test, until } from './page.ts';
 
 const tab = (page: Page) => page.getByRole('tabpanel', { name: 'Sweep' });
 const PATH = 'planner.perception.variance_threshold';
@@ -75,6 +75,11 @@ test('its campaign gives the same digests on the command line as its table says'
   expect(table.every(({ route }) => /^ht-changed-[0-9a-f]{8}$/.test(route ?? ''))).toBe(true);
   expect(table.every(({ planner }) => planner === 'default')).toBe(true);
   expect(table.every(({ parameters }) => parameters?.startsWith('sensor.range_noise_m=0.03 '))).toBe(true);
+  // What was saved opens again: the course that was driven.
+  const goal = (await state(page)).goal;
+  await page.locator('#files').setInputFiles(file('swept.zip', await saved(page, 'Save as campaign')));
+  await until(page, (now) => now.scenario === 'swept');
+  expect((await state(page)).goal).toEqual(goal);
 });
 
 test('a value that is none is said at once, one that is refused when it is driven; by keyboard', async ({

@@ -32,11 +32,16 @@ pub(crate) fn demo(sh: &Shell, port: u16) -> anyhow::Result<()> {
 }
 
 /// The wasm modules with bindings; the page opens with the first.
-pub(crate) const MODULES: [&str; 4] =
-    ["mapless_wasm", "mapless_wasm_baselines", "mapless_wasm_heights", "mapless_wasm_replay"];
+pub(crate) const MODULES: [&str; 5] = [
+    "mapless_wasm",
+    "mapless_wasm_baselines",
+    "mapless_wasm_heights",
+    "mapless_wasm_replay",
+    "mapless_wasm_verti_bench",
+];
 
 /// `--package` for each module's crate.
-pub(crate) fn package_flags() -> [String; 4] {
+pub(crate) fn package_flags() -> [String; 5] {
     MODULES.map(|module| format!("--package={}", module.replace('_', "-")))
 }
 

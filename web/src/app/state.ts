@@ -1,7 +1,7 @@
 /** The page's state as plain data, for `window.mapless`. */
 
 import type { HeightField } from '../ground/heightField.ts';
-import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
+import { type Frame, isDisturbed, type SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { MaplessState } from './windowApi.ts';
 
 export function stateOf(
@@ -49,6 +49,6 @@ export function stateOf(
     ground: { columns: field.columns, rows: field.rows, cell_m: field.cell_m },
     segments: segments.length,
     subgoals: subgoals.length,
-    disturbed: frame.timeline.first > 0 || frame.timeline.changes.some((tick) => tick > 0),
+    disturbed: isDisturbed(frame.timeline),
   };
 }

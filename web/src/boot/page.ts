@@ -312,7 +312,11 @@ const undoButtons = new UndoButtons(app);
 const terrainsSheet = new TerrainsSheet(
   app,
   async ({ name, bytes }) => (await loadLab()).planner(name, bytes),
-  (file) => recordings.open(file),
+  (file) => {
+    // What was wrong with the file before is not said of this one.
+    notice.hide();
+    return recordings.open(file);
+  },
 );
 const shareSheet = new ShareSheet(app);
 const autosave = new Autosave((why) => notice.show(why));

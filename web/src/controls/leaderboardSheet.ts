@@ -16,12 +16,15 @@ const METRICS = [
   ['Pitch, rad', 'max_abs_pitch_rad', 3],
 ] as const;
 
+const MEANS = 'Means over the trials that reached the goal; roll and pitch are the largest of each trial.';
+
 export class LeaderboardSheet {
   readonly #rows: readonly CampaignRow[];
   readonly #drive: (trial: Replay) => void;
   readonly #sheet = html('dialog', 'sheet sheet-wide');
   readonly #whose = html('select');
   readonly #which = html('select');
+  readonly #where = html('select');
   readonly #note = html('p', 'sheet-note');
   readonly #trials = html('tbody');
 
@@ -45,11 +48,18 @@ export class LeaderboardSheet {
       new Option('failed', 'failed'),
       new Option('reached', 'reached'),
     );
-    for (const select of [this.#whose, this.#which]) select.addEventListener('change', () => this.#list());
-    const filters = html('div', 'row', [field('Planner', this.#whose), field('Outcome', this.#which)]);
+    const routes = [...new Set(rows.map(({ route }) => route))];
+    this.#where.append(new Option('all routes', ''), ...routes.map((one) => new Option(one, one)));
+    for (const select of [this.#whose, this.#which, this.#where]) select.addEventListener('change', () => this.#list());
+    const filters = html('div', 'row', [
+      field('Planner', this.#whose),
+      field('Outcome', this.#which),
+      field('On route', this.#where),
+    ]);
     const trials = table('Trials', ['Drive', 'Planner', 'Outcome', ...METRICS.map(([name]) => name)], this.#trials);
     const map = new PathsMap(rows, scene);
-    this.#sheet.append(close, title, html('div', 'leaderboard'), map.element, filters, this.#note, trials);
+    const means = html('p', 'sheet-note', [MEANS]);
+    this.#sheet.append(close, title, html('div', 'leaderboard'), means, map.element, filters, this.#note, trials);
     this.#sheet.addEventListener('close', () => {
       map.stop();
       this.#sheet.remove();
@@ -65,14 +75,18 @@ export class LeaderboardSheet {
   }
 
   #list(): void {
-    const [whose, which] = [this.#whose.value, this.#which.value];
+    const [whose, which, where] = [this.#whose.value, this.#which.value, this.#where.value];
     const chosen = this.#rows.filter(
       (row) =>
         (whose === '' || nameOf(row) === whose) &&
+        (where === '' || row.route === where) &&
         (which === '' || (row.outcome === 'reached') === (which === 'reached')),
     );
     const seen = Math.min(chosen.length, MOST_ROWS);
-    setText(this.#note, seen < chosen.length ? `The first ${seen} of ${chosen.length} trials.` : `${seen} trials.`);
+    const count = seen < chosen.length ? `The first ${seen} of ${chosen.length} trials.` : `${seen} trials.`;
+    // Why some cannot be driven in the view.
+    const reasons = new Set(chosen.flatMap(({ replay }) => (typeof replay === 'string' ? [replay] : [])));
+    setText(this.#note, reasons.size > 0 ? `${count} What cannot be pressed: ${[...reasons].join(' ')}` : count);
     this.#trials.replaceChildren(...chosen.slice(0, MOST_ROWS).map((row) => this.#row(row)));
   }
 

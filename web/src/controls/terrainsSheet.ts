@@ -44,6 +44,9 @@ export class TerrainsSheet {
   readonly #family = byId('family', HTMLSelectElement);
   readonly #seed = byId('terrain-seed', HTMLInputElement);
   readonly #files = byId('files', HTMLInputElement);
+  readonly #address = byId('address', HTMLInputElement);
+  readonly #addressSaid = byId('address-said', HTMLElement);
+  #fetching: AbortController | undefined;
   readonly #works = byId('earlier-work', HTMLElement);
   readonly #holes = byId('holes', HTMLSelectElement);
 
@@ -65,6 +68,14 @@ export class TerrainsSheet {
     this.#files.addEventListener('change', () => {
       actions.attempt(this.#open(this.#files.files ?? []));
       this.#files.value = '';
+    });
+    byId('from-address', HTMLFormElement).addEventListener('submit', (event) => {
+      event.preventDefault();
+      actions.attempt(this.#openAddress(this.#address.value.trim()));
+    });
+    this.#sheet.addEventListener('close', () => {
+      this.#fetching?.abort();
+      this.#say('');
     });
     document.addEventListener('dragover', (event) => {
       if (event.dataTransfer?.types.includes('Files')) event.preventDefault();
@@ -158,6 +169,34 @@ export class TerrainsSheet {
     await new LeaderboardSheet(name, rows, drive, scene).show();
   }
 
+  /** What is fetched goes the way of files that are chosen. */
+  async #openAddress(address: string): Promise<void> {
+    this.#fetching?.abort();
+    const fetching = new AbortController();
+    this.#fetching = fetching;
+    this.#say('Fetching…');
+    let files: File[];
+    try {
+      const { filesAt } = await import('../files/addressFiles.ts');
+      files = await filesAt(address, this.#files.accept.split(','), fetching.signal);
+    } catch (cause) {
+      // Whoever closed the sheet or gave another address knows.
+      if (!fetching.signal.aborted) this.#say(messageOf(cause), true);
+      return;
+    }
+    if (fetching.signal.aborted) return;
+    try {
+      await this.#open(files);
+    } catch (cause) {
+      throw new Error(`From ${address}: ${messageOf(cause)}`, { cause });
+    }
+  }
+
+  #say(words: string, isFault = false): void {
+    setText(this.#addressSaid, words);
+    this.#addressSaid.toggleAttribute('data-fault', isFault);
+  }
+
   async #open(list: ArrayLike<File>): Promise<void> {
     this.#sheet.close();
     const [only] = list.length === 1 ? Array.from(list) : [];
@@ -166,7 +205,7 @@ export class TerrainsSheet {
       await this.#recording(only);
       return;
     }
-    const files: NamedFile[] = [];
+    let files: NamedFile[] = [];
     for (const file of Array.from(list)) {
       files.push({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
     }
@@ -179,6 +218,10 @@ export class TerrainsSheet {
     if (files.length === 1 && first && /\.(m?js|wasm)$/i.test(first.name)) {
       await this.#planner(first);
       return;
+    }
+    if (files.some(({ name }) => /\.(ya?ml|bmp)$/i.test(name))) {
+      const { taskOf } = await import('./vertiBenchSheet.ts');
+      files = (await taskOf(files)) ?? [];
     }
     const head = files.length === 1 && first && pngHead(first.bytes);
     if (head) {

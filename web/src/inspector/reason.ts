@@ -39,7 +39,7 @@ function activity({ activity, tick, thought, subgoals, stop_reason }: Frame): st
   if (activity === 'stopped') return stop_reason ? sentence(stop_reason) : 'Stands still.';
   const chosen = subgoals.find((one) => one.chosen);
   if (!chosen) return '';
-  if (!chosen.cost) return 'The goal is in sight and the path is clear: drives straight to it.';
+  if (!chosen.cost) return 'The goal is in sight and the path is clear: drives to it.';
   const candidates = subgoals.filter(({ cost }) => cost).length;
   const bearing = direction(chosen.azimuth_rad);
   const heads = bearing === 'ahead' ? 'Straight ahead' : `Heads ${bearing}`;

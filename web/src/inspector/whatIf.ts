@@ -5,9 +5,9 @@ import type { Frame, Thought } from '../protocol/simulationProtocol.ts';
 
 const WORDS: Record<Thought, string> = {
   run: '',
-  again: 'Thought again here: sensed and decided anew at this pose after the change. Dashed: the skyline before.',
+  again: 'Thought again here: scan and decision again at this pose after the change. Dashed: the skyline before.',
   what_if:
-    'What if: sensed and decided anew at this pose, with other settings than the run’s. Dashed: the skyline with the run’s.',
+    'What if: scan and decision again at this pose, with your settings instead of the run’s. Dashed: the skyline with the run’s.',
 };
 const ASKED = 'Go on from here with these settings, or from the start?';
 

@@ -10,14 +10,16 @@ import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { courseOf } from '../trials/course.ts';
 import { GhostRun } from '../trials/ghostRun.ts';
 import { type RunningJob, startJob } from '../trials/trialsClient.ts';
-import { type FromTrials, type Job, OWN_PLANNER, type Rider } from '../trials/trialsProtocol.ts';
+import { type Course, type FromTrials, OWN_PLANNER, type Rider } from '../trials/trialsProtocol.ts';
 import type { Stage } from '../view/stage.ts';
 import { ComparisonTable } from './comparisonTable.ts';
+
 import { GhostTrails } from './ghostTrails.ts';
 import { KeptSets } from './keptSets.ts';
 import type { Tab } from './lab.ts';
 import { OwnPlannerCard } from './ownPlanner.ts';
 import { IDEAL_RIVAL, OWN_RIVAL, RIVALS, type Rival, SET_RIVALS } from './planners.ts';
+import { Riders } from './riders.ts';
 
 /** More at once would starve each other, and the table would not fit. */
 const MOST = 3;
@@ -51,10 +53,21 @@ export class CompareTab implements Tab {
   #confined: Confined | undefined;
   /** Those that broke off: what they have driven stays in sight. */
   readonly #broken = new Set<string>();
-  #jobs: RunningJob[] = [];
+  readonly #riders = new Riders({
+    driven: (entered) => {
+      if (entered) this.#showGhosts();
+      this.#show();
+    },
+    fault: (planner, message) => this.#refused(planner, message),
+  });
+  #ownJob: RunningJob | undefined;
+  #ownRun: GhostRun | undefined;
+  /** What somebody's own planner began on. */
+  #ownKey = '';
   #chosen: readonly Rival[] = [];
-  #runs = new Map<string, GhostRun>();
-  #course = '';
+  #session = '';
+  /** How often the ground has become another one. */
+  #grounds = 0;
   #frame: Frame | undefined;
   #sculpted: ReturnType<typeof setTimeout> | undefined;
 
@@ -91,22 +104,25 @@ export class CompareTab implements Tab {
     this.#table.session(info);
     this.#tellSets();
     // A restart changes nothing: what the ghosts have driven is still right.
-    const { parameters: _parameters, ...course } = info;
-    const now = JSON.stringify(course);
-    if (now === this.#course) return;
-    this.#course = now;
+    const { parameters: _parameters, ...session } = info;
+    const now = JSON.stringify(session);
+    if (now === this.#session) return;
+    this.#session = now;
     this.#begin();
   }
 
   sculpted(): void {
     clearTimeout(this.#sculpted);
-    this.#sculpted = setTimeout(() => this.#begin(), SCULPTING_MS);
+    this.#sculpted = setTimeout(() => {
+      this.#grounds += 1;
+      this.#begin();
+    }, SCULPTING_MS);
   }
 
   frame(frame: Frame): void {
     this.#frame = frame;
-    const ended = frame.outcome !== 'running';
-    for (const job of this.#jobs) job.send({ type: 'until', tick: ended ? TO_THE_END : frame.timeline.end });
+    this.#riders.until(this.#until);
+    this.#ownJob?.send({ type: 'until', tick: this.#until });
     this.#show();
   }
 
@@ -199,6 +215,7 @@ export class CompareTab implements Tab {
       return;
     }
     this.#own = planner;
+    this.#ownKey = '';
     this.pick(OWN_RIVAL, true);
   }
 
@@ -213,67 +230,71 @@ export class CompareTab implements Tab {
   #tellChoice(): void {
     const full = this.#chosen.length >= MOST;
     for (const { box } of this.#boxes) box.disabled = full && !box.checked;
-    const how = `They drive the same course from its start, with the same seed and parameters, A and B with what was kept, beside which what is in view stands in brackets. At most ${MOST} at once. One that is still catching up is compared with the robot in view at the time it has got to. Links and files of the run have nothing of them; A and B stay until this tab is closed.`;
+    const how = `All start where the run started, with the same seed. Planners use the parameters in view, A and B those that were kept (in brackets: the value in view). At most ${MOST} at once. One that is catching up is compared at its own time. Links and files of the run do not contain the comparison; A and B stay until this tab is closed.`;
     setText(this.#note, how);
     this.#choiceChanged?.();
   }
 
-  /** All ghosts from the start of the course as it is now. */
+  /** Those chosen, on the course as it is now: from its start where anything of theirs has changed. */
   #begin(): void {
-    for (const job of this.#jobs) job.stop();
-    this.#confined?.end();
-    [this.#jobs, this.#confined] = [[], undefined];
-    this.#runs = new Map();
-    this.#broken.clear();
     this.#fault.hidden = true;
-    this.#showGhosts();
     const { info, field } = this.#app;
-    if (info && field && this.#chosen.length > 0) {
-      const [course, { seed }] = [courseOf(info, field), info];
+    if (info && field) {
+      const { scenario, seed, start, waypoints, goal, objects } = info;
+      const key = JSON.stringify([this.#grounds, scenario, seed, start, waypoints, goal, objects]);
+      const course = courseOf(info, field);
       const riders = this.#chosen.filter((rival) => rival !== OWN_RIVAL).map((rival) => this.#rider(rival, info));
-      if (riders.length > 0) this.#start({ type: 'ghosts', course, riders, seed });
-      if (this.#own && this.#chosen.includes(OWN_RIVAL)) {
-        this.#confined = confine(this.#own);
-        this.#card.say(`${this.#own.name} is opened.`);
-        this.#start({ type: 'own', course, seed, port: this.#confined.port });
-      }
+      this.#riders.set(course, seed, key, riders);
+      this.#beginOwn(course, seed, key);
     }
+    this.#showGhosts();
     this.#table.choose(this.#chosen);
     this.#show();
   }
 
-  #start(given: Job): void {
-    const job = startJob(given, (message) => this.#hear(message));
-    this.#jobs.push(job);
-    if (!this.#frame) return;
-    const ended = this.#frame.outcome !== 'running';
-    job.send({ type: 'until', tick: ended ? TO_THE_END : this.#frame.timeline.end });
+  #beginOwn(course: Course, seed: number, course_key: string): void {
+    const key = this.#own && this.#chosen.includes(OWN_RIVAL) ? course_key + JSON.stringify(course.overrides) : '';
+    if (key !== '' && key === this.#ownKey) return;
+    this.#ownJob?.stop();
+    this.#confined?.end();
+    [this.#ownJob, this.#confined, this.#ownRun, this.#ownKey] = [undefined, undefined, undefined, key];
+    this.#broken.clear();
+    if (!this.#own || key === '') return;
+    this.#confined = confine(this.#own);
+    this.#card.say(`${this.#own.name} is opened.`);
+    const { port } = this.#confined;
+    this.#ownJob = startJob({ type: 'own', course, seed, port }, (message) => this.#hearOwn(message));
+    this.#ownJob.send({ type: 'until', tick: this.#until });
   }
 
-  #hear(message: FromTrials): void {
+  get #until(): number {
+    if (!this.#frame) return 0;
+    return this.#frame.outcome === 'running' ? this.#frame.timeline.end : TO_THE_END;
+  }
+
+  #hearOwn(message: FromTrials): void {
     if (message.type === 'ghost') {
-      const { planner } = message.result;
-      const run = this.#runs.get(planner);
-      if (run) run.extend(message.rows, message.result);
-      else this.#enter(planner, new GhostRun(message.rows, message.result));
+      const { rows, result } = message;
+      if (this.#ownRun) this.#ownRun.extend(rows, result);
+      else {
+        this.#ownRun = new GhostRun(rows, result);
+        this.#showGhosts();
+      }
       this.#show();
     } else if (message.type === 'took') {
       this.#card.say(`${this.#own?.name} takes ${fixed(message.decision_ms, 1)} ms for a decision.`);
-    } else if (message.type === 'refused' && message.planner === OWN_PLANNER) {
+    } else if (message.type === 'refused') {
       this.#confined?.end();
       this.#broken.add(OWN_PLANNER);
       this.#card.fault(`${this.#own?.name} ${message.message}`);
       this.#show();
-    } else if (message.type === 'refused' || message.type === 'failed') {
-      const whose = message.type === 'refused' && this.#chosen.find(({ planner }) => planner === message.planner);
-      setText(this.#fault, whose ? `${whose.name}: ${message.message}` : message.message);
-      this.#fault.hidden = false;
-    }
+    } else if (message.type === 'failed') this.#refused(undefined, message.message);
   }
 
-  #enter(planner: string, run: GhostRun): void {
-    this.#runs.set(planner, run);
-    this.#showGhosts();
+  #refused(planner: string | undefined, message: string): void {
+    const whose = this.#chosen.find((rival) => rival.planner === planner);
+    setText(this.#fault, whose ? `${whose.name}: ${message}` : message);
+    this.#fault.hidden = false;
   }
 
   /** Those that run, from their start. */
@@ -285,7 +306,7 @@ export class CompareTab implements Tab {
 
   #running(): [Rival, GhostRun][] {
     return this.#chosen.flatMap((rival) => {
-      const run = this.#runs.get(rival.planner);
+      const run = rival === OWN_RIVAL ? this.#ownRun : this.#riders.runs.get(rival.planner);
       return run ? [[rival, run] as [Rival, GhostRun]] : [];
     });
   }

@@ -70,7 +70,10 @@ export class SeedsTab implements Tab {
       this.#table,
     );
     this.#idle();
-    setText(this.#note, 'Each seed is another noise of the sensor. They run beside the page, which stays as it is.');
+    setText(
+      this.#note,
+      'Each seed gives other sensor noise. The planner in view drives them in the background; its own run goes on.',
+    );
   }
 
   session(info: SessionInfo): void {

@@ -70,7 +70,7 @@ export class SweepTab implements Tab {
       this.#saves,
       this.#table,
     );
-    setText(this.#note, 'Each value drives with the same seeds, beside the page, which stays as it is.');
+    setText(this.#note, 'Each value drives with the same seeds, in the background; the run in view goes on.');
     this.#show();
   }
 

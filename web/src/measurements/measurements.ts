@@ -8,7 +8,7 @@ import { ExportButtons } from '../export/exportButtons.ts';
 import type { Run } from '../export/exportedRun.ts';
 import type { Filmed } from '../export/film.ts';
 import { TimePlots } from '../plots/timePlots.ts';
-import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
+import { type Frame, isDisturbed, type SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Published } from '../run/published.ts';
 import type { RunRecord } from '../run/record.ts';
 import { MetricsPanel } from './metrics.ts';
@@ -37,6 +37,8 @@ export class Measure {
   readonly #heightAt: MeasureOptions['heightAt'];
   #info: SessionInfo | undefined;
   #frame: Frame | undefined;
+  #paper: Published | undefined;
+  #shownPaper: Published | undefined;
 
   constructor({ record, view, go, notice, editor, heightAt }: MeasureOptions) {
     this.#record = record;
@@ -56,15 +58,25 @@ export class Measure {
 
   /** What the paper reports for the course that is driven; nothing for any other. */
   paper(paper: Published | undefined): void {
-    this.#metrics.paper(paper);
-    this.#plots.paper(paper);
+    this.#paper = paper;
+    this.#showPaper();
   }
 
   frame(frame: Frame): void {
     this.#frame = frame;
+    this.#showPaper();
     this.#metrics.show(frame.metrics);
     this.#timing.show(this.#record);
     this.#plots.update(frame);
+  }
+
+  /** A run that was changed under way is another one, also where everything is as it was again. */
+  #showPaper(): void {
+    const paper = this.#frame && isDisturbed(this.#frame.timeline) ? undefined : this.#paper;
+    if (paper === this.#shownPaper) return;
+    this.#shownPaper = paper;
+    this.#metrics.paper(paper);
+    this.#plots.paper(paper);
   }
 
   #run(): Run | undefined {

@@ -35,10 +35,19 @@ export class Climb {
     this.element.hidden = true;
   }
 
-  async #toggle(): Promise<void> {
-    const open = this.element.hidden;
+  /** Other values hold than those of a step. */
+  close(): void {
+    this.#open(false);
+  }
+
+  #open(open: boolean): void {
     this.button.setAttribute('aria-expanded', String(open));
     this.element.hidden = !open;
+  }
+
+  async #toggle(): Promise<void> {
+    const open = this.element.hidden !== false;
+    this.#open(open);
     if (!open) return;
     try {
       this.#steps = await this.#host.begin();

@@ -140,6 +140,7 @@ export class Method {
     const buttons = presets.map(([name, title, change]) => {
       const made = button('plain', name, () => {
         const { info } = this.#app;
+        this.#climb.close();
         if (info) this.#adjust(change(info.overrides));
       });
       made.title = title;
@@ -166,6 +167,7 @@ export class Method {
       html('p', '', ['mean = k*ᵤ (Kᵤᵤ + Kᵤf Kfᵤ / σₙ²)⁻¹ Kᵤf y / σₙ²,  y = r − range,  r the radius of the occupancy']),
       html('p', '', ['Free where v / σ² > V_th: no return is near, so nothing has lowered the prior variance.']),
     ]);
+    equations.addEventListener('toggle', () => equations.scrollIntoView({ block: 'nearest' }));
     const slice = html('div', 'method-slice', [
       html('div', 'method-slice-head', [html('h3', '', ['One azimuth']), this.#azimuthSaid]),
       this.#slice,
@@ -248,14 +250,17 @@ export class Method {
   }
 
   #sayError({ occupancy_radius_m }: SessionInfo, { buffers, thought }: Frame): void {
+    const { truth } = buffers;
     const profile = (this.#inputs.isOwn === false && this.#inputs.inside?.profile) || buffers.profile;
-    const now = skylineError(profile, buffers.truth);
-    const before = thought === 'what_if' ? skylineError(buffers.former, buffers.truth) : undefined;
+    const now = skylineError(profile, truth);
+    const before = thought === 'what_if' ? skylineError(buffers.former, truth) : undefined;
     const words = now ? `Off the true skyline by ${errorWords(now, occupancy_radius_m)}` : '';
     setText(
       this.#error,
       !now
-        ? 'Pause to compare with the true skyline.'
+        ? truth.some((elevation_rad) => !Number.isNaN(elevation_rad))
+          ? 'No skyline: nowhere does the variance cross V_th.'
+          : 'Pause to compare with the true skyline.'
         : before
           ? `${words}; the run’s: ${errorWords(before, occupancy_radius_m)}.`
           : `${words}.`,

@@ -99,6 +99,11 @@ export function transferables(buffers: FrameBuffers): ArrayBuffer[] {
 
 export const TIMELINE_START: Timeline = { first: 0, end: 0, changes: [] };
 
+/** Whether a run no longer follows from its start: ground, route or planner changed under way. */
+export function isDisturbed({ first, changes }: Timeline): boolean {
+  return first > 0 || changes.some((tick) => tick > 0);
+}
+
 /** Everything that one planning tick saw, decided and did, and what came since the frame before. */
 export interface Frame extends CoreFrame {
   /** Whether the surfaces in `buffers` are this tick's; otherwise nobody watches them, or they are not due again yet. */

@@ -23,6 +23,8 @@ import type { Loaded, NamedFile, Source, TerrainPreview } from '../protocol/simu
 import type { ScenarioRead, TerrainFiles } from '../wasm/mapless_wasm.js';
 
 const ARCHIVE = /\.zip$/i;
+/** What a campaign says and no scenario or recipe does. */
+const CAMPAIGN = /^\s*routes\s*=/m;
 const GRIDS = /\.(png|asc|tiff?)$/i;
 /** Samples along the longer side of a preview. */
 const PREVIEW_SAMPLES = 96;
@@ -149,7 +151,9 @@ async function fromFiles(core: Core, given: readonly NamedFile[], holes: Holes, 
     return unzip(file, 2 * MAX_FILE_BYTES);
   });
   for (const file of files) limit(file, MAX_FILE_BYTES);
-  const texts = files.filter(({ name }) => /\.(toml|json)$/i.test(name)).map((file) => ({ ...file, text: text(file) }));
+  const all = files.filter(({ name }) => /\.(toml|json)$/i.test(name)).map((file) => ({ ...file, text: text(file) }));
+  // Beside a scenario, what the page saves with it for the command line.
+  const texts = all.filter((file) => !CAMPAIGN.test(file.text));
   const saved = texts.find(({ name }) => /\.json$/i.test(name));
   if (saved) return readFile(saved.name, saved.text);
   const scenario = texts.find((file) => /^\s*terrain\s*=/m.test(file.text));
@@ -165,8 +169,9 @@ async function fromFiles(core: Core, given: readonly NamedFile[], holes: Holes, 
   const [first] = given;
   if (!terrain || !first) {
     const expected =
-      'a scenario or recipe (.toml), heights (.png, .asc, .tif), a saved experiment (.json), or a .zip of them';
-    throw new Error(`${first?.name ?? 'Nothing'}: expected ${expected}`);
+      'a scenario or recipe (.toml), heights (.png, .asc, .tif), a saved experiment (.json), or a .zip of them; by itself a table of trials (.csv, .parquet), a planner (.js, .wasm) or a recording (.mcap)';
+    const found = all.length > texts.length ? 'a campaign, which `mapless trials` drives: ' : '';
+    throw new Error(`${first?.name ?? 'Nothing'}: ${found}expected ${expected}`);
   }
   return onLevelPlaces(core, terrain, shortName(recipe?.name ?? first.name), setup);
 }

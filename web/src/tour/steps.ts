@@ -50,14 +50,14 @@ export const STEPS: readonly Step[] = [
   {
     title: 'The occupancy surface',
     text: (_, { occupancy_radius_m }) =>
-      `Every return is projected along its beam onto a surface around the sensor, with the occupancy ${metres(occupancy_radius_m)} minus its range: violet for near ground, yellow for ground almost out of reach. The drawing puts the surface inside the others to come.`,
+      `Every return is projected along its beam onto a surface around the sensor, with the occupancy ${metres(occupancy_radius_m)} minus its range: violet for near ground, yellow for ground almost out of reach. It is drawn innermost; the next pages put other surfaces around it.`,
     camera: 'chase',
     layers: { points: 'use', observed: true },
   },
   {
     title: 'A Gaussian process fills the gaps',
     text: () =>
-      'A sparse Gaussian process learns the occupancy over azimuth and elevation from these few points, and predicts it in every direction between them: the outer of the two surfaces.',
+      'A sparse Gaussian process learns the occupancy over azimuth and elevation from these returns, and predicts it in every direction between them: the outer of the two surfaces.',
     camera: 'chase',
     layers: { observed: true, occupancy: true },
   },
@@ -79,7 +79,7 @@ export const STEPS: readonly Step[] = [
   {
     title: 'One azimuth, cut open',
     text: ({ threshold }) =>
-      `Beside the image, one azimuth is unrolled: point at another in the image. Dots are its returns; line and band are the mean and its deviation σ; ticks are the inducing inputs, the few directions through which the process sees all returns. On the right is the variance: low among the returns, rising above the last. Where it crosses V_th, ${fixed(threshold, 2)}, the skyline lies. Drag V_th: a higher one takes more for ground and lifts the skyline, the dotted one is true.`,
+      `Beside the image, one azimuth is unrolled: point at another in the image. Dots are its returns; line and band are the mean and its deviation σ; ticks are the inducing inputs, the directions through which the process sees all returns. On the right is the variance: low among the returns, rising above the last. Where it crosses V_th, ${fixed(threshold, 2)}, the skyline lies. Drag V_th: a higher one takes more for ground and lifts the skyline. The dotted one is the true one.`,
     camera: 'chase',
     layers: {},
     image: true,
@@ -88,7 +88,7 @@ export const STEPS: readonly Step[] = [
   {
     title: 'Why it is not left to learn',
     text: (_, { learning, preset }) =>
-      `The paper learns kernel and noise on every scan, by climbing a bound on the likelihood. Press “Learned…” and drag the steps: the bound rises, the kernel widens, and the skyline leaves the ground, because the process assumes a mean of zero and a scan lies metres above it. ${learning === 'fixed' ? `So ${preset === 'paper' ? 'also the literal planner here' : 'this planner'} does not learn unless it is told to.` : 'Learning is on now, and holds the values within bounds.'} “As it was” takes it back.`,
+      `The paper learns kernel and noise on every scan, by climbing a bound on the likelihood. Press “Learned…” and drag the steps: the bound rises, the kernel widens, and the skyline leaves the ground, because the process assumes a mean of zero and a scan lies metres above it. ${learning === 'fixed' ? `So ${preset === 'paper' ? 'also the literal planner here' : 'this planner'} does not learn unless it is told to under Learning, and then within bounds.` : 'Learning is on now, and holds the values within bounds.'} “As it was” takes it back.`,
     camera: 'chase',
     layers: {},
     image: true,
@@ -109,7 +109,7 @@ export const STEPS: readonly Step[] = [
   {
     title: 'The cheapest subgoal wins',
     text: (_, { preset }) =>
-      `Subgoals stand on the segments. Each has a cost: for turning towards it, for the distance that then remains to the goal, and for steepness.${preset === 'paper' ? '' : ' The best planner here also plans a path to each, refuses paths that would tilt the robot too far, and adds costs for leaving its committed target and for detours that it has learned of.'} Yellow costs least; the ringed one is chosen.`,
+      `Subgoals stand on the segments. Each has a cost: for turning towards it, for the distance that then remains to the goal, and for steepness.${preset === 'paper' ? '' : ' The best planner here also plans a path to each, refuses paths that would tilt the robot too far, and adds costs for giving up the target it had and for detours found on the way.'} Yellow costs least; the ringed one is chosen.`,
     camera: 'top',
     layers: { subgoals: true, path: true },
     marks: (frame) =>
@@ -121,7 +121,7 @@ export const STEPS: readonly Step[] = [
   {
     title: 'Drive, and scan again',
     text: () =>
-      'A PID controller turns the robot towards the subgoal and drives. Then comes the next scan, and all of this happens again. Now it is yours: raise a hill in its path, or give it another goal.',
+      'A PID controller turns the robot towards the subgoal and drives. Then comes the next scan, and all of this happens again. Now it is yours: press Done, then raise a hill in its path, or give it another goal.',
     camera: 'chase',
     layers: { points: 'use', subgoals: true },
     drives: true,

@@ -48,7 +48,8 @@ export class Tour {
     words.setAttribute('aria-live', 'polite');
     const end = button('plain', 'End the tour', () => this.end());
     card.replaceChildren(words, html('div', 'tour-foot', [this.#count, end, this.#back, this.#next]));
-    card.addEventListener('keydown', this.#key);
+    // What is pressed on the way, such as “Learned…”, has the focus then.
+    document.addEventListener('keydown', this.#key, true);
   }
 
   async begin(): Promise<void> {
@@ -58,7 +59,7 @@ export class Tour {
   }
 
   end(): void {
-    this.#card.removeEventListener('keydown', this.#key);
+    document.removeEventListener('keydown', this.#key, true);
     this.#card.hidden = true;
     this.#card.replaceChildren();
     const { layers, camera, imageIsLarge, isByHand, playing } = this.#before;
@@ -96,9 +97,16 @@ export class Tour {
     const act = { ArrowRight: () => this.#next.click(), ArrowLeft: () => this.#back.click(), Escape: () => this.end() }[
       event.key
     ];
-    if (!act) return;
+    if (!act || !this.#isFor(event)) return;
     event.preventDefault();
     event.stopPropagation();
     act();
   };
+
+  /** Keys pressed in the card, or on what has no use for them itself. */
+  #isFor({ key, target }: KeyboardEvent): boolean {
+    if (!(target instanceof Element) || this.#card.contains(target)) return true;
+    if (document.querySelector('dialog[open], :popover-open')) return false;
+    return key === 'Escape' || target.matches('button:not([role])');
+  }
 }

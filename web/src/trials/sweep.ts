@@ -58,7 +58,8 @@ export class SweepRun {
       else {
         // A value that is refused is refused with every seed.
         const why = message.message.replace(/^Seed \d+: /, '');
-        if (!failures.has(why)) this.#events.failed(`${path} = ${value}: ${why}`);
+        const words = why.startsWith(path) ? why : `${path} = ${value}: ${why}`;
+        if (!failures.has(why)) this.#events.failed(words);
         failures.add(why);
       }
     });

@@ -54,6 +54,8 @@ export type Job =
 export type ToTrials =
   | Job
   | { type: 'until'; tick: number }
+  /** In place of the ghosts before: whoever has the name of one drives on. */
+  | { type: 'riders'; riders: readonly Rider[] }
   | { type: 'drive'; seed: number }
   /** Asks for what these trials show together, whoever drove them. */
   | { type: 'sum'; results: readonly TrialResult[] };

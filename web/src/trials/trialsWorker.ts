@@ -28,23 +28,31 @@ function woken(): Promise<void> {
   });
 }
 
+interface Ghost {
+  readonly runner: Runner;
+  tick: number;
+}
+
+/** Who is to drive as a ghost. */
+let wanted: readonly Rider[] = [];
+
 async function ghosts({ course, riders, seed }: Extract<Job, { type: 'ghosts' }>): Promise<void> {
+  wanted = riders;
   const factory = new RunnerFactory(await loadTrials(), course);
-  let running: { runner: Runner; tick: number }[] = [];
-  for (const rider of riders) {
-    try {
-      const runner = factory.runner(rider, seed);
-      running.push({ runner, tick: 0 });
-      post({ type: 'ghost', rows: new Float64Array(runner.row), result: runner.result });
-    } catch (error) {
-      if (error instanceof WebAssembly.RuntimeError) throw error;
-      post({ type: 'refused', planner: rider.name, message: messageOf(error) });
+  /** By the rider's name; nothing for one that cannot drive here. */
+  const begun = new Map<string, Ghost | undefined>();
+  for (;;) {
+    for (const [name, ghost] of begun) {
+      if (wanted.some((rider) => rider.name === name)) continue;
+      ghost?.runner.free();
+      begun.delete(name);
     }
-  }
-  while (running.length > 0) {
+    for (const rider of wanted) {
+      if (!begun.has(rider.name)) begun.set(rider.name, entered(factory, rider, seed));
+    }
     // The one that is farthest behind comes first, so that all stay in step.
-    running.sort((a, b) => a.tick - b.tick);
-    const [next] = running;
+    const running = [...begun.values()].filter((ghost) => ghost?.runner.running);
+    const [next] = running.sort((a, b) => (a?.tick ?? 0) - (b?.tick ?? 0));
     if (!next || next.tick >= until) {
       await woken();
       continue;
@@ -57,8 +65,20 @@ async function ghosts({ course, riders, seed }: Extract<Job, { type: 'ghosts' }>
       rows.push(...next.runner.row);
     }
     post({ type: 'ghost', rows: new Float64Array(rows), result: next.runner.result });
-    running = running.filter(({ runner }) => runner.running);
     await rest();
+  }
+}
+
+/** One at its start. */
+function entered(factory: RunnerFactory, rider: Rider, seed: number): Ghost | undefined {
+  try {
+    const runner = factory.runner(rider, seed);
+    post({ type: 'ghost', rows: new Float64Array(runner.row), result: runner.result });
+    return { runner, tick: 0 };
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) throw error;
+    post({ type: 'refused', planner: rider.name, message: messageOf(error) });
+    return undefined;
   }
 }
 
@@ -116,6 +136,10 @@ function carryOut(message: ToTrials): Promise<void> | undefined {
   switch (message.type) {
     case 'until':
       until = message.tick;
+      wake?.();
+      return;
+    case 'riders':
+      wanted = message.riders;
       wake?.();
       return;
     case 'ghosts':

@@ -7,7 +7,7 @@ use mapless_terrain::{Terrain, load_terrain};
 use mapless_trials::{LoadedScenario, Scenario};
 use mapless_world::{Body, Footing, Objects, Robot};
 
-use super::source::World;
+use super::source::Source;
 use super::{recipe_file, scenario_file};
 use crate::error::CampaignError;
 
@@ -15,15 +15,16 @@ use crate::error::CampaignError;
 ///
 /// # Errors
 /// [`CampaignError`] when what was imported cannot be read.
-pub(super) fn of_world(world: &World, out: &Path) -> Result<Vec<String>, CampaignError> {
+pub(super) fn of_world(source: &Source, out: &Path) -> Result<Vec<String>, CampaignError> {
+    let Source { world, file: described, .. } = source;
     let recipe = recipe_file(world, out);
-    let terrain = load_terrain(&recipe).map_err(|error| CampaignError::content(&world.file, error))?;
+    let terrain = load_terrain(&recipe).map_err(|error| CampaignError::content(described, error))?;
     let objects = Objects::new(terrain.objects.clone(), &terrain.field);
     let mut warnings = Vec::new();
     for pair in 0..world.pairs.len() {
         let file = scenario_file(world, pair, out);
         let loaded = LoadedScenario::read(&file);
-        let scenario = loaded.map_err(|error| CampaignError::content(&world.file, error))?.scenario;
+        let scenario = loaded.map_err(|error| CampaignError::content(described, error))?.scenario;
         for (what, place_m) in [("start", scenario.start.position_m), ("goal", scenario.goal_m)] {
             if let Some(fault) = fault_at(place_m, &scenario, &terrain, &objects) {
                 warnings.push(format!("{}: {what} at {place_m} m: {fault}", file.display()));

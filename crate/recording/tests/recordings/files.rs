@@ -115,7 +115,7 @@ fn a_record_that_claims_more_than_its_chunk_is_an_error_or_a_cut() {
     let ends = message_ends(&bytes);
     for pair in ends.windows(2).rev().take(5) {
         let mut bytes = bytes.clone();
-        // The second byte of the length of the record that begins here: the file is long enough, the chunk is not.
+        // The second byte of the length of the record that begins here: the file is long enough for it.
         bytes[pair[0] + 2] += 8;
         assert!(read(&bytes).map_or(true, |(_, is_cut)| is_cut), "it is taken for whole");
     }

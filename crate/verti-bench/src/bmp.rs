@@ -1,11 +1,26 @@
 //! Uncompressed grey BMP images of 8 bits, the form in which Verti-Bench has its heights.
 
-/// Grey levels from the north-west, row by row.
-#[derive(Debug, PartialEq)]
-pub(super) struct GreyImage {
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    pub(super) levels: Vec<u8>,
+use crate::fault::Fault;
+
+/// Heights as grey levels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GreyImage {
+    /// Pixels from west to east.
+    pub columns: usize,
+    /// Pixels from north to south.
+    pub rows: usize,
+    /// From the north-west, row by row.
+    pub levels: Vec<u8>,
+}
+
+impl GreyImage {
+    /// Reads an uncompressed grey BMP image of 8 bits.
+    ///
+    /// # Errors
+    /// The place in the file, what is there and what was expected.
+    pub fn from_bmp(bytes: &[u8]) -> Result<Self, Fault> {
+        read(bytes).map_err(Fault)
+    }
 }
 
 /// File header and the oldest information header that is in use.
@@ -13,11 +28,7 @@ const HEADERS: usize = 14 + 40;
 /// Most pixels along a side: as many as heights have.
 const MAX_SIDE: usize = 4096;
 
-/// Reads an image.
-///
-/// # Errors
-/// The place in the file, what is there and what was expected.
-pub(super) fn read(bytes: &[u8]) -> Result<GreyImage, String> {
+fn read(bytes: &[u8]) -> Result<GreyImage, String> {
     if !bytes.starts_with(b"BM") {
         let found: String = bytes.iter().take(2).map(|byte| format!("{byte:02x} ")).collect();
         return Err(format!("it begins with {found:?}: expected \"BM\", a BMP image"));
@@ -90,8 +101,21 @@ fn palette(bytes: &[u8]) -> Result<Vec<u8>, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::bmp;
     use super::*;
+
+    /// An image of these levels, from the north-west, row by row.
+    fn bmp(columns: usize, levels: &[u8]) -> Vec<u8> {
+        let rows = levels.len() / columns;
+        let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+        let mut bytes = b"BM".to_vec();
+        bytes.extend(words(&[0, 0, 1078, 40, columns as u32, rows as u32, (8 << 16) | 1, 0, 0, 0, 0, 0, 0]));
+        bytes.extend((0..=255).flat_map(|grey| [grey, grey, grey, 0]));
+        for line in levels.chunks_exact(columns).rev() {
+            bytes.extend(line);
+            bytes.extend(&[0; 3][..columns.next_multiple_of(4) - columns]);
+        }
+        bytes
+    }
 
     #[test]
     fn rows_come_from_the_north_without_their_padding() {
