@@ -27,8 +27,15 @@ const FOLLOW_GAIN: f64 = 2.0;
 const TURN_FIRST_RAD: f64 = 0.5;
 /// A trajectory that gains less than this, in metres of level ground, leaves the robot where it stands.
 const LEAST_PROGRESS_M: f64 = 0.05;
+/// Below these speeds the robot stands.
+const STILL_M_S: f64 = 0.01;
+const STILL_RAD_S: f64 = 0.01;
 /// Rounds of the pattern search; each halves its reach.
 const ROUNDS: usize = 4;
+
+fn is_still(command: &Command) -> bool {
+    command.linear_m_s.abs() < STILL_M_S && command.angular_rad_s.abs() < STILL_RAD_S
+}
 
 /// Limits and prices of the trajectories.
 #[derive(Clone, Copy, Debug)]
@@ -162,8 +169,9 @@ impl TrajectoryOptimiser {
 
     /// The command that begins the best trajectory from a pose and the last command. If every trajectory
     /// meets what it must not, or the best one leaves the robot where it stands and the path does not, it
-    /// begins the drive along the path, which was found safe.
-    pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Command {
+    /// begins the drive along the path, which was found safe. `None` if the robot stands and no admissible
+    /// trajectory leads on: the body would come too near to something on the way that the search took.
+    pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Option<Command> {
         let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
         let roll_out = |plan: Plan| Candidate { plan, rolled: self.roll_out(course, from, Law::Plan(&plan)) };
@@ -202,16 +210,18 @@ impl TrajectoryOptimiser {
         }
         // What no such trajectory can do, as to turn first and then to drive, following the path can.
         let following = self.roll_out(course, from, Law::Follow);
-        let progress_m = course.cost_to_go_m(&from.pose) - best.rolled.to_go_m;
-        let path_leads_on = progress_m < LEAST_PROGRESS_M && following.cost.is_finite();
-        if !best.rolled.cost.is_finite() || path_leads_on {
+        let stands = course.cost_to_go_m(&from.pose) - best.rolled.to_go_m < LEAST_PROGRESS_M;
+        if !best.rolled.cost.is_finite() || (stands && following.cost.is_finite()) {
             // The robot stands beside what was found safe, or where no short trajectory pays: the path leads
             // off.
             self.reset();
-            return following.first;
+            return Some(following.first);
+        }
+        if stands && is_still(&from.command) && is_still(&best.rolled.first) {
+            return None;
         }
         self.last = best.plan;
-        if following.cost < best.rolled.cost { following.first } else { best.rolled.first }
+        Some(if following.cost < best.rolled.cost { following.first } else { best.rolled.first })
     }
 
     /// Speed and turn rate towards a point.
@@ -333,7 +343,7 @@ mod tests {
         let mut start = Start { elapsed_s, ..FROM };
         (0..(seconds / elapsed_s) as usize)
             .map(|_| {
-                let command = optimiser.drive(course, start);
+                let command = optimiser.drive(course, start).unwrap_or(Command::STOP);
                 let mut pose = start.pose;
                 pose.advance(&command, elapsed_s);
                 start = Start { pose, command, ..start };

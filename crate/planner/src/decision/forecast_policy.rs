@@ -225,14 +225,14 @@ impl ForecastPolicy {
         }
     }
 
-    /// Drives along the path to a subgoal.
+    /// Drives along the path to a subgoal; `None` if the robot stands and nothing admissible leads on.
     fn follow(
         &mut self,
         subgoal: &Subgoal,
         situation: &Situation<'_>,
         controller: &mut Controller,
         path: &mut Vec<PathPoint>,
-    ) -> Command {
+    ) -> Option<Command> {
         let end_m = subgoal.position_m.truncate();
         if let Some(reached) = self.lattice.to(end_m) {
             self.lattice.follow(reached, path);
@@ -242,7 +242,7 @@ impl ForecastPolicy {
             last.position_m = end_m;
         }
         match situation.config.controller.following {
-            FollowingLaw::Pid => self.follow_by_pid(subgoal, situation, controller, path),
+            FollowingLaw::Pid => Some(self.follow_by_pid(subgoal, situation, controller, path)),
             FollowingLaw::RecedingHorizon => self.follow_by_trajectory(situation, path),
         }
     }
@@ -268,8 +268,9 @@ impl ForecastPolicy {
         controller.regulated(command, utilisation)
     }
 
-    /// Drives the best short trajectory along the path, or along the leg that is to be finished first.
-    fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Command {
+    /// Drives the best short trajectory along the path, or along the leg that is to be finished first; `None` if
+    /// none is admissible.
+    fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Option<Command> {
         let Situation { config, pose, last_command, .. } = *situation;
         let here_m = pose.plan_m();
         let next = self.lattice.lookahead(path);
@@ -370,7 +371,11 @@ impl SubgoalPolicy for ForecastPolicy {
             }
         }
         self.learn(situation);
-        Motion::Drive(self.follow(&subgoal, situation, controller, &mut plan.path))
+        let command = self.follow(&subgoal, situation, controller, &mut plan.path);
+        if command.is_none() {
+            self.start_backtrack(pose.plan_m());
+        }
+        Motion::Drive(command.unwrap_or(Command::STOP))
     }
 
     fn safe_turn_rad(&self, turn_rad: f64) -> f64 {
