@@ -68,7 +68,8 @@ test('npm packs without a word of warning', () => {
   const [{ files, size }] = JSON.parse(stdout) as [{ files: { path: string }[]; size: number }];
   for (const path of ['README.md', 'scene.js', 'core.js', 'types/embed/scene.d.ts', 'page/index.html', 'LICENSE-MIT'])
     expect(files.map((file) => file.path)).toContain(path);
-  expect(size).toBeLessThan(2_500_000);
+  // The page in it has the modules that open recordings and worlds of Verti-Bench, too.
+  expect(size).toBeLessThan(2_700_000);
 });
 
 test('the core drives in Node as on the command line, and says what is wrong', () => {
