@@ -3,15 +3,19 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+#[path = "../crate/verti-bench/src/testing.rs"]
+mod image;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use image::bmp;
 use serde_json::Value;
 use tempfile::TempDir;
 
 /// Pixels along a side of the image: 100 m, or 20 m at a fifth.
-const SIDE: u32 = 101;
+const SIDE: usize = 101;
 
 /// One world of gentle ground with a rock off the straight line, and a pair whose goal is over the border.
 const TASKS: &str = r#"{"12": {"difficulty":"low","terrain_type":"rigid","max_height_m":4.8,
@@ -23,21 +27,14 @@ fn folder() -> TempDir {
     fs::create_dir(folder.path().join("bench")).unwrap();
     fs::create_dir(folder.path().join("bench/worlds")).unwrap();
     fs::write(folder.path().join("bench/tasks.json"), TASKS).unwrap();
-    fs::write(folder.path().join("bench/worlds/12.bmp"), bmp()).unwrap();
+    fs::write(folder.path().join("bench/worlds/12.bmp"), heights()).unwrap();
     folder
 }
 
-/// A grey BMP image of 8 bits that rises to the east.
-fn bmp() -> Vec<u8> {
-    let header = [0, 0, 1078, 40, SIDE, SIDE, (8 << 16) | 1, 0, 0, 0, 0, 0, 0_u32];
-    let mut bytes = b"BM".to_vec();
-    bytes.extend(header.iter().flat_map(|word| word.to_le_bytes()));
-    bytes.extend((0..=255).flat_map(|grey| [grey, grey, grey, 0]));
-    for _ in 0..SIDE {
-        bytes.extend((0..SIDE).map(|column| column as u8));
-        bytes.resize(bytes.len() + (SIDE.next_multiple_of(4) - SIDE) as usize, 0);
-    }
-    bytes
+/// They rise to the east.
+fn heights() -> Vec<u8> {
+    let levels: Vec<u8> = (0..SIDE * SIDE).map(|at| (at % SIDE) as u8).collect();
+    bmp(SIDE, &levels)
 }
 
 fn mapless(folder: &Path, args: &[&str]) -> Output {
@@ -96,7 +93,7 @@ fn what_cannot_be_imported_is_named() {
         }
     };
     refused(&["--scale", "1/0"], &["--scale", "\"1/0\": expected 0.01 to 100, such as 1/5 or 0.2"]);
-    fs::write(folder.path().join("bench/worlds/12.bmp"), &bmp()[..2000]).unwrap();
+    fs::write(folder.path().join("bench/worlds/12.bmp"), &heights()[..2000]).unwrap();
     let cut =
         "bench/worlds/12.bmp: it ends after 2000 bytes: expected 101 rows of 104 bytes from byte 1078 on";
     refused(&["--scale", "1"], &[cut]);

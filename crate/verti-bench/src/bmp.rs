@@ -102,20 +102,7 @@ fn palette(bytes: &[u8]) -> Result<Vec<u8>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// An image of these levels, from the north-west, row by row.
-    fn bmp(columns: usize, levels: &[u8]) -> Vec<u8> {
-        let rows = levels.len() / columns;
-        let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
-        let mut bytes = b"BM".to_vec();
-        bytes.extend(words(&[0, 0, 1078, 40, columns as u32, rows as u32, (8 << 16) | 1, 0, 0, 0, 0, 0, 0]));
-        bytes.extend((0..=255).flat_map(|grey| [grey, grey, grey, 0]));
-        for line in levels.chunks_exact(columns).rev() {
-            bytes.extend(line);
-            bytes.extend(&[0; 3][..columns.next_multiple_of(4) - columns]);
-        }
-        bytes
-    }
+    use crate::testing::bmp;
 
     #[test]
     fn rows_come_from_the_north_without_their_padding() {

@@ -27,6 +27,8 @@ mod bmp;
 mod fault;
 mod scale;
 mod scaled;
+#[cfg(test)]
+mod testing;
 mod world;
 
 pub use bmp::GreyImage;

@@ -103,9 +103,13 @@ impl ScaledWorld<'_> {
 
     /// A place from the south-west corner.
     fn place_m(&self, [east_m, north_m]: [f64; 2]) -> [f64; 2] {
-        let middle_m = |pixels: usize| (pixels - 1) as f64 / 2.0 * PIXEL_M;
-        let GreyImage { columns, rows, .. } = *self.heights;
-        [self.scaled_m(middle_m(columns) + east_m), self.scaled_m(middle_m(rows) + north_m)]
+        let [east_reach_m, north_reach_m] = self.reach_m();
+        [self.scaled_m(east_reach_m + east_m), self.scaled_m(north_reach_m + north_m)]
+    }
+
+    /// How far the map reaches from its middle, east and north, at full scale.
+    fn reach_m(&self) -> [f64; 2] {
+        [self.heights.columns, self.heights.rows].map(|pixels| (pixels as f64 - 1.0) / 2.0 * PIXEL_M)
     }
 
     /// A length times the scale, to a tenth of a millimetre.
@@ -115,8 +119,7 @@ impl ScaledWorld<'_> {
 
     /// A place from the south-west corner, which must be on the map.
     fn on_map(&self, place: &str, from_middle_m: [f64; 2]) -> Result<[f64; 2], Fault> {
-        let pixels = [self.heights.columns, self.heights.rows];
-        let reach_m = pixels.map(|pixels| (pixels - 1) as f64 / 2.0 * PIXEL_M);
+        let reach_m = self.reach_m();
         if from_middle_m.into_iter().zip(reach_m).all(|(at_m, reach_m)| at_m.abs() <= reach_m) {
             return Ok(self.place_m(from_middle_m));
         }

@@ -41,7 +41,7 @@ pub(crate) const MODULES: [&str; 5] = [
 ];
 
 /// `--package` for each module's crate.
-pub(crate) fn package_flags() -> [String; 5] {
+pub(crate) fn package_flags() -> [String; MODULES.len()] {
     MODULES.map(|module| format!("--package={}", module.replace('_', "-")))
 }
 

@@ -68,7 +68,7 @@ async function instrument(worker: Worker): Promise<void> {
 
 function ask(worker: Worker, command: Command): Promise<number> {
   return worker.evaluate(
-    (given) => (self as unknown as { ask(one: Command): Promise<number> }).ask(JSON.parse(given)),
+    (given) => (Reflect.get(self, 'ask') as (one: Command) => Promise<number>)(JSON.parse(given)),
     JSON.stringify(command),
   );
 }

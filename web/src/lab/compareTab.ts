@@ -13,7 +13,6 @@ import { type RunningJob, startJob } from '../trials/trialsClient.ts';
 import { type Course, type FromTrials, OWN_PLANNER, type Rider } from '../trials/trialsProtocol.ts';
 import type { Stage } from '../view/stage.ts';
 import { ComparisonTable } from './comparisonTable.ts';
-
 import { GhostTrails } from './ghostTrails.ts';
 import { KeptSets } from './keptSets.ts';
 import type { Tab } from './lab.ts';

@@ -333,12 +333,12 @@ mod tests {
     }
 
     /// Drives for some seconds; the poses and commands.
-    fn drive(course: &Level, seconds: f64) -> Vec<(PlanPose, Command)> {
+    fn drive(course: &impl Course, seconds: f64) -> Vec<(PlanPose, Command)> {
         drive_with(course, seconds, STEP_S)
     }
 
     /// With a scan every `elapsed_s`.
-    fn drive_with(course: &Level, seconds: f64, elapsed_s: f64) -> Vec<(PlanPose, Command)> {
+    fn drive_with(course: &impl Course, seconds: f64, elapsed_s: f64) -> Vec<(PlanPose, Command)> {
         let mut optimiser = TrajectoryOptimiser::new(Limits::of(&PlannerConfig::default()));
         let mut start = Start { elapsed_s, ..FROM };
         (0..(seconds / elapsed_s) as usize)
@@ -384,5 +384,31 @@ mod tests {
         let target_m = DVec2::new(-4.0, 0.0);
         let driven = drive(&Level { target_m, closed_from_x_m: -3.0 }, 40.0);
         assert!(driven.iter().any(|(pose, _)| pose.position_m.x < -3.0), "{:?}", driven.last());
+    }
+
+    /// Ground at its limit, where a metre in reverse costs more than it gains, and a short way back.
+    struct SteepWayBack;
+
+    const BACK_M: DVec2 = DVec2::new(-0.25, 0.0);
+
+    impl Course for SteepWayBack {
+        fn met(&self, _: &PlanPose) -> Option<Met> {
+            Some(Met { risk: 1.0, utilisation: 0.5 })
+        }
+
+        fn cost_to_go_m(&self, pose: &PlanPose) -> f64 {
+            pose.position_m.distance(BACK_M)
+        }
+
+        fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
+            core::iter::once((BACK_M, true))
+        }
+    }
+
+    #[test]
+    fn a_leg_too_short_to_be_passed_is_driven_to_its_end() {
+        let driven = drive(&SteepWayBack, 5.0);
+        let away_m = driven.last().map(|(pose, _)| pose.position_m.distance(BACK_M));
+        assert!(away_m.is_some_and(|away_m| away_m < 0.15), "{away_m:?}");
     }
 }
