@@ -386,6 +386,21 @@ mod tests {
         assert!(driven.iter().any(|(pose, _)| pose.position_m.x < -3.0), "{:?}", driven.last());
     }
 
+    #[test]
+    fn it_says_so_where_the_robot_stands_and_nothing_admissible_leads_on() {
+        // Less than what counts as progress lies before the closed ground, and the path leads into it.
+        let course = Level { target_m: DVec2::new(20.0, 0.0), closed_from_x_m: 0.04 };
+        let mut optimiser = TrajectoryOptimiser::new(Limits::of(&PlannerConfig::default()));
+        assert_eq!(optimiser.drive(&course, FROM), None);
+        // A robot that still moves is braked first.
+        let command = Command { linear_m_s: 0.05, angular_rad_s: 0.0 };
+        let braked = optimiser.drive(&course, Start { command, ..FROM });
+        assert!(braked.is_some_and(|braked| braked.linear_m_s < 0.05), "{braked:?}");
+        // With ground to drive on, it goes.
+        let course = Level { closed_from_x_m: 10.0, ..course };
+        assert!(optimiser.drive(&course, FROM).is_some_and(|command| command.linear_m_s > 0.0));
+    }
+
     /// Ground at its limit, where a metre in reverse costs more than it gains, and a short way back.
     struct SteepWayBack;
 
