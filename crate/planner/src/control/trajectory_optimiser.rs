@@ -27,7 +27,7 @@ const FOLLOW_GAIN: f64 = 2.0;
 const TURN_FIRST_RAD: f64 = 0.5;
 /// A trajectory that gains less than this, in metres of level ground, leaves the robot where it stands.
 const LEAST_PROGRESS_M: f64 = 0.05;
-/// Below these speeds the robot stands.
+/// Below these speeds the robot stands. A start commands more, at fifty scans a second or fewer.
 const STILL_M_S: f64 = 0.01;
 const STILL_RAD_S: f64 = 0.01;
 /// Rounds of the pattern search; each halves its reach.
@@ -169,8 +169,9 @@ impl TrajectoryOptimiser {
 
     /// The command that begins the best trajectory from a pose and the last command. If every trajectory
     /// meets what it must not, or the best one leaves the robot where it stands and the path does not, it
-    /// begins the drive along the path, which was found safe. `None` if the robot stands and no admissible
-    /// trajectory leads on: the body would come too near to something on the way that the search took.
+    /// begins the drive along the path, which was found safe. `None` if the robot stands and the trajectory
+    /// would leave it standing: the body would come too near to something on the way that the search took,
+    /// or the path ends here.
     pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Option<Command> {
         let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
@@ -211,17 +212,17 @@ impl TrajectoryOptimiser {
         // What no such trajectory can do, as to turn first and then to drive, following the path can.
         let following = self.roll_out(course, from, Law::Follow);
         let stands = course.cost_to_go_m(&from.pose) - best.rolled.to_go_m < LEAST_PROGRESS_M;
-        if !best.rolled.cost.is_finite() || (stands && following.cost.is_finite()) {
+        let chosen = if !best.rolled.cost.is_finite() || (stands && following.cost.is_finite()) {
             // The robot stands beside what was found safe, or where no short trajectory pays: the path leads
             // off.
             self.reset();
-            return Some(following.first);
-        }
-        if stands && is_still(&from.command) && is_still(&best.rolled.first) {
-            return None;
-        }
-        self.last = best.plan;
-        Some(if following.cost < best.rolled.cost { following.first } else { best.rolled.first })
+            following
+        } else {
+            self.last = best.plan;
+            if following.cost < best.rolled.cost { following } else { best.rolled }
+        };
+        let moves = !(is_still(&from.command) && is_still(&chosen.first));
+        moves.then_some(chosen.first)
     }
 
     /// Speed and turn rate towards a point.
@@ -277,10 +278,11 @@ impl TrajectoryOptimiser {
             cost += STEP_S
                 * (trajectory.turn_smoothness * bend * bend + trajectory.speed_smoothness * push * push);
             (speed, turn) = (next_speed, next_turn);
+            let command = Command { linear_m_s: speed, angular_rad_s: turn };
             if step == 0 {
-                first = Command { linear_m_s: speed, angular_rad_s: turn };
+                first = command;
             }
-            pose.advance(&Command { linear_m_s: speed, angular_rad_s: turn }, STEP_S);
+            pose.advance(&command, STEP_S);
             let price = if speed < 0.0 { limits.reverse_price } else { 1.0 };
             let way_m = speed.abs() * STEP_S;
             // What is turned while driving costs nothing beyond the way, as on the lattice.
@@ -418,6 +420,29 @@ mod tests {
         fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
             core::iter::once((BACK_M, true))
         }
+    }
+
+    /// Ground at its limit, where the path ends under the robot.
+    struct PathEnds;
+
+    impl Course for PathEnds {
+        fn met(&self, _: &PlanPose) -> Option<Met> {
+            Some(Met { risk: 1.0, utilisation: 0.5 })
+        }
+
+        fn cost_to_go_m(&self, _: &PlanPose) -> f64 {
+            1.0
+        }
+
+        fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
+            core::iter::once((DVec2::ZERO, false))
+        }
+    }
+
+    #[test]
+    fn it_says_so_where_the_robot_stands_and_the_path_ends() {
+        let mut optimiser = TrajectoryOptimiser::new(Limits::of(&PlannerConfig::default()));
+        assert_eq!(optimiser.drive(&PathEnds, FROM), None);
     }
 
     #[test]

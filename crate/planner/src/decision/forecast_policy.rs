@@ -311,6 +311,14 @@ impl ForecastPolicy {
     }
 }
 
+/// The unit vector in which a path leaves a pose; the heading if it stays.
+fn direction_of(path: &[PathPoint], pose: &Pose) -> DVec2 {
+    let here_m = pose.plan_m();
+    let ways_m = path.iter().map(|point| point.position_m - here_m);
+    let off_m = ways_m.into_iter().find(|way_m| way_m.length() > LEAST_BACKTRACK_M);
+    off_m.map_or_else(|| DVec2::from_angle(pose.yaw_rad), DVec2::normalize)
+}
+
 impl ForecastPolicy {
     /// Moves all that is remembered from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
@@ -373,7 +381,9 @@ impl SubgoalPolicy for ForecastPolicy {
         self.learn(situation);
         let command = self.follow(&subgoal, situation, controller, &mut plan.path);
         if command.is_none() {
-            self.start_backtrack(pose.plan_m());
+            // The way that the path takes first is no way on, whether or not the robot can back off.
+            self.lattice.inflate_variance_ahead(direction_of(&plan.path, pose));
+            self.backtrack.begin(pose.plan_m());
         }
         Motion::Drive(command.unwrap_or(Command::STOP))
     }
