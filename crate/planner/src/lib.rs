@@ -29,7 +29,7 @@
 //!
 //! match step.status {
 //!     Status::Driving | Status::Backtracking | Status::Searching => {
-//!         assert!(step.command.linear_m_s > 0.5); // send it to the robot
+//!         assert!(step.command.linear_m_s > 0.0); // send it to the robot
 //!     }
 //!     Status::Arrived => {}
 //!     Status::Stopped(reason) => panic!("{reason}"),

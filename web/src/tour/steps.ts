@@ -120,8 +120,8 @@ export const STEPS: readonly Step[] = [
   },
   {
     title: 'Drive, and scan again',
-    text: () =>
-      'A PID controller turns the robot towards the subgoal and drives. Then comes the next scan, and all of this happens again. Now it is yours: press Done, then raise a hill in its path, or give it another goal.',
+    text: (_, { preset }) =>
+      `${preset === 'paper' ? 'A PID controller turns the robot towards the subgoal and drives.' : 'The robot drives the best trajectory of the next two seconds along its path; the paper has a PID controller there.'} Then comes the next scan, and all of this happens again. Now it is yours: press Done, then raise a hill in its path, or give it another goal.`,
     camera: 'chase',
     layers: { points: 'use', subgoals: true },
     drives: true,

@@ -236,7 +236,7 @@ parameters! {
     #[derive(Copy)]
     pub struct ControllerConfig {
         /// How the path to the chosen subgoal is followed. The policy of the paper always has the PID loops.
-        following: FollowingLaw = FollowingLaw::Pid, paper FollowingLaw::Pid;
+        following: FollowingLaw = FollowingLaw::RecedingHorizon, paper FollowingLaw::Pid;
         /// Speed limit.
         max_speed_m_s: f64 = 0.8, paper 0.8, unit "m/s", range [0.1, 3.0], check Positive;
         /// Turn-rate limit.

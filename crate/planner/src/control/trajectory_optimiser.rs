@@ -27,8 +27,15 @@ const FOLLOW_GAIN: f64 = 2.0;
 const TURN_FIRST_RAD: f64 = 0.5;
 /// A trajectory that gains less than this, in metres of level ground, leaves the robot where it stands.
 const LEAST_PROGRESS_M: f64 = 0.05;
+/// Below these speeds the robot stands. A start commands more, at fifty scans a second or fewer.
+const STILL_M_S: f64 = 0.01;
+const STILL_RAD_S: f64 = 0.01;
 /// Rounds of the pattern search; each halves its reach.
 const ROUNDS: usize = 4;
+
+fn is_still(command: &Command) -> bool {
+    command.linear_m_s.abs() < STILL_M_S && command.angular_rad_s.abs() < STILL_RAD_S
+}
 
 /// Limits and prices of the trajectories.
 #[derive(Clone, Copy, Debug)]
@@ -162,8 +169,10 @@ impl TrajectoryOptimiser {
 
     /// The command that begins the best trajectory from a pose and the last command. If every trajectory
     /// meets what it must not, or the best one leaves the robot where it stands and the path does not, it
-    /// begins the drive along the path, which was found safe.
-    pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Command {
+    /// begins the drive along the path, which was found safe. `None` if the robot stands and the trajectory
+    /// would leave it standing: the body would come too near to something on the way that the search took,
+    /// or the path ends here.
+    pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Option<Command> {
         let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
         let roll_out = |plan: Plan| Candidate { plan, rolled: self.roll_out(course, from, Law::Plan(&plan)) };
@@ -202,16 +211,18 @@ impl TrajectoryOptimiser {
         }
         // What no such trajectory can do, as to turn first and then to drive, following the path can.
         let following = self.roll_out(course, from, Law::Follow);
-        let progress_m = course.cost_to_go_m(&from.pose) - best.rolled.to_go_m;
-        let path_leads_on = progress_m < LEAST_PROGRESS_M && following.cost.is_finite();
-        if !best.rolled.cost.is_finite() || path_leads_on {
+        let stands = course.cost_to_go_m(&from.pose) - best.rolled.to_go_m < LEAST_PROGRESS_M;
+        let chosen = if !best.rolled.cost.is_finite() || (stands && following.cost.is_finite()) {
             // The robot stands beside what was found safe, or where no short trajectory pays: the path leads
             // off.
             self.reset();
-            return following.first;
-        }
-        self.last = best.plan;
-        if following.cost < best.rolled.cost { following.first } else { best.rolled.first }
+            following
+        } else {
+            self.last = best.plan;
+            if following.cost < best.rolled.cost { following } else { best.rolled }
+        };
+        let moves = !(is_still(&from.command) && is_still(&chosen.first));
+        moves.then_some(chosen.first)
     }
 
     /// Speed and turn rate towards a point.
@@ -267,10 +278,11 @@ impl TrajectoryOptimiser {
             cost += STEP_S
                 * (trajectory.turn_smoothness * bend * bend + trajectory.speed_smoothness * push * push);
             (speed, turn) = (next_speed, next_turn);
+            let command = Command { linear_m_s: speed, angular_rad_s: turn };
             if step == 0 {
-                first = Command { linear_m_s: speed, angular_rad_s: turn };
+                first = command;
             }
-            pose.advance(&Command { linear_m_s: speed, angular_rad_s: turn }, STEP_S);
+            pose.advance(&command, STEP_S);
             let price = if speed < 0.0 { limits.reverse_price } else { 1.0 };
             let way_m = speed.abs() * STEP_S;
             // What is turned while driving costs nothing beyond the way, as on the lattice.
@@ -333,7 +345,7 @@ mod tests {
         let mut start = Start { elapsed_s, ..FROM };
         (0..(seconds / elapsed_s) as usize)
             .map(|_| {
-                let command = optimiser.drive(course, start);
+                let command = optimiser.drive(course, start).unwrap_or(Command::STOP);
                 let mut pose = start.pose;
                 pose.advance(&command, elapsed_s);
                 start = Start { pose, command, ..start };
@@ -376,6 +388,21 @@ mod tests {
         assert!(driven.iter().any(|(pose, _)| pose.position_m.x < -3.0), "{:?}", driven.last());
     }
 
+    #[test]
+    fn it_says_so_where_the_robot_stands_and_nothing_admissible_leads_on() {
+        // Less than what counts as progress lies before the closed ground, and the path leads into it.
+        let course = Level { target_m: DVec2::new(20.0, 0.0), closed_from_x_m: 0.04 };
+        let mut optimiser = TrajectoryOptimiser::new(Limits::of(&PlannerConfig::default()));
+        assert_eq!(optimiser.drive(&course, FROM), None);
+        // A robot that still moves is braked first.
+        let command = Command { linear_m_s: 0.05, angular_rad_s: 0.0 };
+        let braked = optimiser.drive(&course, Start { command, ..FROM });
+        assert!(braked.is_some_and(|braked| braked.linear_m_s < 0.05), "{braked:?}");
+        // With ground to drive on, it goes.
+        let course = Level { closed_from_x_m: 10.0, ..course };
+        assert!(optimiser.drive(&course, FROM).is_some_and(|command| command.linear_m_s > 0.0));
+    }
+
     /// Ground at its limit, where a metre in reverse costs more than it gains, and a short way back.
     struct SteepWayBack;
 
@@ -393,6 +420,29 @@ mod tests {
         fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
             core::iter::once((BACK_M, true))
         }
+    }
+
+    /// Ground at its limit, where the path ends under the robot.
+    struct PathEnds;
+
+    impl Course for PathEnds {
+        fn met(&self, _: &PlanPose) -> Option<Met> {
+            Some(Met { risk: 1.0, utilisation: 0.5 })
+        }
+
+        fn cost_to_go_m(&self, _: &PlanPose) -> f64 {
+            1.0
+        }
+
+        fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
+            core::iter::once((DVec2::ZERO, false))
+        }
+    }
+
+    #[test]
+    fn it_says_so_where_the_robot_stands_and_the_path_ends() {
+        let mut optimiser = TrajectoryOptimiser::new(Limits::of(&PlannerConfig::default()));
+        assert_eq!(optimiser.drive(&PathEnds, FROM), None);
     }
 
     #[test]

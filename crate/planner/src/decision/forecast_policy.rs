@@ -225,14 +225,14 @@ impl ForecastPolicy {
         }
     }
 
-    /// Drives along the path to a subgoal.
+    /// Drives along the path to a subgoal; `None` if the robot stands and nothing admissible leads on.
     fn follow(
         &mut self,
         subgoal: &Subgoal,
         situation: &Situation<'_>,
         controller: &mut Controller,
         path: &mut Vec<PathPoint>,
-    ) -> Command {
+    ) -> Option<Command> {
         let end_m = subgoal.position_m.truncate();
         if let Some(reached) = self.lattice.to(end_m) {
             self.lattice.follow(reached, path);
@@ -242,7 +242,7 @@ impl ForecastPolicy {
             last.position_m = end_m;
         }
         match situation.config.controller.following {
-            FollowingLaw::Pid => self.follow_by_pid(subgoal, situation, controller, path),
+            FollowingLaw::Pid => Some(self.follow_by_pid(subgoal, situation, controller, path)),
             FollowingLaw::RecedingHorizon => self.follow_by_trajectory(situation, path),
         }
     }
@@ -268,8 +268,9 @@ impl ForecastPolicy {
         controller.regulated(command, utilisation)
     }
 
-    /// Drives the best short trajectory along the path, or along the leg that is to be finished first.
-    fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Command {
+    /// Drives the best short trajectory along the path, or along the leg that is to be finished first; `None` if
+    /// none is admissible.
+    fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Option<Command> {
         let Situation { config, pose, last_command, .. } = *situation;
         let here_m = pose.plan_m();
         let next = self.lattice.lookahead(path);
@@ -308,6 +309,14 @@ impl ForecastPolicy {
             self.heuristic.learn(place_m, goal_m, to_goal_m);
         }
     }
+}
+
+/// The unit vector in which a path leaves a pose; the heading if it stays.
+fn direction_of(path: &[PathPoint], pose: &Pose) -> DVec2 {
+    let here_m = pose.plan_m();
+    let ways_m = path.iter().map(|point| point.position_m - here_m);
+    let off_m = ways_m.into_iter().find(|way_m| way_m.length() > LEAST_BACKTRACK_M);
+    off_m.map_or_else(|| DVec2::from_angle(pose.yaw_rad), DVec2::normalize)
 }
 
 impl ForecastPolicy {
@@ -370,7 +379,13 @@ impl SubgoalPolicy for ForecastPolicy {
             }
         }
         self.learn(situation);
-        Motion::Drive(self.follow(&subgoal, situation, controller, &mut plan.path))
+        let command = self.follow(&subgoal, situation, controller, &mut plan.path);
+        if command.is_none() {
+            // The way that the path takes first is no way on, whether or not the robot can back off.
+            self.lattice.inflate_variance_ahead(direction_of(&plan.path, pose));
+            self.backtrack.begin(pose.plan_m());
+        }
+        Motion::Drive(command.unwrap_or(Command::STOP))
     }
 
     fn safe_turn_rad(&self, turn_rad: f64) -> f64 {
