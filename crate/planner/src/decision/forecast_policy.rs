@@ -268,8 +268,8 @@ impl ForecastPolicy {
         controller.regulated(command, utilisation)
     }
 
-    /// Drives the best short trajectory along the path, or along the leg that is to be finished first; `None` if
-    /// none is admissible.
+    /// Drives the best short trajectory along the path, or along the leg that is to be finished first; `None`
+    /// if the robot stands and would be left standing.
     fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Option<Command> {
         let Situation { config, pose, last_command, .. } = *situation;
         let here_m = pose.plan_m();
@@ -314,8 +314,8 @@ impl ForecastPolicy {
 /// The unit vector in which a path leaves a pose; the heading if it stays.
 fn direction_of(path: &[PathPoint], pose: &Pose) -> DVec2 {
     let here_m = pose.plan_m();
-    let ways_m = path.iter().map(|point| point.position_m - here_m);
-    let off_m = ways_m.into_iter().find(|way_m| way_m.length() > LEAST_BACKTRACK_M);
+    let mut ways_m = path.iter().map(|point| point.position_m - here_m);
+    let off_m = ways_m.find(|way_m| way_m.length() > LEAST_BACKTRACK_M);
     off_m.map_or_else(|| DVec2::from_angle(pose.yaw_rad), DVec2::normalize)
 }
 
