@@ -7,6 +7,7 @@
 mod cliffs;
 mod footprint;
 
+use core::f64::consts::SQRT_2;
 use core::time::Duration;
 use std::collections::VecDeque;
 
@@ -29,6 +30,8 @@ const MOST_RETURNS: f64 = 30.0;
 const PARTS: usize = 4;
 /// A cell is upright once so many rows of beams met a face in it.
 const FEWEST_FACES: u32 = 3;
+/// Parts of a cell's side: where in the cell the faces stand.
+const FACE_PARTS: i32 = 4;
 /// The body keeps this far from what is upright.
 const UPRIGHT_MARGIN_M: f64 = 0.1;
 /// Radii of the ground around a place that carries the robot, as multiples of the footprint's radius. A wider
@@ -85,6 +88,8 @@ struct ElevationCell {
     mean_m: DVec3,
     /// Rows of beams that met an upright face here.
     faces: u32,
+    /// The parts of the cell in which they met it: bit `FACE_PARTS` · north + east.
+    face_parts: u16,
 }
 
 impl ElevationCell {
@@ -158,7 +163,11 @@ impl ElevationWindow {
                 cell.mean_m += (point_m - cell.mean_m) * (1.0 / cell.returns);
                 cell.seen = now;
             }
-            _ => self.cells.set(index, ElevationCell { seen: now, returns: 1.0, mean_m: point_m, faces: 0 }),
+            _ => {
+                let cell =
+                    ElevationCell { seen: now, returns: 1.0, mean_m: point_m, faces: 0, face_parts: 0 };
+                self.cells.set(index, cell);
+            }
         }
     }
 
@@ -184,17 +193,49 @@ impl ElevationWindow {
     /// Notes that a scan shows an upright face at a place where it has returns.
     pub(crate) fn add_face(&mut self, place_m: DVec2) {
         let index = self.index_of(place_m);
+        let part = self.face_part(place_m, index);
         if let Some(cell) = self.cells.get_mut(index) {
             cell.faces = cell.faces.saturating_add(1);
+            cell.face_parts |= part;
         }
+    }
+
+    /// The bit of the part of a cell that a place is in.
+    fn face_part(&self, place_m: DVec2, index: IVec2) -> u16 {
+        let within = (place_m / self.config.cell_m - index.as_dvec2()) * f64::from(FACE_PARTS);
+        let [east, north] = [within.x, within.y].map(|part| (part as i32).clamp(0, FACE_PARTS - 1));
+        1 << (FACE_PARTS * north + east)
+    }
+
+    /// The middles of the parts of a cell in which faces stand.
+    fn face_places_m(&self, index: IVec2, parts: u16) -> impl Iterator<Item = DVec2> {
+        let part_m = self.config.cell_m / f64::from(FACE_PARTS);
+        let corner_m = index.as_dvec2() * self.config.cell_m;
+        let stands = (0..FACE_PARTS * FACE_PARTS).filter(move |bit| parts >> bit & 1 == 1);
+        stands.map(move |bit| {
+            let part = IVec2::new(bit % FACE_PARTS, bit / FACE_PARTS).as_dvec2();
+            corner_m + (part + 0.5) * part_m
+        })
     }
 
     /// Moves the window from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         let mut moved = RollingGrid::new(self.config.cells_per_side());
-        for (_, cell) in self.cells.iter().filter(|(_, cell)| self.is_fresh(cell)) {
+        let fresh = || self.cells.iter().filter(|(_, cell)| self.is_fresh(cell));
+        for (_, cell) in fresh() {
             let mean_m = change.point_m(cell.mean_m);
-            moved.set(self.index_of(mean_m.truncate()), ElevationCell { mean_m, ..*cell });
+            let index = self.index_of(mean_m.truncate());
+            moved.set(index, ElevationCell { mean_m, face_parts: 0, ..*cell });
+        }
+        for (index, cell) in fresh() {
+            for place_m in self.face_places_m(index, cell.face_parts) {
+                let place_m = change.place_m(place_m);
+                let index = self.index_of(place_m);
+                if let Some(there) = moved.get_mut(index) {
+                    there.face_parts |= self.face_part(place_m, index);
+                    there.faces = there.faces.max(cell.faces);
+                }
+            }
         }
         self.cells = moved;
         for view in &mut self.views {
@@ -224,14 +265,18 @@ impl ElevationWindow {
 
     /// The fresh cells of ground whose mean is within `radius_m` of a place.
     fn cells_near(&self, place_m: DVec2, radius_m: f64) -> impl Iterator<Item = &ElevationCell> {
-        self.fresh_cells_near(place_m, radius_m).filter(|cell| !cell.is_upright())
+        self.fresh_cells_near(place_m, radius_m).map(|(_, cell)| cell).filter(|cell| !cell.is_upright())
     }
 
     /// The fresh cells whose mean is within `radius_m` of a place.
-    fn fresh_cells_near(&self, place_m: DVec2, radius_m: f64) -> impl Iterator<Item = &ElevationCell> {
+    fn fresh_cells_near(
+        &self,
+        place_m: DVec2,
+        radius_m: f64,
+    ) -> impl Iterator<Item = (IVec2, &ElevationCell)> {
         let reach = DVec2::splat(radius_m);
         let (low, high) = (self.index_of(place_m - reach), self.index_of(place_m + reach));
-        self.cells.between(low, high).filter(move |cell| {
+        self.cells.between(low, high).filter(move |(_, cell)| {
             (cell.mean_m.truncate() - place_m).length_squared() <= radius_m * radius_m && self.is_fresh(cell)
         })
     }
@@ -283,15 +328,21 @@ impl TerrainQuery for ElevationWindow {
     }
 
     fn each_upright(&self, place_m: DVec2, radius_m: f64, visit: &mut dyn FnMut(DVec2)) {
-        let upright = self.fresh_cells_near(place_m, radius_m).filter(|cell| cell.is_upright());
-        upright.for_each(|cell| visit(cell.mean_m.truncate()));
+        // A face may stand anywhere in a cell whose mean is farther away.
+        let radius_m = radius_m + SQRT_2 * self.config.cell_m;
+        let upright = self.fresh_cells_near(place_m, radius_m).filter(|(_, cell)| cell.is_upright());
+        for (index, cell) in upright {
+            self.face_places_m(index, cell.face_parts).for_each(&mut *visit);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pose::Pose;
     use crate::testing::STEP;
+    use core::f64::consts::FRAC_PI_2;
     use proptest::prelude::*;
 
     fn strewn(slope: DVec2, centre: DVec2) -> ElevationWindow {
@@ -316,6 +367,42 @@ mod tests {
             prop_assert!((plane.gradient - slope).length() < 1e-9);
             prop_assert!((plane.height_m - slope.dot(place)).abs() < 1e-9);
             prop_assert!(plane.gradient_deviation < 0.1);
+        }
+    }
+
+    /// Upright faces all around a post of 0.2 m, with its middle at a place.
+    fn post(middle_m: DVec2) -> ElevationWindow {
+        let mut ground = ElevationWindow::new(&PlannerConfig::default());
+        for step in 0..400 {
+            let along = f64::from(step % 100) / 100.0 - 0.5;
+            let on_face = DVec2::new(0.5, along).rotate(DVec2::from_angle(f64::from(step / 100) * FRAC_PI_2));
+            let place_m = middle_m + 0.2 * on_face;
+            ground.add(place_m.extend(0.4));
+            ground.add_face(place_m);
+        }
+        ground
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_upright_is_known_to_a_few_centimetres(
+            x in -9.0..9.0_f64, y in -9.0..9.0_f64, turn_rad in -3.0..3.0_f64,
+        ) {
+            let mut middle_m = DVec2::new(x, y);
+            let mut ground = post(middle_m);
+            for part_m in [0.05, 0.1] {
+                let mut things_m = Vec::new();
+                ground.each_upright(middle_m, 1.0, &mut |thing_m| things_m.push(thing_m - middle_m));
+                let farthest_m = things_m.iter().map(|thing_m| thing_m.length()).fold(0.0, f64::max);
+                // The corners are 0.141 m from the middle.
+                prop_assert!((farthest_m - 0.141).abs() < 0.75 * part_m, "{farthest_m}");
+                let at = |place_m: DVec2, yaw_rad| {
+                    Pose { position_m: place_m.extend(0.0), roll_rad: 0.0, pitch_rad: 0.0, yaw_rad }
+                };
+                let change = FrameChange::between(&at(middle_m, 0.0), &at(DVec2::new(y, x), turn_rad));
+                ground.relocalise(&change);
+                middle_m = change.place_m(middle_m);
+            }
         }
     }
 

@@ -48,7 +48,7 @@ impl<T: Copy> RollingGrid<T> {
     }
 
     /// The cells from `low` to `high`, both included, row by row.
-    pub(crate) fn between(&self, low: IVec2, high: IVec2) -> impl Iterator<Item = &T> {
+    pub(crate) fn between(&self, low: IVec2, high: IVec2) -> impl Iterator<Item = (IVec2, &T)> {
         let first = low.x.rem_euclid(self.side);
         (low.y..=high.y).flat_map(move |y| {
             let begin = (y.rem_euclid(self.side) * self.side) as usize;
@@ -57,7 +57,7 @@ impl<T: Copy> RollingGrid<T> {
             (low.x..=high.x).filter_map(move |x| {
                 let held = row[slot as usize].as_ref();
                 slot = if slot + 1 == self.side { 0 } else { slot + 1 };
-                held.filter(|(index, _)| *index == IVec2::new(x, y)).map(|(_, cell)| cell)
+                held.filter(|(index, _)| *index == IVec2::new(x, y)).map(|(index, cell)| (*index, cell))
             })
         })
     }
@@ -127,7 +127,7 @@ mod tests {
                     expected.push((column, row));
                 }
             }
-            prop_assert_eq!(grid.between(low, high).copied().collect::<Vec<_>>(), expected);
+            prop_assert_eq!(grid.between(low, high).map(|(_, cell)| *cell).collect::<Vec<_>>(), expected);
         }
     }
 }
