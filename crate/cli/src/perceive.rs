@@ -1,4 +1,4 @@
-//! `mapless perceive`: one recorded scan through one step of the planner.
+//! `mapless perceive`: one recorded scan through one step of the planner, and the command once it has started.
 //!
 //! A scan has no pose: the robot is level at the origin, faces along +x, has not driven yet, and its goal is
 //! 50 m ahead. The sensor is as high above the ground as configured.
@@ -12,20 +12,24 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use mapless::skyline::surface::PredictedSurface;
 use mapless::terrain::mount_misfit::MountMisfit;
-use mapless::{Goal, Planner, Step};
-use mapless::{PlannerConfig, Pose};
+use mapless::{Command, Goal, Planner, PlannerConfig, Pose, Status, Step};
 use mapless_scans::{ScanChoice, SourceAddress, is_capture, read_scan};
 use mapless_trials::planner_config_for;
 
 use crate::picture::{OccupancyPicture, VarianceImage};
 use crate::setup::PlannerChoice;
 use report::PerceptionReport;
+use rows::CommandRow;
 
 const POSE: Pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, 0.0, 0.0);
 const GOAL_M: DVec2 = DVec2::new(50.0, 0.0);
+/// Time between two scans.
+const PERIOD: Duration = Duration::from_millis(100);
+/// Within so many scans a robot from rest has taken up its speed.
+const STARTING_SCANS: usize = 15;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
@@ -54,6 +58,15 @@ pub(crate) struct Args {
     json: bool,
 }
 
+/// The command after a start from rest, with the same scan again and again: limits of acceleration decide the
+/// first one, and a scan does not say how fast the robot already drives.
+fn command_once_started(planner: &mut Planner, points_m: &[Vec3]) -> Command {
+    for _ in 1..STARTING_SCANS {
+        planner.step(points_m, &POSE, PERIOD);
+    }
+    planner.last_step().command
+}
+
 /// Perceives the scan and shows what was seen and decided.
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let scan = read_scan(&args.file, ScanChoice { revolution: args.revolution, source: args.source })?;
@@ -70,11 +83,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let mut planner = Planner::new(config)?;
     let variance_threshold = planner.config().perception.variance_threshold;
     planner.set_goal(Goal::at(GOAL_M));
-    let step = planner.step(&scan.points_m, &POSE, Duration::ZERO);
-    let report = PerceptionReport::new(subject(args), scan.points_m.len(), warnings, &step);
+    let step = planner.step(&scan.points_m, &POSE, PERIOD);
+    let is_driving = step.status == Status::Driving;
+    let mut report = PerceptionReport::new(subject(args), scan.points_m.len(), warnings, &step);
     if let Some(folder) = &args.out {
         let predicted = planner.predicted_surface()?.clone();
         draw(folder, &report, &planner.last_step(), &predicted, variance_threshold)?;
+    }
+    if is_driving {
+        report.command = CommandRow::of(command_once_started(&mut planner, &scan.points_m));
     }
     let text = if args.json { serde_json::to_string(&report)? } else { report.tables() };
     writeln!(std::io::stdout(), "{text}").context("standard output")

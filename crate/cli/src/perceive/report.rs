@@ -25,7 +25,8 @@ pub(crate) struct PerceptionReport {
     status: &'static str,
     /// Why the planner stopped, if it did.
     reason: Option<String>,
-    command: CommandRow,
+    /// What a robot is told that has started from rest.
+    pub(super) command: CommandRow,
     surface_radius_m: f64,
     /// Cells of the occupancy surface with a return.
     occupied_cells: usize,

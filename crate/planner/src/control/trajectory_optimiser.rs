@@ -27,7 +27,7 @@ const FOLLOW_GAIN: f64 = 2.0;
 const TURN_FIRST_RAD: f64 = 0.5;
 /// A trajectory that gains less than this, in metres of level ground, leaves the robot where it stands.
 const LEAST_PROGRESS_M: f64 = 0.05;
-/// Below these speeds the robot stands. A start commands more, at fifty scans a second or fewer.
+/// Below these speeds the robot stands.
 const STILL_M_S: f64 = 0.01;
 const STILL_RAD_S: f64 = 0.01;
 /// Rounds of the pattern search; each halves its reach.
@@ -136,13 +136,14 @@ enum Law<'a> {
     Follow,
 }
 
-/// A trajectory's cost, infinite if it meets what it must not, what is left of the path at its end, and
-/// its first command.
+/// A trajectory's cost, infinite if it meets what it must not, what is left of the path at its end, its first
+/// command, and whether that or the second one moves the robot: the first may have no time to.
 #[derive(Clone, Copy, Debug)]
 struct RolledOut {
     cost: f64,
     to_go_m: f64,
     first: Command,
+    moves: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -221,8 +222,7 @@ impl TrajectoryOptimiser {
             self.last = best.plan;
             if following.cost < best.rolled.cost { following } else { best.rolled }
         };
-        let moves = !(is_still(&from.command) && is_still(&chosen.first));
-        moves.then_some(chosen.first)
+        (chosen.moves || !is_still(&from.command)).then_some(chosen.first)
     }
 
     /// Speed and turn rate towards a point.
@@ -246,7 +246,7 @@ impl TrajectoryOptimiser {
         let Start { mut pose, command: last, elapsed_s, utilisation } = from;
         let (mut speed, mut turn) = (last.linear_m_s, last.angular_rad_s);
         let mut cost = 0.0;
-        let mut first = last;
+        let (mut first, mut moves) = (last, false);
         let mut met = course.met(&pose).unwrap_or(Met { risk: 1.0, utilisation: 1.0 });
         met.utilisation = met.utilisation.max(utilisation);
         let mut way = course.path().peekable();
@@ -282,6 +282,7 @@ impl TrajectoryOptimiser {
             if step == 0 {
                 first = command;
             }
+            moves |= step < 2 && !is_still(&command);
             pose.advance(&command, STEP_S);
             let price = if speed < 0.0 { limits.reverse_price } else { 1.0 };
             let way_m = speed.abs() * STEP_S;
@@ -290,13 +291,13 @@ impl TrajectoryOptimiser {
             if step % 2 == 1 {
                 match course.met(&pose) {
                     Some(now) => met = now,
-                    None => return RolledOut { cost: f64::INFINITY, to_go_m: f64::INFINITY, first },
+                    None => return RolledOut { cost: f64::INFINITY, to_go_m: f64::INFINITY, first, moves },
                 }
             }
             cost += price * way_m * (1.0 + limits.tilt_price * met.risk.min(1.0)) + turned_m;
         }
         let to_go_m = course.cost_to_go_m(&pose);
-        RolledOut { cost: cost + trajectory.progress_weight * to_go_m, to_go_m, first }
+        RolledOut { cost: cost + trajectory.progress_weight * to_go_m, to_go_m, first, moves }
     }
 }
 
@@ -401,6 +402,8 @@ mod tests {
         // With ground to drive on, it goes.
         let course = Level { closed_from_x_m: 10.0, ..course };
         assert!(optimiser.drive(&course, FROM).is_some_and(|command| command.linear_m_s > 0.0));
+        let at_once = optimiser.drive(&course, Start { elapsed_s: 0.0, ..FROM });
+        assert_eq!(at_once, Some(Command::STOP), "a step that leaves no time to accelerate");
     }
 
     /// Ground at its limit, where a metre in reverse costs more than it gains, and a short way back.
