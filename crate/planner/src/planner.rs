@@ -159,6 +159,7 @@ impl Planner {
         self.perception.reset(self.config.perception, self.observed.grid());
         self.policy.get_mut().forget_terrain();
         self.goal = None;
+        self.command = Command::STOP;
     }
 
     /// Corrects for a jump of the localisation: the pose that it gave as `before` it now gives as `after`.

@@ -132,6 +132,21 @@ fn an_optimised_drive_begins_anew_from_a_stop() {
 }
 
 #[test]
+fn after_a_reset_a_planner_decides_as_a_new_one() {
+    let seen = scan(level);
+    for (mut planner, mut new) in every_policy().into_iter().zip(every_policy()) {
+        for _ in 0..10 {
+            step(&mut planner, &seen, &START, AHEAD);
+        }
+        planner.reset();
+        for _ in 0..3 {
+            let command = step(&mut planner, &seen, &START, AHEAD).command;
+            assert_eq!(command, step(&mut new, &seen, &START, AHEAD).command);
+        }
+    }
+}
+
+#[test]
 fn a_goal_in_sight_is_driven_to_and_arrived_at() {
     for mut planner in every_policy() {
         let points = scan(level);

@@ -69,7 +69,7 @@ fn step<Answer>(
     let mut planner = Planner::new(PlannerConfig::for_robot(sensor, RobotModel::husky())).unwrap();
     planner.set_goal(Goal::at(place_m + 15.0 * DVec2::from_angle(0.7)));
     let pose = Pose::from_roll_pitch_yaw(place_m.extend(height_m), roll_rad, pitch_rad, 0.7);
-    hears(planner.step(&returns.points_m, &pose, Duration::ZERO))
+    hears(planner.step(&returns.points_m, &pose, Duration::from_millis(100)))
 }
 
 fn profile(caster: &Caster, place_m: DVec2, sensor: SensorModel, layout: &Layout) -> Vec<Column> {
@@ -140,7 +140,7 @@ fn a_sensor_that_looks_farther_down_drives_over_level_ground() {
         let sensor = sensor(rings, half_view_deg);
         step(&level, DVec2::splat(20.0), sensor, &LAYOUTS[3], |step| {
             assert_eq!(step.status, Status::Driving, "{rings} rings");
-            assert!(step.command.linear_m_s > 0.7, "{rings} rings: {:?}", step.command);
+            assert!(step.command.linear_m_s > 0.07, "{rings} rings: {:?}", step.command);
             let is_ground = |column: &&Column| matches!(column, Column::Ground { .. });
             assert_eq!(step.profile.iter().filter(is_ground).count(), step.profile.len(), "{rings} rings");
         });
