@@ -1,4 +1,4 @@
-//! `mapless perceive`: one recorded scan through one step of the planner, and the command once it has started.
+//! `mapless perceive`: one recorded scan through one step of the planner, and its command once it drives.
 //!
 //! A scan has no pose: the robot is level at the origin, faces along +x, has not driven yet, and its goal is
 //! 50 m ahead. The sensor is as high above the ground as configured.
