@@ -1,7 +1,7 @@
 /** The method by hand: thinking again where the robot stands, and the Gaussian process taken apart. */
 
 import AxeBuilder from '@axe-core/playwright';
-import type { Page } from '@playwright/test';
+import type { Locator, Page } from '@playwright/test';
 import { drag, driveTo, expect, moved, state, still, test, until, within } from './page.ts';
 
 /** Another threshold for the same planner. */
@@ -220,13 +220,19 @@ test('the threshold is a handle on the scale of the image, by mouse and by keys'
   await until(page, (now) => JSON.stringify(now.overrides).includes('variance_threshold'));
 });
 
-test('an inducing input is taken away and put back, and strided ones are worse than the lattice', async ({
-  mapless: page,
-}) => {
+/** Opens what is by hand at an exact tick; returns where the number of inducing inputs stands. */
+async function inducingInputsByHand(page: Page): Promise<Locator> {
   await pausedAt(page, 60);
   await openByHand(page);
   const count = page.locator('.method-count');
   await expect(count).toHaveText(/^\d+$/);
+  return count;
+}
+
+test('an inducing input is taken away and put back, and strided ones are worse than the lattice', async ({
+  mapless: page,
+}) => {
+  const count = await inducingInputsByHand(page);
   const all = Number(await count.textContent());
   const own = await off_deg(page);
   const slice = page.locator('.slice-canvas');
@@ -477,10 +483,7 @@ test('a process without a solution is named as such, with what to do', async ({ 
 test('a press in the image moves the slice; with By press it takes an inducing input away', async ({
   mapless: page,
 }) => {
-  await pausedAt(page, 60);
-  await openByHand(page);
-  const count = page.locator('.method-count');
-  await expect(count).toHaveText(/^\d+$/);
+  const count = await inducingInputsByHand(page);
   const all = await count.textContent();
   const image = page.locator('#variance');
   /** Presses below the middle, until one meets an inducing input if any does. */

@@ -58,13 +58,18 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// The command after a start from rest, with the same scan again and again: limits of acceleration decide the
-/// first one, and a scan does not say how fast the robot already drives.
+/// The command of a robot that has started from rest and goes on driving, with the same scan again and again:
+/// limits of acceleration decide the first one, and a scan does not say how fast the robot already drives.
 fn command_once_started(planner: &mut Planner, points_m: &[Vec3]) -> Command {
+    let mut command = planner.last_step().command;
     for _ in 1..STARTING_SCANS {
-        planner.step(points_m, &POSE, PERIOD);
+        let step = planner.step(points_m, &POSE, PERIOD);
+        if step.status != Status::Driving {
+            break;
+        }
+        command = step.command;
     }
-    planner.last_step().command
+    command
 }
 
 /// Perceives the scan and shows what was seen and decided.

@@ -63,7 +63,7 @@ export function guestOf({ own }: Driver): Guest | undefined {
 }
 
 /** Who drove, in a sentence. */
-export function driverWords({ rival, own }: Driver): string {
+function nameOf({ rival, own }: Driver): string {
   return own ? `your ${own.name}` : rival.name;
 }
 
@@ -72,7 +72,19 @@ export function seenHow({ rival }: Driver, { preset }: Pick<SessionInfo, 'preset
   return rival.planner === preset ? 'driven' : 'driven as a ghost beside the robot in view';
 }
 
-/** Why a batch makes no campaign; nothing where it does. */
-export function noCampaign({ own }: Driver): string {
-  return own ? ' The command line does not know this planner, so there is no campaign to save.' : '';
+/** How a batch gets on. */
+export function progressWords(done: number, total: number, driver: Driver): string {
+  return `${done} of ${total} trials of ${nameOf(driver)} done.`;
+}
+
+/** What a batch has driven, and what a press on a `part` of its table does. */
+export function drivenWords(
+  done: number,
+  total: number,
+  driver: Driver & { readonly seen: string },
+  part: string,
+): string {
+  const count = done === total ? done : `${done} of ${total}`;
+  const campaign = driver.own ? ' The command line does not know this planner, so there is no campaign to save.' : '';
+  return `${count} trials of ${nameOf(driver)}. Press a ${part} to see it ${driver.seen}.${campaign}`;
 }

@@ -16,7 +16,15 @@ import { courseKey, courseOf, drivenWith } from '../trials/course.ts';
 import type { Summary, TrialResult } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
-import { type Beside, type Driver, driverWords, guestOf, noCampaign, PlannerChoice, seenHow } from './plannerChoice.ts';
+import {
+  type Beside,
+  type Driver,
+  drivenWords,
+  guestOf,
+  PlannerChoice,
+  progressWords,
+  seenHow,
+} from './plannerChoice.ts';
 
 const MOST_SEEDS = 500;
 
@@ -167,14 +175,11 @@ export class SeedsTab implements Tab {
   }
 
   #tellCount(): void {
-    setText(this.#note, `${this.#done} of ${this.#total} trials of ${this.#driver && driverWords(this.#driver)} done.`);
+    if (this.#driver) setText(this.#note, progressWords(this.#done, this.#total, this.#driver));
   }
 
   get #words(): string {
-    const [done, driver] = [this.#done === this.#total ? this.#total : `${this.#done} of ${this.#total}`, this.#driver];
-    return driver
-      ? `${done} trials of ${driverWords(driver)}. Press a seed to see it ${driver.seen}.${noCampaign(driver)}`
-      : '';
+    return this.#driver ? drivenWords(this.#done, this.#total, this.#driver, 'seed') : '';
   }
 
   #saveCsv(): void {

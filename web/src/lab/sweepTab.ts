@@ -15,7 +15,15 @@ import { overridesWith, type Sweep, SweepRun, type SweptTrial, valuesIn } from '
 import type { Summary } from '../trials/trialsProtocol.ts';
 import type { Tab } from './lab.ts';
 import { labelled, numberInput } from './numberInput.ts';
-import { type Beside, type Driver, driverWords, guestOf, noCampaign, PlannerChoice, seenHow } from './plannerChoice.ts';
+import {
+  type Beside,
+  type Driver,
+  drivenWords,
+  guestOf,
+  PlannerChoice,
+  progressWords,
+  seenHow,
+} from './plannerChoice.ts';
 import { sweepPlot } from './sweepPlot.ts';
 
 const [MOST_VALUES, MOST_SEEDS] = [20, 100];
@@ -183,10 +191,7 @@ export class SweepTab implements Tab {
   }
 
   #tellCount(): void {
-    setText(
-      this.#note,
-      `${this.#trials.length} of ${this.#total} trials of ${this.#driver && driverWords(this.#driver)} done.`,
-    );
+    if (this.#driver) setText(this.#note, progressWords(this.#trials.length, this.#total, this.#driver));
   }
 
   get #total(): number {
@@ -195,11 +200,7 @@ export class SweepTab implements Tab {
   }
 
   get #driven(): string {
-    const [count, driver] = [this.#trials.length, this.#driver];
-    const done = count === this.#total ? count : `${count} of ${this.#total}`;
-    return driver
-      ? `${done} trials of ${driverWords(driver)}. Press a value to see it ${driver.seen}.${noCampaign(driver)}`
-      : '';
+    return this.#driver ? drivenWords(this.#trials.length, this.#total, this.#driver, 'value') : '';
   }
 
   async #replay({ value, result }: SweptTrial): Promise<void> {

@@ -33,6 +33,8 @@ use crate::terrain::elevation_window::ElevationWindow;
 const LEARN_SPACING_M: f64 = 0.5;
 /// While backtracking, the robot drives as fast as with this much of the path left.
 const LEAST_BACKTRACK_M: f64 = 0.3;
+/// The way in which a path leaves is that to its first point farther away than this.
+const LEAVES_M: f64 = 0.3;
 /// Share of the slope costs that counts beyond the detour budget.
 const OVER_BUDGET_SHARE: f64 = 0.25;
 /// A target that the robot cannot reach, and the places around it, get this much added to their cost-to-go.
@@ -315,7 +317,7 @@ impl ForecastPolicy {
 fn direction_of(path: &[PathPoint], pose: &Pose) -> DVec2 {
     let here_m = pose.plan_m();
     let mut ways_m = path.iter().map(|point| point.position_m - here_m);
-    let off_m = ways_m.find(|way_m| way_m.length() > LEAST_BACKTRACK_M);
+    let off_m = ways_m.find(|way_m| way_m.length() > LEAVES_M);
     off_m.map_or_else(|| DVec2::from_angle(pose.yaw_rad), DVec2::normalize)
 }
 

@@ -8,7 +8,7 @@ use crate::terrain::elevation_window::TerrainQuery;
 /// The robot keeps this far from what is upright, or as far as it already is.
 const MARGIN_M: f64 = 0.05;
 /// Things that there is room for without an allocation.
-const USUAL_THINGS: usize = 1024;
+const USUAL_THINGS: usize = 4096;
 
 /// What stands upright around the robot.
 #[derive(Clone, Debug)]

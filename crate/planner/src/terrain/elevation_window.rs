@@ -231,9 +231,13 @@ impl ElevationWindow {
             for place_m in self.face_places_m(index, cell.face_parts) {
                 let place_m = change.place_m(place_m);
                 let index = self.index_of(place_m);
+                let face_parts = self.face_part(place_m, index);
                 if let Some(there) = moved.get_mut(index) {
-                    there.face_parts |= self.face_part(place_m, index);
+                    there.face_parts |= face_parts;
                     there.faces = there.faces.max(cell.faces);
+                } else if cell.is_upright() {
+                    let mean_m = place_m.extend(change.point_m(cell.mean_m).z);
+                    moved.set(index, ElevationCell { mean_m, face_parts, ..*cell });
                 }
             }
         }
@@ -393,6 +397,12 @@ mod tests {
             for part_m in [0.05, 0.1] {
                 let mut things_m = Vec::new();
                 ground.each_upright(middle_m, 1.0, &mut |thing_m| things_m.push(thing_m - middle_m));
+                for corner in 0..4 {
+                    let turned_rad = turn_rad * f64::from(u8::from(part_m > 0.05)) + f64::from(corner) * FRAC_PI_2;
+                    let corner_m = DVec2::new(0.1, 0.1).rotate(DVec2::from_angle(turned_rad));
+                    let nearest_m = things_m.iter().map(|thing_m| thing_m.distance(corner_m)).fold(9.0, f64::min);
+                    prop_assert!(nearest_m < part_m, "{nearest_m}");
+                }
                 let farthest_m = things_m.iter().map(|thing_m| thing_m.length()).fold(0.0, f64::max);
                 // The corners are 0.141 m from the middle.
                 prop_assert!((farthest_m - 0.141).abs() < 0.75 * part_m, "{farthest_m}");
