@@ -119,6 +119,43 @@ test('the template in WebAssembly drives when it is dropped; what lacks a functi
   await expect(fault(page)).toHaveText(/^cut\.wasm .*CompileError/);
 });
 
+/** A planner in WebAssembly that begins with so many pages of 64 KiB and takes so many more with each decision. */
+function greedy(pages: number, more: number): Buffer {
+  const leb = (value: number): number[] => (value < 64 ? [value] : [(value & 0x7f) | 0x80, ...leb(value >> 7)]);
+  const section = (id: number, ...content: number[]) => [id, ...leb(content.length), ...content];
+  const exported = (name: string, kind: number, index: number) => [name.length, ...Buffer.from(name), kind, index];
+  const body = (...code: number[]) => [code.length + 2, 0, ...code, 0x0b];
+  const half = [0x44, 0, 0, 0, 0, 0, 0, 0xe0, 0x3f];
+  return Buffer.from([
+    ...[0, 0x61, 0x73, 0x6d, 1, 0, 0, 0],
+    // points(count) → i32, decide(), and two numbers.
+    ...section(1, 3, 0x60, 1, 0x7f, 1, 0x7f, 0x60, 0, 0, 0x60, 0, 1, 0x7c),
+    ...section(3, 4, 0, 1, 2, 2),
+    ...section(5, 1, 0, ...leb(pages)),
+    ...section(
+      7,
+      5,
+      ...exported('memory', 2, 0),
+      ...['points', 'decide', 'linear_m_s', 'angular_rad_s'].flatMap((name, index) => exported(name, 0, index)),
+    ),
+    ...section(10, 4, ...body(0x41, 0), ...body(0x41, ...leb(more), 0x40, 0, 0x1a), ...body(...half), ...body(...half)),
+  ]);
+}
+
+test('a planner in WebAssembly whose memory grows without end is ended with a reason', async ({ mapless: page }) => {
+  await shortCourse(page, 4);
+  const input = page.locator('#files');
+  await input.setInputFiles(file('large.wasm', greedy(5000, 0)));
+  await expect(fault(page)).toHaveText(/^large\.wasm .*its memory is 313 MiB: expected at most 256 MiB/);
+  // 2 MiB to begin with, and 100 MiB with each decision.
+  await input.setInputFiles(file('greedy.wasm', greedy(32, 1600)));
+  await page.evaluate(() => window.mapless?.play());
+  await expect(fault(page)).toHaveText(
+    /^greedy\.wasm at 0\.2 s: Error: its memory is 302 MiB: expected at most 256 MiB/,
+  );
+  await until(page, (now) => now.outcome === 'reached');
+});
+
 test('links and files of the run say nothing of it; what was written is there at the next visit', async ({
   mapless: page,
 }) => {
