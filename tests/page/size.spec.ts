@@ -21,14 +21,14 @@ test('the page keeps to its budget: 370 kB of wasm (470 kB as gzip) to begin wit
   const heights = sent((name) => /^mapless_wasm_heights_bg.*\.wasm$/.test(name));
   // Or a world of Verti-Bench, whose description needs a reader of YAML.
   const vertiBench = sent((name) => /^mapless_wasm_verti_bench_bg.*\.wasm$/.test(name));
-  // And by those alone who open a table in Parquet, a robot's recording, or such a world or an address.
+  // And by those alone who open a table in Parquet, a robot's recording, or such a world, an address or a saved run.
   const isParquet = (name: string) => /^parquet-.*\.js$/.test(name);
   const parquet = sent(isParquet);
   const isRecording = (name: string) =>
     /^(recordedDrive|recordedFrame|drivePanel|recordingWorker|mapless_wasm_replay)-.*\.(js|css)$/.test(name);
   const recording = sent(isRecording);
   const isElsewhere = (name: string) =>
-    /^(addressFiles|vertiBenchSheet|vertiBenchModule|mapless_wasm_verti_bench)-.*\.js$/.test(name);
+    /^(addressFiles|savedRun|vertiBenchSheet|vertiBenchModule|mapless_wasm_verti_bench)-.*\.js$/.test(name);
   const elsewhere = sent(isElsewhere);
   const isOnDemand = (name: string) => [isParquet, isRecording, isElsewhere].some((is) => is(name));
   const rest = sent((name) => !name.endsWith('.wasm') && !isOnDemand(name));

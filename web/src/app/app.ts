@@ -3,10 +3,9 @@
 import { messageOf } from '../base/messageOf.ts';
 import { Editor } from '../editor/editor.ts';
 import { entry, following } from '../experiment/catalogue.ts';
-import { type Experiment, FIRST_SETUP, type Holes, type Stroke } from '../experiment/experiment.ts';
-import type { WorldObject } from '../experiment/objects.ts';
+import { type Experiment, FIRST_SETUP, type Holes } from '../experiment/experiment.ts';
 import type { Overrides } from '../experiment/overrides.ts';
-import type { Goal, Heading, Place } from '../experiment/place.ts';
+import type { Place } from '../experiment/place.ts';
 import type { Setup } from '../experiment/setting.ts';
 import { HeightField } from '../ground/heightField.ts';
 import type {
@@ -24,6 +23,7 @@ import { RunRecord } from '../run/record.ts';
 import { SPEEDS } from '../run/speeds.ts';
 import type { SimulationClient } from '../simulation/simulationClient.ts';
 import { AutoAdvance } from './autoAdvance.ts';
+import { CourseEdits } from './courseEdits.ts';
 import { Insight } from './insight.ts';
 import { Recovery } from './recovery.ts';
 import { Seeker } from './seeker.ts';
@@ -53,6 +53,7 @@ export class App {
   #watching = false;
   readonly #recovery: Recovery;
   readonly editor: Editor;
+  readonly course: CourseEdits;
   readonly insight: Insight;
 
   constructor(core: SimulationClient, views: Views) {
@@ -66,6 +67,11 @@ export class App {
       info: () => this.#info,
       mayThink: () => this.#standsStill,
       changed: (editor) => this.#views.experiment(editor),
+    });
+    this.course = new CourseEdits(this.editor, {
+      info: () => this.#info,
+      frame: () => this.#frame,
+      edited: () => this.#autoAdvance.stop(),
     });
     this.#recovery = new Recovery({
       title: () => this.editor.experiment && entry(this.scenario).title,
@@ -118,11 +124,18 @@ export class App {
     return this.open({ scenario, setup: { ...this.setup, ...setup }, seed });
   }
 
-  async open(source: Source, play = false): Promise<void> {
+  async open(source: Source, play = false, moment_s?: number): Promise<void> {
     this.#autoAdvance.stop();
     // Before anybody has touched the page there is nothing to go back to.
-    await this.editor.open(source, this.#touched || this.editor.canUndo, play);
+    await this.editor.open(source, this.#touched || this.editor.canUndo, play, moment_s);
     this.#showWarnings();
+  }
+
+  /** Opens the run of an experiment where it was at a time, paused; its frame there. */
+  async openAt(experiment: Experiment, moment_s: number): Promise<Frame | undefined> {
+    await this.#drive(this.open({ experiment }, true, moment_s));
+    this.#show(false);
+    return this.#frame;
   }
 
   /** Whether the run stands still under way: then other settings are tried where it stands. */
@@ -214,6 +227,7 @@ export class App {
       stands: () => this.#show(false),
       ground: (patch, solids) => this.#onPatch(patch, solids),
       failure: (message, panicked) => this.#onFailure(message, panicked),
+      computing: (what) => this.#views.computing(what),
       slow: () => this.#views.slow(() => this.#stopOpening()),
       opened: () => this.#views.clearSlow(),
     });
@@ -297,34 +311,6 @@ export class App {
     return this.#frame;
   }
 
-  /** The goal, with waypoints to drive to before it. */
-  async setGoal(goal: Goal, waypoints: readonly Place[] = []): Promise<void> {
-    this.#autoAdvance.stop();
-    await this.editor.setRoute(() => ({ waypoints, goal }));
-  }
-
-  /** The heading to end with at the goal; any heading without one. */
-  async setGoalHeading(heading_rad: number | undefined): Promise<void> {
-    const info = this.#info;
-    if (!info) return;
-    const { x, y } = info.goal;
-    const goal = heading_rad === undefined ? { x, y } : { x, y, heading_rad };
-    // What the robot has been to stays behind it.
-    await this.setGoal(goal, info.waypoints.slice(this.#frame?.waypoints_passed ?? 0));
-  }
-
-  /** A waypoint before the goal, after those there are; a robot at its goal goes on to it. */
-  async addWaypoint(place: Place): Promise<void> {
-    this.#autoAdvance.stop();
-    await this.editor.setRoute(() => {
-      const { waypoints = [], goal } = this.#info ?? {};
-      const reached = this.#frame?.outcome === 'reached' && this.#frame.tick === this.#frame.timeline.end;
-      if (!goal || reached) return { waypoints: [], goal: place };
-      // What the robot has been to stays behind it.
-      return { waypoints: [...waypoints.slice(this.#frame?.waypoints_passed ?? 0), place], goal };
-    });
-  }
-
   /** Begins anew with these parameters in place of all others, and another seed if given. */
   async setOverrides(overrides: Overrides, seed?: number): Promise<void> {
     this.#autoAdvance.stop();
@@ -348,26 +334,6 @@ export class App {
     const [info, frame] = [this.#info, this.#frame];
     if (info && frame)
       await this.seek((this.#seeker.waiting ?? frame.tick) + Math.round((times * JUMP_S) / info.period_s));
-  }
-
-  async setStart(start: Heading): Promise<void> {
-    this.#autoAdvance.stop();
-    await this.editor.setStart(start);
-  }
-
-  /** Other objects in place of those there are, which `change` is given. */
-  async setObjects(change: (objects: readonly WorldObject[]) => readonly WorldObject[]): Promise<void> {
-    this.#autoAdvance.stop();
-    await this.editor.setObjects(change);
-  }
-
-  /** A whole stroke at once. */
-  sculpt({ points_cm, ...brush }: Stroke): Promise<void> {
-    const stroke = this.editor.stroke(brush);
-    for (let at = 0; at + 1 < points_cm.length; at += 2) {
-      stroke.touch({ x: (points_cm[at] ?? 0) / 100, y: (points_cm[at + 1] ?? 0) / 100 });
-    }
-    return stroke.end();
   }
 
   /** Height of the ground, nothing outside it. */
@@ -464,6 +430,7 @@ export class App {
   /** Gives up what is being opened, and goes back to what was there before. */
   #stopOpening(): void {
     this.#show(false);
+    this.#views.computing(undefined);
     this.#core.stop('Opening it was stopped.');
     this.#recovery.afterStop();
   }

@@ -2,7 +2,7 @@
 
 import type { Editor } from '../editor/editor.ts';
 import type { HeightField } from '../ground/heightField.ts';
-import type { Frame, GroundPatch, SessionInfo, Solid } from '../protocol/simulationProtocol.ts';
+import type { Computing, Frame, GroundPatch, SessionInfo, Solid } from '../protocol/simulationProtocol.ts';
 
 export interface Views {
   /** A scenario, goal or start changed; with `field`, the ground is another one. */
@@ -25,6 +25,8 @@ export interface Views {
   clearNotice(): void;
   /** Whether to drive on from here with what is only tried, or from the start. */
   askHow(): void;
+  /** A decision is being made that may take long; nothing once it is made. */
+  computing(what: Computing | undefined): void;
   /** Something takes long to open, which can be stopped. */
   slow(stop: () => void): void;
   /** What took long is open, or refused. */

@@ -107,16 +107,16 @@ export function publish(app: App): void {
     setSpeed: used((speed: number) => app.setSpeed(number(speed, 'speed', 0.01, Number.POSITIVE_INFINITY))),
     setGoal: used((goal: Goal, waypoints?: readonly Place[]) => {
       if (goal.heading_rad !== undefined) number(goal.heading_rad, 'goal.heading_rad', -1000, 1000);
-      return app.setGoal(goal, waypoints);
+      return app.course.setGoal(goal, waypoints);
     }),
     seek: used((tick: number) => app.seek(number(tick, 'tick', 0, Number.MAX_SAFE_INTEGER))),
     setOverrides: used((overrides: Overrides) => app.setOverrides(overrides)),
     adjust: used((setup: Partial<Setup>) => app.adjust(setup)),
-    setStart: used((start: Heading) => app.setStart(start)),
-    sculpt: used((stroke: Stroke) => app.sculpt(readStroke(stroke))),
+    setStart: used((start: Heading) => app.course.setStart(start)),
+    sculpt: used((stroke: Stroke) => app.course.sculpt(readStroke(stroke))),
     setObjects: used(async (objects: readonly WorldObject[]) => {
       const read = readObjects(objects);
-      await app.setObjects(() => read);
+      await app.course.setObjects(() => read);
     }),
     experiment: () => app.editor.experiment,
     openExperiment: used(async (value: unknown) => app.open({ experiment: readExperiment(value) })),

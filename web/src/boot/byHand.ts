@@ -14,6 +14,7 @@ export class ByHand {
   readonly #inspector: Inspector;
   readonly #stage: Stage | undefined;
   readonly #view: HTMLCanvasElement;
+  readonly #besideFixed: () => Promise<void>;
   readonly #page = byId('app', HTMLElement);
   readonly #seen = byId('seen', HTMLElement);
   readonly #opener = byId('by-hand', HTMLButtonElement);
@@ -25,8 +26,16 @@ export class ByHand {
   /** Whether the image is large only because the process was opened beside it. */
   #enlarged = false;
 
-  constructor(app: App, inspector: Inspector, stage: Stage | undefined, view: HTMLCanvasElement) {
+  /** `besideFixed` has a ghost with fixed hyperparameters drive beside the robot. */
+  constructor(
+    app: App,
+    inspector: Inspector,
+    stage: Stage | undefined,
+    view: HTMLCanvasElement,
+    besideFixed: () => Promise<void>,
+  ) {
     [this.#app, this.#inspector, this.#stage, this.#view] = [app, inspector, stage, view];
+    this.#besideFixed = besideFixed;
     this.#opener.addEventListener('click', () => this.toggleProcess());
     this.#weigh.addEventListener('click', () => this.toggleCost());
   }
@@ -74,7 +83,7 @@ export class ByHand {
   async #load(): Promise<Method> {
     const { Method } = await import('../method/method.ts');
     const canvas = byId('variance', HTMLCanvasElement);
-    this.#method ??= new Method(this.#app, this.#inspector.image, this.#seen, canvas);
+    this.#method ??= new Method(this.#app, this.#inspector.image, this.#seen, canvas, this.#besideFixed);
     return this.#method;
   }
 

@@ -24,6 +24,7 @@ import { Inspector } from '../inspector/inspector.ts';
 import { outcomeWords, StatusPanel } from '../inspector/status.ts';
 import type { Lab } from '../lab/lab.ts';
 import { Measure } from '../measurements/measurements.ts';
+import { ComputingSign } from '../notices/computing.ts';
 import { watchFaults, watchGraphics } from '../notices/faults.ts';
 import { Notice } from '../notices/notice.ts';
 import { keepOffline } from '../offline/register.ts';
@@ -41,6 +42,7 @@ import { begin, leadOut } from './welcome.ts';
 const element = (id: string) => byId(id, HTMLElement);
 const view = byId('view', HTMLCanvasElement);
 const notice = new Notice();
+const computing = new ComputingSign();
 const roll = new AttitudeInstrument(ROLL);
 const pitch = new AttitudeInstrument(PITCH);
 element('attitude').append(roll.element, pitch.element);
@@ -154,6 +156,7 @@ const app = new App(core, {
   news: (message) => notice.tell(message),
   clearNotice: () => notice.hide(),
   askHow: () => inspector.askHow(),
+  computing: (what) => computing.show(what),
   slow: (stop) => notice.tell(SLOW, 'Stop', stop),
   clearSlow: () => notice.withdraw(SLOW),
 });
@@ -229,12 +232,12 @@ const inspector = new Inspector(app, stage, view, {
   },
   byHand: (open) => byHand.process(open),
 });
-const byHand = new ByHand(app, inspector, stage, view);
+const byHand = new ByHand(app, inspector, stage, view, async () => (await loadLab()).besideFixed());
 const tools = stage
   ? new GroundTools(view, stage, {
-      setGoal: (goal) => app.attempt(app.setGoal(goal)),
-      addWaypoint: (place) => app.attempt(app.addWaypoint(place)),
-      setStart: (start) => app.attempt(app.setStart(start)),
+      setGoal: (goal) => app.attempt(app.course.setGoal(goal)),
+      addWaypoint: (place) => app.attempt(app.course.addWaypoint(place)),
+      setStart: (start) => app.attempt(app.course.setStart(start)),
       pressed: (onGround) => controls.showHint(onGround),
       moveView: (right, ahead) => inspector.moveView(right, ahead),
       stroke(brush) {
@@ -246,7 +249,7 @@ const tools = stage
 
 const objectTool = stage
   ? new ObjectTool(view, stage, {
-      setObjects: (change) => app.attempt(app.setObjects(change)),
+      setObjects: (change) => app.attempt(app.course.setObjects(change)),
       pressed: (onGround) => controls.showHint(onGround),
       changed: (objects, held) => objectPanel.show(objects, held),
       say: (words) => objectPanel.say(words),
@@ -296,8 +299,8 @@ const actions = {
   },
   help: () => help.showModal(),
   addWaypoints: (adding: boolean) => tools?.addWaypoints(adding),
-  clearWaypoints: () => app.attempt(app.info ? app.setGoal(app.info.goal) : Promise.resolve()),
-  setGoalHeading: (heading_rad: number | undefined) => app.attempt(app.setGoalHeading(heading_rad)),
+  clearWaypoints: () => app.attempt(app.info ? app.course.setGoal(app.info.goal) : Promise.resolve()),
+  setGoalHeading: (heading_rad: number | undefined) => app.attempt(app.course.setGoalHeading(heading_rad)),
   jump: (times: number) => app.attempt(driven().jump(times)),
   lab: () => app.attempt(openLab()),
   method: () => byHand.toggleProcess(),
@@ -313,6 +316,14 @@ const terrainsSheet = new TerrainsSheet(
     // What was wrong with the file before is not said of this one.
     notice.hide();
     return recordings.open(file);
+  },
+  async (file) => {
+    const { savedRun, wordsOf } = await import('../files/savedRun.ts');
+    const run = await savedRun(file);
+    if (!run) return false;
+    const frame = await app.openAt(run.experiment, run.moment_s);
+    if (frame) notice.tell(wordsOf(file.name, run, frame.digest));
+    return true;
   },
 );
 const shareSheet = new ShareSheet(app);

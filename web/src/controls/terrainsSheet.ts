@@ -38,6 +38,7 @@ export class TerrainsSheet {
   readonly #actions: TerrainActions;
   readonly #planner: (file: NamedFile) => Promise<void>;
   readonly #recording: (file: File) => Promise<void>;
+  readonly #savedRun: (file: File) => Promise<boolean>;
   readonly #sheet = byId('terrains-sheet', HTMLDialogElement);
   readonly #cards = byId('terrain-cards', HTMLElement);
   readonly #generated = byId('generated-cards', HTMLElement);
@@ -50,13 +51,14 @@ export class TerrainsSheet {
   readonly #works = byId('earlier-work', HTMLElement);
   readonly #holes = byId('holes', HTMLSelectElement);
 
-  /** `planner` has somebody's own planner drive, `recording` opens a robot's recording. */
+  /** `planner` has somebody's own planner drive, `recording` opens a robot's recording, `savedRun` a run if the page saved it. */
   constructor(
     actions: TerrainActions,
     planner: (file: NamedFile) => Promise<void>,
     recording: (file: File) => Promise<void>,
+    savedRun: (file: File) => Promise<boolean>,
   ) {
-    [this.#actions, this.#planner, this.#recording] = [actions, planner, recording];
+    [this.#actions, this.#planner, this.#recording, this.#savedRun] = [actions, planner, recording, savedRun];
     byId('generate', HTMLFormElement).addEventListener('submit', (event) => event.preventDefault());
     for (const input of [this.#family, this.#seed]) input.addEventListener('change', () => this.#generate());
     byId('more-terrains', HTMLButtonElement).addEventListener('click', () => {
@@ -200,6 +202,7 @@ export class TerrainsSheet {
   async #open(list: ArrayLike<File>): Promise<void> {
     this.#sheet.close();
     const [only] = list.length === 1 ? Array.from(list) : [];
+    if (only && /\.(mcap|json)$/i.test(only.name) && (await this.#savedRun(only))) return;
     // It may be larger than all memory: it is read as it is shown.
     if (only && /\.mcap$/i.test(only.name)) {
       await this.#recording(only);

@@ -86,7 +86,8 @@ export class ExportButtons {
 }
 
 function runFile(run: Run): Blob {
-  return text(`${JSON.stringify(whatWasRun(run), null, 2)}\n`, 'application/json');
+  const { time_s: sim_time_s, digest } = run.frame;
+  return text(`${JSON.stringify({ ...whatWasRun(run), sim_time_s, digest }, null, 2)}\n`, 'application/json');
 }
 
 function text(content: string, type: string): Blob {

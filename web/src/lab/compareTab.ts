@@ -3,6 +3,7 @@
 import type { App } from '../app/app.ts';
 import { button, html, setText } from '../base/dom.ts';
 import { differences } from '../experiment/differences.ts';
+import { withoutHyperparameters } from '../experiment/hyperparameters.ts';
 import { inIdealWorld } from '../experiment/reality.ts';
 import { download } from '../files/download.ts';
 import type { OwnPlanner } from '../guest/confinement.ts';
@@ -19,7 +20,7 @@ import { KeptSets } from './keptSets.ts';
 import type { Tab } from './lab.ts';
 import { OwnPlannerCard } from './ownPlanner.ts';
 import { OwnRider, type OwnRiderHeard } from './ownRider.ts';
-import { IDEAL_RIVAL, OWN_RIVAL, RIVALS, type Rival, SET_RIVALS } from './planners.ts';
+import { FIXED_RIVAL, IDEAL_RIVAL, OWN_RIVAL, RIVALS, type Rival, SET_RIVALS } from './planners.ts';
 import { Riders } from './riders.ts';
 
 /** More at once would starve each other, and the table would not fit. */
@@ -187,6 +188,8 @@ export class CompareTab implements Tab {
     if (kept) return { ...kept, name: planner, planner: kept.preset };
     if (planner === IDEAL_RIVAL.planner)
       return { name: planner, planner: preset, learning, overrides: inIdealWorld(overrides) };
+    if (planner === FIXED_RIVAL.planner)
+      return { name: planner, planner: preset, learning: 'fixed', overrides: withoutHyperparameters(overrides) };
     return { name: planner, planner, learning, overrides };
   }
 

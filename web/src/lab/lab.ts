@@ -7,6 +7,7 @@ import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Stage } from '../view/stage.ts';
 import { CompareTab } from './compareTab.ts';
 import { ParametersTab } from './parametersTab.ts';
+import { FIXED_RIVAL } from './planners.ts';
 import { SeedsTab } from './seedsTab.ts';
 import { SweepTab } from './sweepTab.ts';
 
@@ -72,6 +73,11 @@ export class Lab {
     this.#select(this.#tabs.indexOf(this.#compare));
     if (this.#drawer.hidden) this.toggle();
     this.#compare.open(name, bytes);
+  }
+
+  /** Has the planner in view drive beside it, with its own, fixed hyperparameters. */
+  besideFixed(): void {
+    this.#compare.drive(FIXED_RIVAL);
   }
 
   session(info: SessionInfo): void {

@@ -4,7 +4,7 @@ import { html } from '../base/dom.ts';
 import { confine, type OwnPlanner } from '../guest/confinement.ts';
 import type { SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { Guest } from '../trials/batch.ts';
-import { IDEAL_RIVAL, OWN_RIVAL, RIVALS, type Rival } from './planners.ts';
+import { FIXED_RIVAL, IDEAL_RIVAL, OWN_RIVAL, RIVALS, type Rival } from './planners.ts';
 
 /** What shows a trial of another planner than that in view, and has somebody's own. */
 export interface Beside {
@@ -21,7 +21,7 @@ export interface Driver {
 }
 
 const IN_VIEW = '';
-const OTHERS = [...RIVALS.filter((rival) => rival !== IDEAL_RIVAL), OWN_RIVAL];
+const OTHERS = [...RIVALS.filter((rival) => rival !== IDEAL_RIVAL && rival !== FIXED_RIVAL), OWN_RIVAL];
 
 /** The planner in view, by the name that it has in comparisons. */
 export function rivalInView({ preset }: Pick<SessionInfo, 'preset'>): Rival {

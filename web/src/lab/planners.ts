@@ -18,6 +18,14 @@ export const IDEAL_RIVAL: Rival = {
   colour: '#5f9e00',
 };
 
+/** The same planner without what was learned or set by hand of its Gaussian process. */
+export const FIXED_RIVAL: Rival = {
+  planner: 'fixed',
+  name: 'Fixed',
+  meaning: 'the planner in view with its own, fixed hyperparameters',
+  colour: '#8c564b',
+};
+
 export const RIVALS: readonly Rival[] = [
   { planner: 'default', name: 'Best', meaning: 'the best mapless planner of this project', colour: '#b58900' },
   { planner: 'paper', name: 'Paper', meaning: 'the paper’s text taken literally', colour: '#d55e00' },
@@ -28,6 +36,7 @@ export const RIVALS: readonly Rival[] = [
   { planner: 'putn', name: 'PUTN', meaning: 'plane-fitting RRT*, with a map', colour: '#7b5cd6' },
   { planner: 'oracle', name: 'Oracle', meaning: 'the shortest safe path over the known ground', colour: '#0072b2' },
   IDEAL_RIVAL,
+  FIXED_RIVAL,
 ];
 
 /** Somebody's own planner. */

@@ -2,13 +2,15 @@
 
 import { button, html, setText } from '../base/dom.ts';
 import { fixed, grouped } from '../base/format.ts';
+import type { Hyperparameters } from '../experiment/hyperparameters.ts';
 import type { ClimbStep } from '../protocol/simulationProtocol.ts';
-import type { Hyperparameters } from './knobs.ts';
 
 interface Host {
   begin(): Promise<readonly ClimbStep[]>;
   move(values: Partial<Hyperparameters>): void;
   set(values: Partial<Hyperparameters>): void;
+  /** Begins the run anew with what is set, and has a ghost with fixed values drive beside it. */
+  drive(): void;
   failed(error: unknown): void;
 }
 
@@ -18,6 +20,7 @@ export class Climb {
   readonly #host: Host;
   readonly #step = html('input');
   readonly #said = html('p', 'method-climb-said');
+  readonly #drive = button('plain', 'Drive with these', () => this.#host.drive());
   readonly #bars = html('div', 'method-bars');
   #steps: readonly ClimbStep[] = [];
 
@@ -31,7 +34,8 @@ export class Climb {
     this.#step.addEventListener('change', () => this.#show((values) => host.set(values)));
     this.#said.setAttribute('role', 'status');
     this.#bars.setAttribute('aria-hidden', 'true');
-    this.element.append(this.#bars, this.#step, this.#said);
+    this.#drive.title = 'From the start, beside a ghost with fixed values: see what they do to a drive';
+    this.element.append(this.#bars, this.#step, html('div', 'method-climb-foot', [this.#said, this.#drive]));
     this.element.hidden = true;
   }
 
@@ -69,6 +73,8 @@ export class Climb {
       }),
     );
     this.#show((values) => this.#host.set(values));
+    // On a phone the image stands right above.
+    this.element.scrollIntoView({ block: 'end' });
   }
 
   #show(tell: (values: Partial<Hyperparameters>) => void): void {

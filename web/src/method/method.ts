@@ -10,6 +10,13 @@ import { degrees, fixed, wrap } from '../base/format.ts';
 import { messageOf } from '../base/messageOf.ts';
 import { Newest } from '../base/newest.ts';
 import { readTheme, type Theme } from '../colours/theme.ts';
+import {
+  type Hyperparameters,
+  hyperparametersOf,
+  withHyperparameters,
+  withoutHyperparameters,
+  withPaperProcess,
+} from '../experiment/hyperparameters.ts';
 import type { Overrides } from '../experiment/overrides.ts';
 import type { Plot } from '../inspector/imagePlot.ts';
 import { azimuthOf, columnOf, rowOf } from '../inspector/lattice.ts';
@@ -18,14 +25,7 @@ import type { VarianceImage } from '../inspector/varianceImage.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { Climb } from './climb.ts';
 import { InducingInputs } from './inducingInputs.ts';
-import {
-  type Hyperparameters,
-  hyperparametersOf,
-  Knobs,
-  withHyperparameters,
-  withoutHyperparameters,
-  withPaperProcess,
-} from './knobs.ts';
+import { Knobs } from './knobs.ts';
 import { errorWords, skylineError } from './skylineError.ts';
 import { drawSlice } from './slice.ts';
 import { ThresholdHandle } from './thresholdHandle.ts';
@@ -59,8 +59,14 @@ export class Method {
   #row = 15;
   #open = false;
 
-  /** `seen` is the section of the image, `canvas` the image in it. */
-  constructor(app: App, image: VarianceImage, seen: HTMLElement, canvas: HTMLCanvasElement) {
+  /** `seen` is the section of the image, `canvas` the image in it; `besideFixed` has a ghost with fixed values drive. */
+  constructor(
+    app: App,
+    image: VarianceImage,
+    seen: HTMLElement,
+    canvas: HTMLCanvasElement,
+    besideFixed: () => Promise<void>,
+  ) {
     this.#app = app;
     this.#image = image;
     this.#canvas = canvas;
@@ -82,6 +88,12 @@ export class Method {
       },
       move: (values) => this.#move(values),
       set: (values) => this.#set(values),
+      drive: () =>
+        this.#newest.do(async () => {
+          app.touch();
+          await app.attempt(app.runTried());
+          await app.attempt(besideFixed());
+        }),
       failed: (error) => app.attempt(Promise.reject(unsolved(error))),
     });
     this.#build();

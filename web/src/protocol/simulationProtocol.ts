@@ -158,8 +158,8 @@ export interface Beginning {
 export type Command =
   /** Loads and drives what the page begins with; answered with a `Beginning`. */
   | { type: 'begin'; address: Address }
-  /** With `play`, it drives at once; otherwise it does so if what was there before did. */
-  | { type: 'load'; source: Source; play: boolean }
+  /** With `play`, it drives at once; otherwise it does so if what was there before did. With `moment_s`, it drives to that time of its run and stands there. */
+  | { type: 'load'; source: Source; play: boolean; moment_s?: number | undefined }
   | { type: 'restart' }
   /** What is only tried holds from here on, also with `step`. */
   | { type: 'play'; playing: boolean }
@@ -196,6 +196,13 @@ export type Command =
   | { type: 'watch'; surfaces: boolean }
   | { type: 'hidden'; hidden: boolean };
 
+/** A decision that may take long. */
+export interface Computing {
+  readonly tick: number;
+  /** Whether it learns the hyperparameters. */
+  readonly learns: boolean;
+}
+
 /** What is new after a load. */
 export interface Loaded {
   readonly ground: Ground;
@@ -217,6 +224,8 @@ export type FromSimulation =
   | { type: 'opening'; id: number }
   | { type: 'session'; info: SessionInfo; loaded: Loaded | undefined }
   | { type: 'frame'; frame: Frame }
+  /** A decision is being made that may take long; whatever comes next, it is made. */
+  | ({ type: 'computing' } & Computing)
   /** It plays no longer, though nobody asked for that. */
   | { type: 'stands' }
   /** New heights, and the shapes of what stands on them now. */

@@ -8,6 +8,7 @@ import type { Goal, Heading, Place } from '../experiment/place.ts';
 import type { Setup } from '../experiment/setting.ts';
 import type {
   ClimbStep,
+  Computing,
   Frame,
   FrameBuffers,
   Ground,
@@ -21,6 +22,9 @@ import type {
 import type { Session as CoreSession, Standing, Stroke, Tick } from '../wasm/mapless_wasm.js';
 import { newFrameBuffers } from './frameBuffers.ts';
 import { filesOf, readTerrain } from './opening.ts';
+
+/** A decision as slow as this was may well be followed by one that takes long. */
+const SLOW_MS = 200;
 
 export class Session {
   readonly #core: CoreSession;
@@ -78,6 +82,13 @@ export class Session {
 
   get running(): boolean {
     return this.#standing.outcome === 'running';
+  }
+
+  /** The next decision, with `setup` where that is tried, if it may take long. */
+  computing({ learning }: Setup = this.#tried ?? this.#setup): Computing | undefined {
+    const { tick } = this.#standing;
+    const learns = learning === 'every_scan' || (learning === 'once' && (tick === 0 || this.tries));
+    return learns || this.#planner_ms > SLOW_MS ? { tick, learns } : undefined;
   }
 
   ground(): Ground {

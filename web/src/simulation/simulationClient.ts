@@ -3,6 +3,7 @@
 import { gate } from '../base/gate.ts';
 import {
   type Command,
+  type Computing,
   type Frame,
   type FrameBuffers,
   type FromSimulation,
@@ -25,6 +26,8 @@ export interface SimulationEvents {
   ground(patch: GroundPatch, solids: readonly Solid[]): void;
   /** An error that no request is waiting for, or any panic. After a panic the simulation is gone. */
   failure(message: string, panicked: boolean): void;
+  /** A decision is being made that may take long; nothing once it is made. */
+  computing(what: Computing | undefined): void;
   /** Opening something takes long; then it is open, or refused. */
   slow(): void;
   opened(): void;
@@ -115,6 +118,7 @@ export class SimulationClient {
   }
 
   #receive(message: FromSimulation, events: SimulationEvents): void {
+    events.computing(message.type === 'computing' ? message : undefined);
     switch (message.type) {
       case 'session':
         events.session(message.info, message.loaded);
@@ -160,6 +164,7 @@ export class SimulationClient {
 
   #fail(message: string, panicked: boolean, events: SimulationEvents): void {
     // A panic leaves the core's memory in an unknown state: only a new worker is trustworthy.
+    events.computing(undefined);
     if (panicked) this.stop(message);
     events.failure(message, panicked);
   }

@@ -2,7 +2,14 @@
 
 import { messageOf } from '../base/messageOf.ts';
 import { loadCore } from '../bindings/simulationModule.ts';
-import type { Command, FromSimulation, GroundPatch, Source, ToSimulation } from '../protocol/simulationProtocol.ts';
+import type {
+  Command,
+  Computing,
+  FromSimulation,
+  GroundPatch,
+  Source,
+  ToSimulation,
+} from '../protocol/simulationProtocol.ts';
 import { beginningAt } from './beginning.ts';
 import { Frames } from './frames.ts';
 import { filesOf, openingFrom, preview } from './opening.ts';
@@ -21,6 +28,8 @@ let speed = 1;
 /** When the next tick is due, on the clock of `performance.now()`. */
 let due_ms = 0;
 let scheduled = false;
+/** Whether a request drives to a moment: the loop, which may be due, leaves the run to it. */
+let drivesToMoment = false;
 /** Whether something has changed since the decision that is shown. */
 let rethink = false;
 const frames = new Frames(post);
@@ -58,6 +67,7 @@ function schedule(): void {
 
 function loop(): void {
   scheduled = false;
+  if (drivesToMoment) return;
   try {
     const began_ms = performance.now();
     // After a pause or a slow spell, go on from now rather than catching up.
@@ -75,7 +85,14 @@ function loop(): void {
 }
 
 function advance(): void {
-  if (session) frames.drove(session.tick());
+  if (!session) return;
+  announce(session.computing());
+  frames.drove(session.tick());
+}
+
+/** While a decision is made, nothing else is heard of the worker. */
+function announce(computing: Computing | undefined): void {
+  if (computing) post({ type: 'computing', ...computing });
 }
 
 /** Posts the newest state unless the page is still busy with earlier ones. */
@@ -94,7 +111,10 @@ function showAtRest(): void {
 
 function show(): void {
   if (!session) return;
-  if (rethink && !running() && session.running) session.thinkAgain();
+  if (rethink && !running() && session.running) {
+    announce(session.computing());
+    session.thinkAgain();
+  }
   rethink = false;
   if (session.followRoute()) tellSession();
   frames.show(session, !running());
@@ -119,6 +139,7 @@ async function seek(tick: number, id: number): Promise<void> {
   const target = session.goBack(Math.round(tick));
   let rested_ms = performance.now();
   while (session.standing.tick < target && session.running && id === newestSeek) {
+    announce(session.computing());
     // The record has these ticks already.
     session.tick();
     if (performance.now() - rested_ms < SLICE_MS) continue;
@@ -134,7 +155,7 @@ async function seek(tick: number, id: number): Promise<void> {
 async function driveTo(time_s: number): Promise<void> {
   if (!session) return;
   const tick = Math.round(time_s / session.info.period_s);
-  playing = true;
+  playing = drivesToMoment = true;
   try {
     let rested_ms = performance.now();
     while (session.running && session.standing.tick < tick) {
@@ -145,7 +166,7 @@ async function driveTo(time_s: number): Promise<void> {
       rested_ms = performance.now();
     }
   } finally {
-    playing = false;
+    playing = drivesToMoment = false;
   }
   show();
 }
@@ -180,7 +201,8 @@ function beginOtherFuture(): void {
   if (!running()) setTimeout(loop);
 }
 
-async function load(source: Source, play: boolean, id: number): Promise<void> {
+/** With `moment_s`, it drives to that time of its run and stands there. */
+async function load(source: Source, play: boolean, moment_s: number | undefined, id: number): Promise<void> {
   const core = await loading;
   post({ type: 'opening', id });
   const opening = await openingFrom(core, source);
@@ -188,22 +210,23 @@ async function load(source: Source, play: boolean, id: number): Promise<void> {
   session?.free();
   session = opened;
   playing ||= play;
+  if (moment_s !== undefined) playing = false;
   const ground = session.ground();
   const loaded = { ground, ...opening };
   post({ type: 'session', info: session.info, loaded }, [ground.heights_m.buffer]);
   openFromStart();
+  if (moment_s !== undefined) await driveTo(moment_s);
 }
 
 /** Returns what the request is answered with. */
 async function carryOut(command: Command, id: number): Promise<unknown> {
   if (command.type === 'begin') {
     const { source, ...beginning } = await beginningAt(command.address);
-    await load(source, beginning.moment_s === undefined, id);
-    if (beginning.moment_s !== undefined) await driveTo(beginning.moment_s);
+    await load(source, true, beginning.moment_s, id);
     return beginning;
   }
   if (command.type === 'load') {
-    await load(command.source, command.play, id);
+    await load(command.source, command.play, command.moment_s, id);
     return;
   }
   if (command.type === 'watch') {
@@ -255,6 +278,7 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
       openFromStart();
       break;
     case 'think':
+      announce(session.computing(command.setup));
       session.think(command.setup);
       tellSession();
       show();

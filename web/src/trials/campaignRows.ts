@@ -31,6 +31,8 @@ export interface Replay {
   readonly seed: number;
 }
 
+const TRAJECTORY =
+  'the trajectory of a run, which does not say what was run. To see the run again, open its MCAP, its result (JSON) or the .run.json saved with it. Expected a campaign’s trials';
 const NEEDED = ['planner', 'route', 'seed', 'outcome'];
 
 /** Throws what the rows lack. `knows`: whether a route comes with the page. */
@@ -38,6 +40,7 @@ export function campaignRows(rows: readonly Row[], knows: (route: string) => boo
   const [first] = rows;
   if (!first) throw new Error('no rows: expected those of a campaign’s trials');
   const missing = NEEDED.filter((name) => first[name] === undefined);
+  if (first.command_speed_m_s !== undefined) throw new Error(TRAJECTORY);
   if (missing.length > 0) throw new Error(`no column ${missing.join(', ')}: expected those of a campaign’s trials`);
   return rows.map((row) => campaignRow(row, knows(row.route ?? '')));
 }
