@@ -140,7 +140,7 @@ function readable(page: Page, id: string): Promise<boolean> {
   });
 }
 
-// The last is a window of 1280 px at 400 %; it scrolls.
+// The last two are a projector of 1920 × 1080 at 200 %, and a window of 1280 px at 400 %, which scrolls.
 for (const [width, height] of [
   [390, 844],
   [375, 667],
@@ -151,6 +151,7 @@ for (const [width, height] of [
   [568, 320],
   [700, 900],
   [1100, 700],
+  [960, 540],
   [320, 256],
 ] as const) {
   test(`no control covers another at ${width} × ${height}, whatever the tool`, async ({ mapless: page }) => {

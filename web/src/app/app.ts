@@ -124,16 +124,18 @@ export class App {
     return this.open({ scenario, setup: { ...this.setup, ...setup }, seed });
   }
 
-  async open(source: Source, play = false, moment_s?: number): Promise<void> {
+  async open(source: Source, play = false): Promise<void> {
     this.#autoAdvance.stop();
     // Before anybody has touched the page there is nothing to go back to.
-    await this.editor.open(source, this.#touched || this.editor.canUndo, play, moment_s);
+    await this.editor.open(source, this.#touched || this.editor.canUndo, play);
     this.#showWarnings();
   }
 
-  /** Opens the run of an experiment where it was at a time, paused; its frame there. */
-  async openAt(experiment: Experiment, moment_s: number): Promise<Frame | undefined> {
-    await this.#drive(this.open({ experiment }, true, moment_s));
+  /** Opens the run of an experiment where it was at a time, paused; its frame there, or where somebody stopped it before. */
+  async openAt(experiment: Experiment, time_s: number): Promise<Frame | undefined> {
+    await this.pause();
+    await this.open({ experiment });
+    await this.#drive(this.#core.request({ type: 'drive', time_s }));
     this.#show(false);
     return this.#frame;
   }

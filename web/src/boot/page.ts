@@ -322,7 +322,8 @@ const terrainsSheet = new TerrainsSheet(
     const run = await savedRun(file);
     if (!run) return false;
     const frame = await app.openAt(run.experiment, run.moment_s);
-    if (frame) notice.tell(wordsOf(file.name, run, frame.digest));
+    const stopped = frame?.outcome === 'running' && frame.time_s < run.moment_s - 1e-6;
+    if (frame && !stopped) notice.tell(wordsOf(file.name, run, frame.digest));
     return true;
   },
 );

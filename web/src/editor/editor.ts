@@ -115,10 +115,10 @@ export class Editor {
     });
   }
 
-  /** Shows another experiment, and drives it as the command `load` says; unless it is `undoable`, the history begins with it. */
-  open(source: Source, undoable: boolean, play: boolean, moment_s?: number): Promise<void> {
+  /** Shows another experiment, and drives it at once with `play`; unless it is `undoable`, the history begins with it. */
+  open(source: Source, undoable: boolean, play: boolean): Promise<void> {
     return this.#next(async () => {
-      await this.#core.request({ type: 'load', source, play, moment_s });
+      await this.#core.request({ type: 'load', source, play });
       if (!undoable) this.#history = new History();
       if (this.#loaded) this.#push(this.#loaded);
     });

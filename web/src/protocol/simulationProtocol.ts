@@ -158,8 +158,10 @@ export interface Beginning {
 export type Command =
   /** Loads and drives what the page begins with; answered with a `Beginning`. */
   | { type: 'begin'; address: Address }
-  /** With `play`, it drives at once; otherwise it does so if what was there before did. With `moment_s`, it drives to that time of its run and stands there. */
-  | { type: 'load'; source: Source; play: boolean; moment_s?: number | undefined }
+  /** With `play`, it drives at once; otherwise it does so if what was there before did. */
+  | { type: 'load'; source: Source; play: boolean }
+  /** Drives on to a time of the run as fast as it goes, and stands there; `play` and `load` break it off. */
+  | { type: 'drive'; time_s: number }
   | { type: 'restart' }
   /** What is only tried holds from here on, also with `step`. */
   | { type: 'play'; playing: boolean }

@@ -158,7 +158,7 @@ async function driveTo(time_s: number): Promise<void> {
   playing = drivesToMoment = true;
   try {
     let rested_ms = performance.now();
-    while (session.running && session.standing.tick < tick) {
+    while (drivesToMoment && session.running && session.standing.tick < tick) {
       advance();
       if (performance.now() - rested_ms < SLICE_MS) continue;
       showIfDue();
@@ -201,8 +201,7 @@ function beginOtherFuture(): void {
   if (!running()) setTimeout(loop);
 }
 
-/** With `moment_s`, it drives to that time of its run and stands there. */
-async function load(source: Source, play: boolean, moment_s: number | undefined, id: number): Promise<void> {
+async function load(source: Source, play: boolean, id: number): Promise<void> {
   const core = await loading;
   post({ type: 'opening', id });
   const opening = await openingFrom(core, source);
@@ -210,23 +209,22 @@ async function load(source: Source, play: boolean, moment_s: number | undefined,
   session?.free();
   session = opened;
   playing ||= play;
-  if (moment_s !== undefined) playing = false;
   const ground = session.ground();
   const loaded = { ground, ...opening };
   post({ type: 'session', info: session.info, loaded }, [ground.heights_m.buffer]);
   openFromStart();
-  if (moment_s !== undefined) await driveTo(moment_s);
 }
 
 /** Returns what the request is answered with. */
 async function carryOut(command: Command, id: number): Promise<unknown> {
   if (command.type === 'begin') {
     const { source, ...beginning } = await beginningAt(command.address);
-    await load(source, true, beginning.moment_s, id);
+    await load(source, beginning.moment_s === undefined, id);
+    if (beginning.moment_s !== undefined) await driveTo(beginning.moment_s);
     return beginning;
   }
   if (command.type === 'load') {
-    await load(command.source, command.play, command.moment_s, id);
+    await load(command.source, command.play, id);
     return;
   }
   if (command.type === 'watch') {
@@ -268,6 +266,9 @@ async function carryOut(command: Command, id: number): Promise<unknown> {
       session.restart();
       tellSession();
       openFromStart();
+      break;
+    case 'drive':
+      await driveTo(command.time_s);
       break;
     case 'seek':
       await seek(command.tick, id);
@@ -341,6 +342,7 @@ function hear(message: ToSimulation): void {
   }
   const { id, command } = message;
   if (command.type === 'seek') newestSeek = id;
+  if (command.type === 'play' || command.type === 'load') drivesToMoment = false;
   queue = queue.then(async () => {
     try {
       const value = await carryOut(command, id);

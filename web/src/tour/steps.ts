@@ -88,7 +88,7 @@ export const STEPS: readonly Step[] = [
   {
     title: 'Why it is not left to learn',
     text: (_, { learning, preset }) =>
-      `The paper learns kernel and noise on every scan, by climbing a bound on the likelihood. Press “Learned…” and drag the steps: the bound rises, the kernel widens, and the skyline leaves the ground, because the process assumes a mean of zero and a scan lies metres above it. ${learning === 'fixed' ? `So ${preset === 'paper' ? 'also the literal planner here' : 'this planner'} does not learn unless it is told to under Learning, and then within bounds.` : 'Learning is on now, and holds the values within bounds.'} “Drive with these” has the robot drive with them from the start, beside a ghost with fixed values: it stops where the process has no solution, or follows a skyline that is degrees too high. “As it was” takes it back.`,
+      `The paper learns kernel and noise on every scan, by climbing a bound on the likelihood. Press “Learned…” and drag the steps: the bound rises, the kernel widens, and the skyline leaves the ground, because the process assumes a mean of zero and a scan lies metres above it. “Drive with these” shows what that does to a drive. ${learning === 'fixed' ? `So ${preset === 'paper' ? 'also the literal planner here' : 'this planner'} learns only if told to under Learning, and within bounds.` : 'Learning is on now, and holds the values within bounds.'} “Default” takes it back.`,
     camera: 'chase',
     layers: {},
     image: true,
