@@ -59,7 +59,7 @@ test('while a tick learns for long, a sign says so; it goes when the tick is don
   await page.evaluate((overrides) => window.mapless?.setOverrides(overrides), fewer);
   await page.evaluate(() => window.mapless?.play());
   await expect(sign).toBeVisible();
-  await expect(sign).toHaveText(/^Learning hyperparameters, tick \d+( …|, \d+ s)$/);
+  await expect(sign).toHaveText(/^Learning hyperparameters, tick \d+( …|, \d+\ss)$/);
   await page.evaluate(() => window.mapless?.pause());
   await expect(sign).toBeHidden();
   expect((await state(page)).tick).toBeGreaterThan(0);

@@ -23,7 +23,7 @@ export class ComputingSign {
     this.#timer = setInterval(() => {
       passed_ms += STEP_MS;
       const seconds = Math.floor(passed_ms / 1000);
-      setText(this.#element, seconds > 0 ? `${words}, ${seconds} s` : `${words} …`);
+      setText(this.#element, seconds > 0 ? `${words}, ${seconds}\u00a0s` : `${words} …`);
       this.#element.hidden = false;
     }, STEP_MS);
   }
