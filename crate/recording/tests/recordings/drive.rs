@@ -1,7 +1,7 @@
 //! A drive over hills by the parts of the node, in the order in which its threads would call them.
 
 use core::time::Duration;
-use std::io::Cursor;
+use std::io::{Cursor, Seek, Write};
 
 use mapless::glam::{DQuat, DVec2, DVec3};
 use mapless::{PlannerConfig, Pose, RobotModel, SensorModel};
@@ -26,7 +26,8 @@ const GOAL_M: DVec2 = DVec2::new(12.0, 3.0);
 /// What is driven.
 #[derive(Clone, Copy)]
 pub(crate) struct Plan {
-    /// Azimuths of the sensor.
+    /// Rings and azimuths of the sensor.
+    pub(crate) rings: usize,
     pub(crate) columns: usize,
     pub(crate) seconds: f64,
     /// When the emergency stop is pressed, for 0.2 s.
@@ -36,7 +37,7 @@ pub(crate) struct Plan {
 }
 
 /// A short one with a thin sensor.
-pub(crate) const SHORT: Plan = Plan { columns: 90, seconds: 2.5, pressed_s: 2.1, changed_s: 9.0 };
+pub(crate) const SHORT: Plan = Plan { rings: 8, columns: 90, seconds: 2.5, pressed_s: 2.1, changed_s: 9.0 };
 
 struct Drive {
     caster: Caster,
@@ -62,9 +63,9 @@ fn hills() -> Caster {
     Caster::new(HeightField::new(241, 241, 0.25, (0..241 * 241).map(height).collect()).unwrap())
 }
 
-fn config(columns: usize) -> DriveConfig {
+fn config(plan: Plan) -> DriveConfig {
     let mut sensor = SensorModel::vlp16();
-    (sensor.rings, sensor.columns) = (8, columns);
+    (sensor.rings, sensor.columns) = (plan.rings, plan.columns);
     let planner = PlannerConfig::for_robot(sensor, RobotModel::husky());
     let mut config = DriveConfig { planner, ..DriveConfig::default() };
     config.supervisor.clear_after_s = 0.3;
@@ -73,9 +74,13 @@ fn config(columns: usize) -> DriveConfig {
 
 /// The head and the entries of a drive.
 pub(crate) fn drive(plan: Plan) -> (Head, Vec<Entry>) {
-    let config = config(plan.columns);
-    let sensor =
-        SensorConfig { rings: 8, columns: plan.columns, max_range_m: 30.0, ..SensorConfig::default() };
+    let config = config(plan);
+    let sensor = SensorConfig {
+        rings: plan.rings,
+        columns: plan.columns,
+        max_range_m: 30.0,
+        ..SensorConfig::default()
+    };
     let mut drive = Drive {
         caster: hills(),
         lidar: Lidar::new(sensor).unwrap(),
@@ -100,15 +105,20 @@ pub(crate) fn drive(plan: Plan) -> (Head, Vec<Entry>) {
 }
 
 /// The recording of a drive as a file.
-pub(crate) fn file((head, entries): &(Head, Vec<Entry>)) -> Vec<u8> {
-    let mut writer = Writer::new(Cursor::new(Vec::new()), head).unwrap();
+pub(crate) fn file(recorded: &(Head, Vec<Entry>)) -> Vec<u8> {
+    write(Cursor::new(Vec::new()), recorded).into_inner()
+}
+
+/// Writes the recording of a drive.
+pub(crate) fn write<W: Write + Seek>(out: W, (head, entries): &(Head, Vec<Entry>)) -> W {
+    let mut writer = Writer::new(out, head).unwrap();
     for (index, entry) in entries.iter().enumerate() {
         writer.write(entry).unwrap();
         if index % 100 == 99 {
             writer.flush().unwrap();
         }
     }
-    writer.finish().unwrap().into_inner()
+    writer.finish().unwrap()
 }
 
 impl Drive {
