@@ -63,4 +63,6 @@ test('the chip says what the robot does while it runs, and how the trial ended',
   assert.equal(standing(frame({ activity: 'searching' }), true), 'Searching');
   assert.equal(standing(frame({ activity: 'searching' }), false), 'Paused');
   assert.equal(standing(frame({ outcome: 'stuck', activity: 'stopped' }), true), 'Stuck');
+  const nowhere = frame({ outcome: 'no_subgoal', stop_reason: 'no progress: 30 s of driving', activity: 'stopped' });
+  assert.equal(standing(nowhere, true), 'Stuck');
 });

@@ -267,8 +267,9 @@ impl Planner {
             return self.arrive(&goal, pose, elapsed);
         }
         let sight_m = self.config.perception.surface_radius_m;
-        if self.progress.is_out_of_reach(pose.plan_m(), goal.position_m, sight_m) {
-            return Status::Stopped(StopReason::GoalUnreachable);
+        let commanded = if self.command == Command::STOP { Duration::ZERO } else { elapsed };
+        if let Err(reason) = self.progress.check(pose.plan_m(), goal.position_m, sight_m, commanded) {
+            return Status::Stopped(reason);
         }
         let situation = Situation {
             config: &self.config,

@@ -106,6 +106,23 @@ fn a_wall_all_around_ends_in_a_named_stop() {
 }
 
 #[test]
+fn a_robot_that_does_not_move_is_stopped_and_a_new_goal_begins_anew() {
+    for mut planner in every_policy() {
+        let points = scan(level);
+        // The wheels spin.
+        planner.set_goal(Goal::at(AHEAD));
+        let second = Duration::from_secs(1);
+        let statuses = (0..40).map(|_| planner.step(&points, &START, second).status);
+        let driven = statuses.take_while(|status| *status == Status::Driving).count();
+        assert_eq!(driven, 31);
+        assert_eq!(planner.last_step().status, Status::Stopped(StopReason::NoProgress));
+        assert_eq!(step(&mut planner, &points, &START, AHEAD).command, Command::STOP, "the same goal");
+        planner.cancel_goal();
+        assert_eq!(step(&mut planner, &points, &START, AHEAD).status, Status::Driving);
+    }
+}
+
+#[test]
 fn a_planner_that_gave_up_goes_on_once_the_world_has_changed() {
     let [mut planner, ..] = every_policy();
     let points = scan(walled(1.5));

@@ -22,6 +22,8 @@ pub mod code {
     pub const HEADING_UNSAFE: u16 = 9703;
     /// The node is ending.
     pub const SHUTDOWN: u16 = 9704;
+    /// The robot gets nowhere.
+    pub const NO_PROGRESS: u16 = 9705;
 }
 
 /// A goal as the planner and the supervisor know it.
@@ -140,6 +142,7 @@ impl<Id: Copy + PartialEq> Navigation<Id> {
             (_, Some(Status::Stopped(reason @ StopReason::HeadingUnsafe))) => {
                 aborted(code::HEADING_UNSAFE, reason)
             }
+            (_, Some(Status::Stopped(reason @ StopReason::NoProgress))) => aborted(code::NO_PROGRESS, reason),
             _ if self.pursued_for(now) > self.timeout => {
                 aborted(code::TIMEOUT, format!("not reached within {} s", self.timeout.as_secs_f64()))
             }
@@ -235,6 +238,7 @@ mod tests {
         for (status, code) in [
             (StopReason::GoalUnreachable, code::UNREACHABLE),
             (StopReason::HeadingUnsafe, code::HEADING_UNSAFE),
+            (StopReason::NoProgress, code::NO_PROGRESS),
         ] {
             let mut navigation = begun(7);
             assert_eq!(code_of(navigation.check(&driving, Some(Status::Stopped(status)), NOW)), code);

@@ -18,10 +18,11 @@ export const OUTCOME_WORDS: Record<Outcome, string> = {
   timeout: 'Out of time',
 };
 
-/** How a trial ended; a planner that saw nothing has not looked for a path in vain. */
+/** How a trial ended; a planner that saw nothing, or noticed that it gets nowhere, has not looked for a path in vain. */
 export function outcomeWords(frame: Pick<Frame, 'outcome' | 'stop_reason'>): string {
-  const unseen = frame.outcome === 'no_subgoal' && perceptionFault(frame) !== undefined;
-  return unseen ? 'Perception failed' : OUTCOME_WORDS[frame.outcome];
+  if (frame.outcome !== 'no_subgoal') return OUTCOME_WORDS[frame.outcome];
+  if (perceptionFault(frame) !== undefined) return 'Perception failed';
+  return OUTCOME_WORDS[frame.stop_reason?.startsWith('no progress') ? 'stuck' : 'no_subgoal'];
 }
 
 const ACTIVITY_WORDS: Record<Activity, string> = {

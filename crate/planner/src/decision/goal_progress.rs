@@ -1,27 +1,52 @@
-//! Progress toward a goal that is near.
+//! Progress toward the goal: whether the robot gets anywhere, and nearer to a goal in sight.
+
+use core::time::Duration;
 
 use glam::DVec2;
+
+use crate::decision::step::StopReason;
 
 /// Nearer by less than this is no progress.
 const LEAST_GAIN_M: f64 = 0.25;
 /// A goal in sight is out of reach once the robot has driven this far about it without coming nearer.
 const MOST_DRIVEN_M: f64 = 40.0;
+/// A robot that is commanded to move must leave a circle of this radius within this time.
+const CIRCLE_M: f64 = 0.5;
+const MOST_TIME: Duration = Duration::from_secs(30);
+/// After lost scans, no more than this counts: nobody lets the robot move on for so long.
+const MOST_ELAPSED: Duration = Duration::from_secs(1);
 
-/// How near the robot has come to its goal, and how far it has driven about it since.
+/// How near the robot has come to its goal, how far it has driven about it since, and how long it was
+/// commanded to move within a circle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GoalProgress {
     nearest_m: f64,
     driven_m: f64,
     last_m: Option<DVec2>,
+    centre_m: Option<DVec2>,
+    within: Duration,
 }
 
 impl GoalProgress {
     /// Nothing driven yet.
-    pub(crate) const NONE: Self = Self { nearest_m: f64::INFINITY, driven_m: 0.0, last_m: None };
+    pub(crate) const NONE: Self = Self {
+        nearest_m: f64::INFINITY,
+        driven_m: 0.0,
+        last_m: None,
+        centre_m: None,
+        within: Duration::ZERO,
+    };
 
-    /// Notes where the robot is; whether the goal is out of reach. Driving farther from the goal than
-    /// `sight_m` does not count: a way around may lead there.
-    pub(crate) fn is_out_of_reach(&mut self, here_m: DVec2, goal_m: DVec2, sight_m: f64) -> bool {
+    /// Notes where the robot is, after it was `commanded` to move for some time, which is zero if it was to
+    /// stand. Returns why it is to stop, if there is no progress: it stays where it is, or the goal is out of
+    /// reach. Driving farther from the goal than `sight_m` may be a way around.
+    pub(crate) fn check(
+        &mut self,
+        here_m: DVec2,
+        goal_m: DVec2,
+        sight_m: f64,
+        commanded: Duration,
+    ) -> Result<(), StopReason> {
         let distance_m = (goal_m - here_m).length();
         let moved_m = self.last_m.map_or(0.0, |last_m| (here_m - last_m).length());
         self.last_m = Some(here_m);
@@ -30,12 +55,24 @@ impl GoalProgress {
         } else if distance_m < sight_m {
             self.driven_m += moved_m;
         }
-        self.driven_m > MOST_DRIVEN_M
+        let centre_m = *self.centre_m.get_or_insert(here_m);
+        if (here_m - centre_m).length() > CIRCLE_M {
+            (self.centre_m, self.within) = (Some(here_m), Duration::ZERO);
+        }
+        self.within = self.within.saturating_add(commanded.min(MOST_ELAPSED));
+        if self.within > MOST_TIME {
+            Err(StopReason::NoProgress)
+        } else if self.driven_m > MOST_DRIVEN_M {
+            Err(StopReason::GoalUnreachable)
+        } else {
+            Ok(())
+        }
     }
 
     /// Forgets the last place, as after a jump of the localisation.
     pub(crate) fn relocalise(&mut self) {
         self.last_m = None;
+        self.centre_m = None;
     }
 }
 
@@ -43,12 +80,14 @@ impl GoalProgress {
 mod tests {
     use super::*;
 
+    const STEP: Duration = Duration::from_millis(100);
+
     /// Steps of 0.1 m around the goal until it is out of reach.
     fn circles(radius_m: f64) -> Option<f64> {
         let mut progress = GoalProgress::NONE;
         (0..2000).map(|step| 0.1 * f64::from(step)).find(|&driven_m| {
             let here_m = DVec2::from_angle(driven_m / radius_m) * radius_m;
-            progress.is_out_of_reach(here_m, DVec2::ZERO, 7.0)
+            progress.check(here_m, DVec2::ZERO, 7.0, STEP) == Err(StopReason::GoalUnreachable)
         })
     }
 
@@ -66,7 +105,30 @@ mod tests {
             // A spiral that gains 0.3 m a turn.
             let turns = f64::from(step) * 0.002;
             let here_m = DVec2::from_angle(turns * core::f64::consts::TAU) * (6.5 - 0.3 * turns);
-            assert!(!progress.is_out_of_reach(here_m, DVec2::ZERO, 7.0));
+            assert_eq!(progress.check(here_m, DVec2::ZERO, 7.0, STEP), Ok(()));
+        }
+    }
+
+    /// The step at which a robot is stopped that sways by this distance about a place.
+    fn stopped_at_step(sway_m: f64) -> Option<usize> {
+        let mut progress = GoalProgress::NONE;
+        (0..1000).find(|&step| {
+            let here_m = DVec2::X * if step % 2 == 0 { 0.0 } else { sway_m };
+            progress.check(here_m, DVec2::X * 30.0, 7.0, STEP) == Err(StopReason::NoProgress)
+        })
+    }
+
+    #[test]
+    fn half_a_minute_within_half_a_metre_is_no_progress_and_more_is() {
+        assert_eq!((stopped_at_step(0.0), stopped_at_step(0.4)), (Some(300), Some(300)));
+        assert_eq!(stopped_at_step(0.6), None);
+    }
+
+    #[test]
+    fn the_time_of_lost_scans_does_not_count() {
+        let mut progress = GoalProgress::NONE;
+        for lost_s in [20, 20, 60] {
+            assert_eq!(progress.check(DVec2::ZERO, DVec2::X, 7.0, Duration::from_secs(lost_s)), Ok(()));
         }
     }
 }

@@ -35,6 +35,9 @@ pub enum StopReason {
     /// The goal is in sight, and much driving about it brought the robot no nearer.
     #[error("the goal cannot be reached: driving about it brings the robot no nearer")]
     GoalUnreachable,
+    /// The robot was commanded to move for half a minute, and got nowhere. A new goal begins anew.
+    #[error("no progress: 30 s of driving and turning left the robot within 0.5 m")]
+    NoProgress,
     /// The requested final heading cannot be turned to at the goal without exceeding a tilt limit.
     #[error("turning to the goal's heading would exceed a tilt limit")]
     HeadingUnsafe,
