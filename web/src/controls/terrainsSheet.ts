@@ -201,7 +201,9 @@ export class TerrainsSheet {
 
   async #open(list: ArrayLike<File>): Promise<void> {
     this.#sheet.close();
-    const [only] = list.length === 1 ? Array.from(list) : [];
+    // The browser empties the list as soon as the input is.
+    const given = Array.from(list);
+    const [only] = given.length === 1 ? given : [];
     if (only && /\.(mcap|json)$/i.test(only.name) && (await this.#savedRun(only))) return;
     // It may be larger than all memory: it is read as it is shown.
     if (only && /\.mcap$/i.test(only.name)) {
@@ -209,7 +211,7 @@ export class TerrainsSheet {
       return;
     }
     let files: NamedFile[] = [];
-    for (const file of Array.from(list)) {
+    for (const file of given) {
       files.push({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
     }
     const holes = HOLES.find((one) => one === this.#holes.value) ?? 'refuse';
