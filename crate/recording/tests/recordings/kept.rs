@@ -4,7 +4,7 @@ use std::path::Path;
 
 use mapless_recording::{Options, replay};
 
-use crate::drive::{Plan, SHORT, drive, file, write};
+use crate::drive::{SHORT, drive, file};
 
 /// Written anew by `MAPLESS_RECORD_DRIVE=1 cargo test -p mapless-recording --test recordings kept`.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/kept");
@@ -25,14 +25,4 @@ fn the_kept_recording_is_decided_again_to_the_bit() {
     assert_eq!((report.different_ticks, report.different_answers), (0, 0));
     assert!(report.answers > 5, "{} answers", report.answers);
     assert_eq!(report.digest, std::fs::read_to_string(&digest).unwrap().trim());
-}
-
-/// For `npm run recording`, which opens it in the page.
-#[test]
-#[ignore = "writes 1.3 GB, and needs as much memory"]
-fn ten_minutes_are_written() {
-    let out =
-        std::env::var_os("MAPLESS_TEN_MINUTES").expect("MAPLESS_TEN_MINUTES: expected the name of a file");
-    let plan = Plan { rings: 16, columns: 1800, seconds: 600.0, pressed_s: 590.0, changed_s: 1e9 };
-    write(std::fs::File::create(out).unwrap(), &drive(plan));
 }
