@@ -14,6 +14,7 @@
 
 pub mod config;
 mod diagnostics;
+mod elevation;
 mod hub;
 mod lidar;
 pub mod messages;

@@ -2,8 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use mapless::{ConfigError, Planner, PlannerConfig};
+use mapless::glam::DVec3;
+use mapless::{ConfigError, Planner, Pose};
 use mapless_recording::{AnswerMessage, Content};
+use mapless_robot::drive_config::DriveConfig;
 use mapless_robot::pilot::Pilot;
 use mapless_robot::senses::Scan;
 use mapless_robot::supervisor::Outcome;
@@ -24,17 +26,21 @@ pub(crate) struct Planning {
     picture: Picture,
     /// None, unless they are asked for.
     surfaces: Option<Surfaces>,
+    /// Height of `base_link`.
+    base_height_m: f64,
 }
 
 impl Planning {
     /// A planner without a goal; each of its answers goes out on `decisions`.
     pub(crate) fn new(
-        config: PlannerConfig,
+        config: &DriveConfig,
         decisions: Publisher<TwistStamped>,
         picture: Picture,
         surfaces: Option<Surfaces>,
     ) -> Result<Self, ConfigError> {
-        Ok(Self { pilot: Pilot::new(config)?, decisions, picture, surfaces })
+        let pilot = Pilot::new(config.planner.clone())?;
+        let base_height_m = config.estimator.base_height_m;
+        Ok(Self { pilot, decisions, picture, surfaces, base_height_m })
     }
 
     /// Answers scans until the node ends.
@@ -50,12 +56,12 @@ impl Planning {
             let Some(task) = hub.task() else { continue };
             let has_jumped = hub.take_jump();
             let began = Instant::now();
-            let picture = &self.picture;
+            let (picture, base_height_m) = (&self.picture, self.base_height_m);
             let answer = self.pilot.answer(&scan, task, has_jumped, |step, recoveries| {
                 let took = began.elapsed();
                 hub.plan(Planned { goal: task.number, status: step.status, recoveries, took });
                 if let Some(poses) = hub.poses() {
-                    picture.publish(step, poses, scan.stamp);
+                    picture.publish(step, on_ground(poses, base_height_m), scan.stamp);
                 }
             });
             let has_panicked = answer.proposal.outcome == Outcome::Panicked;
@@ -74,7 +80,8 @@ impl Planning {
 
     /// Publishes what the planner perceived, if that is asked for.
     fn show(&mut self, hub: &Hub, scan: &Scan) {
-        let (Some(surfaces), Some(poses)) = (&self.surfaces, hub.poses()) else { return };
+        let (Some(surfaces), Some(poses)) = (&mut self.surfaces, hub.poses()) else { return };
+        let poses = on_ground(poses, self.base_height_m);
         let show = |planner: &mut Planner| surfaces.publish(planner, &scan.pose, poses, scan.stamp);
         if self.pilot.ask(show).is_none() {
             log::error!("the planner panicked");
@@ -96,5 +103,30 @@ impl Planning {
         if let Err(error) = self.decisions.publish(decision) {
             log::warn!("a decision could not be published: {error}");
         }
+    }
+}
+
+/// The robot's poses in the estimator's frame and in the odometry's, both of the ground between its wheels:
+/// odometry tells that of `base_link`, and often as level.
+fn on_ground([believed, told]: [Pose; 2], base_height_m: f64) -> [Pose; 2] {
+    let Pose { roll_rad, pitch_rad, .. } = believed;
+    let base = Pose::from_roll_pitch_yaw(told.position_m, roll_rad, pitch_rad, told.yaw_rad);
+    [believed, base.moved(DVec3::NEG_Z * base_height_m)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mapless_robot::frames::FrameChange;
+
+    #[test]
+    fn base_link_is_shown_where_odometry_says() {
+        let base_height_m = 0.165;
+        let base = Pose::from_roll_pitch_yaw(DVec3::new(3.0, 1.0, 0.5), 0.2, -0.3, 1.0);
+        let believed = base.moved(DVec3::NEG_Z * base_height_m);
+        let told = Pose::from_roll_pitch_yaw(DVec3::new(-4.0, 2.0, 0.0), 0.0, 0.0, -0.5);
+        let [from, to] = on_ground([believed, told], base_height_m);
+        let shown_m = FrameChange::new(from, to).point_m(base.position_m);
+        assert!((shown_m - told.position_m).length() < 1e-12, "{shown_m}");
     }
 }

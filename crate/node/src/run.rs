@@ -109,7 +109,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
         true => Some(Surfaces::new(config, &mut entities)?),
         false => None,
     };
-    let planning = Planning::new(config.drive.planner.clone(), decisions, picture, surfaces)?;
+    let planning = Planning::new(&config.drive, decisions, picture, surfaces)?;
     let name = NodeName::new(&config.namespace, &config.node_name).map_err(making("naming the node"))?;
     let receiving = Receiving {
         hub: &hub,

@@ -1,5 +1,6 @@
 //! What the planner perceived, for RViz, Foxglove and Lichtblick: the skyline, and the variance surface that
-//! it is read off. Published where asked for, as the surface costs a prediction of its own.
+//! it is read off. Published where asked for, as the surface costs a prediction of its own; the remembered
+//! ground goes with them.
 
 use mapless::glam::DVec3;
 use mapless::skyline::columns::{COLUMNS, column_azimuth_rad, column_of};
@@ -10,22 +11,22 @@ use mapless_robot::frames::FrameChange;
 use ros2_client::Publisher;
 
 use crate::config::NodeConfig;
+use crate::elevation::Elevation;
 use crate::messages::{
-    ColorRgba, Header, Marker, MarkerArray, Point, PointCloud2, PointField, Time, Vector3,
+    ColorRgba, Header, Marker, MarkerArray, Point, PointCloud2, Time, Vector3, cloud_of_floats,
 };
 use crate::ros::{Entities, RosError, published_qos, streamed_qos};
 
 const OPEN: ColorRgba = ColorRgba { r: 0.1, g: 0.8, b: 0.2, a: 1.0 };
 const CLOSED: ColorRgba = ColorRgba { r: 0.9, g: 0.5, b: 0.1, a: 1.0 };
 const LINE_M: f64 = 0.04;
-const FLOAT32: u8 = 7;
 const FIELDS: [&str; 5] = ["x", "y", "z", "variance", "range"];
-const POINT_BYTES: u32 = 4 * FIELDS.len() as u32;
 
-/// The publishers of skyline and variance.
+/// The publishers of skyline, variance and remembered ground.
 pub(crate) struct Surfaces {
     skyline: Publisher<MarkerArray>,
     variance: Publisher<PointCloud2>,
+    elevation: Elevation,
     frame_id: String,
 }
 
@@ -35,14 +36,15 @@ impl Surfaces {
         Ok(Self {
             skyline: entities.publisher(&topics.skyline, "visualization_msgs/MarkerArray", qos)?,
             variance: entities.publisher(&topics.variance, "sensor_msgs/PointCloud2", streamed_qos())?,
+            elevation: Elevation::new(config, entities)?,
             frame_id: config.drive.frames.odom.clone(),
         })
     }
 
-    /// Publishes what the last step perceived, in the odometry's frame. `pose` is the robot's for the scan;
-    /// `poses` are the robot's in the estimator's frame and in the odometry's.
+    /// Publishes what the last step perceived and knows, in the odometry's frame. `pose` is the robot's for
+    /// the scan; the two others are the robot's in the estimator's frame and in the odometry's.
     pub(crate) fn publish(
-        &self,
+        &mut self,
         planner: &mut Planner,
         pose: &Pose,
         [believed, told]: [Pose; 2],
@@ -55,6 +57,7 @@ impl Surfaces {
             radius_m: planner.config().perception.surface_radius_m,
         };
         let header = Header { stamp, frame_id: self.frame_id.clone() };
+        self.elevation.publish(planner, &view.change, header.clone());
         let step = planner.last_step();
         let marker = skyline(&view, step.profile, step.segments, header.clone());
         if let Err(error) = self.skyline.publish(MarkerArray { markers: vec![marker] }) {
@@ -134,34 +137,17 @@ fn variance(
     header: Header,
 ) -> PointCloud2 {
     let rows = elevations_rad.len();
-    let mut data = Vec::with_capacity(rows * COLUMNS * POINT_BYTES as usize);
+    let mut points = Vec::with_capacity(rows * COLUMNS);
     for (row, elevation_rad) in elevations_rad.iter().enumerate() {
         for column in 0..COLUMNS {
             let place_m = view.point_m(column_azimuth_rad(column), *elevation_rad);
             let at = column * rows + row;
             let range_m = view.radius_m - occupancy_m[at];
-            for number in [place_m.x, place_m.y, place_m.z, variance[at], range_m] {
-                data.extend((number as f32).to_le_bytes());
-            }
+            let point = [place_m.x, place_m.y, place_m.z, variance[at], range_m];
+            points.push(point.map(|number| number as f32));
         }
     }
-    let field = |(index, name): (usize, &str)| PointField {
-        name: name.to_owned(),
-        offset: 4 * index as u32,
-        datatype: FLOAT32,
-        count: 1,
-    };
-    PointCloud2 {
-        header,
-        height: rows as u32,
-        width: COLUMNS as u32,
-        fields: FIELDS.into_iter().enumerate().map(field).collect(),
-        is_bigendian: false,
-        point_step: POINT_BYTES,
-        row_step: POINT_BYTES * COLUMNS as u32,
-        data: data.into(),
-        is_dense: true,
-    }
+    cloud_of_floats(header, FIELDS, rows, &points)
 }
 
 #[cfg(test)]

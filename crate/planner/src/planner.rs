@@ -24,6 +24,7 @@ use crate::skyline::profile::ElevationProfile;
 use crate::skyline::scan_filter::ScanFilter;
 use crate::skyline::segments::{Segment, cut_segments};
 use crate::skyline::surface::PredictedSurface;
+use crate::terrain::remembered_ground::RememberedGround;
 
 /// Poses and goals farther from the origin are invalid; cells and places are counted in 32 bits.
 const FARTHEST_M: f64 = 1e6;
@@ -240,6 +241,16 @@ impl Planner {
     /// [`GpError`] when there is no posterior.
     pub fn predicted_surface(&mut self) -> Result<&PredictedSurface, GpError> {
         self.perception.surface(&self.observed)
+    }
+
+    /// The ground on which paths are judged, as the last step left it: the cells of the elevation window, in
+    /// the frame of the poses and in no particular order. The policy `paper` remembers none.
+    pub fn remembered_ground(&self) -> impl Iterator<Item = RememberedGround> {
+        let policy = match &self.policy {
+            Policy::Paper(_) => None,
+            Policy::Forecast(policy) => Some(policy),
+        };
+        policy.into_iter().flat_map(|policy| policy.remembered_ground())
     }
 
     fn decide(

@@ -49,7 +49,7 @@ pub struct NodeConfig {
     pub use_sim_time: bool,
     /// Names of topics.
     pub topics: Topics,
-    /// Whether skyline and variance are published with each answer.
+    /// Whether skyline and variance are published with each answer, and the remembered ground each second.
     pub visualise: bool,
     /// What is asked of the publishers of scan, odometry and IMU.
     pub sensor_reliability: Reliability,

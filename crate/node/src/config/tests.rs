@@ -151,9 +151,11 @@ fn the_sample_files_are_in_order() {
 fn the_foxglove_layout_shows_the_topics_of_the_sample_file() {
     let layout = include_str!("../../foxglove/mapless.json");
     serde_json::from_str::<Value>(layout).unwrap();
-    let Topics { scan, path, subgoals, skyline, variance, decision, cmd_vel, diagnostics, goal_pose, .. } =
-        sample("husky", "jazzy").topics;
-    for topic in [scan, path, subgoals, skyline, variance, decision, cmd_vel, diagnostics, goal_pose] {
+    let topics = sample("husky", "jazzy").topics;
+    let Topics { scan, path, subgoals, skyline, variance, elevation, .. } = topics;
+    let Topics { decision, cmd_vel, diagnostics, goal_pose, .. } = topics;
+    let pictures = [scan, path, subgoals, skyline, variance, elevation];
+    for topic in pictures.into_iter().chain([decision, cmd_vel, diagnostics, goal_pose]) {
         assert!(layout.contains(&format!("\"/a200_0000/{topic}")), "{topic}");
     }
 }

@@ -65,6 +65,8 @@ pub struct Topics {
     pub skyline: String,
     /// `sensor_msgs/PointCloud2`, written with `visualise`: the variance surface, and the predicted range.
     pub variance: String,
+    /// `sensor_msgs/PointCloud2`, written with `visualise`: the ground that the planner remembers.
+    pub elevation: String,
     /// `std_msgs/Bool`, read: true resets a latched stop.
     pub reset: String,
     /// `diagnostic_msgs/DiagnosticArray`, written.
@@ -93,6 +95,7 @@ impl Default for Topics {
             subgoals: "mapless/subgoals".to_owned(),
             skyline: "mapless/skyline".to_owned(),
             variance: "mapless/variance".to_owned(),
+            elevation: "mapless/elevation".to_owned(),
             reset: "mapless/reset".to_owned(),
             diagnostics: "diagnostics".to_owned(),
             navigate_to_pose: "navigate_to_pose".to_owned(),
@@ -105,7 +108,7 @@ impl Default for Topics {
 
 impl Topics {
     /// Every name with its key.
-    pub(super) fn entries(&self) -> [(&'static str, &str); 17] {
+    pub(super) fn entries(&self) -> [(&'static str, &str); 18] {
         [
             ("scan", &self.scan),
             ("odometry", &self.odometry),
@@ -118,6 +121,7 @@ impl Topics {
             ("subgoals", &self.subgoals),
             ("skyline", &self.skyline),
             ("variance", &self.variance),
+            ("elevation", &self.elevation),
             ("reset", &self.reset),
             ("diagnostics", &self.diagnostics),
             ("navigate_to_pose", &self.navigate_to_pose),

@@ -6,6 +6,7 @@
 mod packets;
 mod parameters;
 mod robot;
+mod surfaces;
 mod tf;
 mod velodyne;
 

@@ -28,6 +28,7 @@ use crate::route::heuristic_table::HeuristicTable;
 use crate::route::state_lattice::{PathPoint, ReachedState, StateLattice, length_m};
 use crate::skyline::scan_filter::ScanFilter;
 use crate::terrain::elevation_window::ElevationWindow;
+use crate::terrain::remembered_ground::RememberedGround;
 
 /// The cost-to-go is learned again after this distance.
 const LEARN_SPACING_M: f64 = 0.5;
@@ -322,6 +323,11 @@ fn direction_of(path: &[PathPoint], pose: &Pose) -> DVec2 {
 }
 
 impl ForecastPolicy {
+    /// The ground that is remembered.
+    pub(crate) fn remembered_ground(&self) -> impl Iterator<Item = RememberedGround> {
+        self.window.remembered()
+    }
+
     /// Moves all that is remembered from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         self.window.relocalise(change);

@@ -20,6 +20,7 @@ use crate::robot_model::distance_from_body_m;
 use crate::sensor_model::SensorModel;
 use crate::terrain::headings::{AXES, DIRECTIONS};
 use crate::terrain::plane::{Moments, Plane};
+use crate::terrain::remembered_ground::RememberedGround;
 use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 use cliffs::{DROP_RADIUS_M, MOST_VIEWS, View};
@@ -188,6 +189,17 @@ impl ElevationWindow {
     /// Where the last scan refuted ground.
     pub(crate) fn refuted_m(&self) -> &[DVec2] {
         &self.refuted_m
+    }
+
+    /// The cells that are not forgotten, in no particular order.
+    pub(crate) fn remembered(&self) -> impl Iterator<Item = RememberedGround> {
+        let fresh = self.cells.iter().map(|(_, cell)| cell).filter(|cell| self.is_fresh(cell));
+        fresh.map(|cell| RememberedGround {
+            mean_m: cell.mean_m,
+            returns: cell.returns as u32,
+            age: self.now - cell.seen,
+            is_upright: cell.is_upright(),
+        })
     }
 
     /// Notes that a scan shows an upright face at a place where it has returns.
@@ -414,6 +426,29 @@ mod tests {
                 middle_m = change.place_m(middle_m);
             }
         }
+    }
+
+    #[test]
+    fn what_is_remembered_is_told_until_it_is_forgotten() {
+        let slope = DVec2::new(0.3, -0.2);
+        let mut ground = strewn(slope, DVec2::ZERO);
+        let remembered: Vec<_> = ground.remembered().collect();
+        // 41 × 41 points over 4.4 m square.
+        assert!((22 * 22..=24 * 24).contains(&remembered.len()), "{}", remembered.len());
+        assert_eq!(remembered.iter().map(|cell| cell.returns).sum::<u32>(), 41 * 41);
+        for cell in &remembered {
+            assert!((cell.mean_m.z - slope.dot(cell.mean_m.truncate())).abs() < 1e-12);
+            assert!(cell.age == Duration::ZERO && !cell.is_upright);
+        }
+        ground.advance(STEP);
+        let again_m = DVec3::new(0.1, 0.1, 0.0);
+        (0..100).for_each(|_| ground.add(again_m));
+        let count = |holds: fn(&RememberedGround) -> bool| ground.remembered().filter(holds).count();
+        assert_eq!(count(|cell| cell.age == Duration::ZERO && cell.returns == MOST_RETURNS as u32), 1);
+        assert_eq!(count(|cell| cell.age == STEP), remembered.len() - 1);
+        ground.advance(ground.memory);
+        assert_eq!(ground.remembered().count(), 1, "all but the cell that was seen again is forgotten");
+        assert!(post(DVec2::ONE).remembered().all(|cell| cell.is_upright));
     }
 
     #[test]

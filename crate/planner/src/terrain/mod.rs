@@ -7,6 +7,7 @@ pub mod headings;
 pub mod mount_misfit;
 mod place_lattice;
 pub mod plane;
+pub mod remembered_ground;
 pub(crate) mod rolling_grid;
 pub(crate) mod slopes;
 pub(crate) mod traversability;
