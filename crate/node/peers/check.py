@@ -5,253 +5,61 @@
 
 import math
 import os
-import signal
-import subprocess
-import sys
-import tempfile
 import time
-from pathlib import Path
 
-# Both processes alone in a domain of their own; Fast DDS over UDP, as between two computers.
-DOMAIN = 64 + os.getpid() % 64
-os.environ["ROS_DOMAIN_ID"] = str(DOMAIN)
-os.environ["FASTDDS_BUILTIN_TRANSPORTS"] = "UDPv4"
+import checks
 
-import rclpy  # noqa: E402
-from geometry_msgs.msg import TwistStamped  # noqa: E402
+os.environ["ROS_DOMAIN_ID"] = str(checks.DOMAIN)
+
 import numpy as np  # noqa: E402
+from geometry_msgs.msg import TwistStamped  # noqa: E402
+from nav_msgs.msg import Path  # noqa: E402
 from rclpy.parameter import Parameter  # noqa: E402
 from rclpy.parameter_client import AsyncParameterClient  # noqa: E402
-from rclpy.qos import ReliabilityPolicy, qos_profile_sensor_data  # noqa: E402
-from sensor_msgs.msg import PointCloud2  # noqa: E402
-from std_msgs.msg import Bool  # noqa: E402
+from sensor_msgs.msg import PointCloud2, PointField  # noqa: E402
 from visualization_msgs.msg import Marker, MarkerArray  # noqa: E402
 
-from robot import NAMESPACE, Robot, spinning, until  # noqa: E402
-
-# Discovery under load takes up to 13 s.
-DISCOVERY_S = 30.0
-FAR_M = 500.0
-# A command every 20 ms, sent on by a loaded machine.
-SLACK_S = 0.15
-
-
-class Node:
-    """The node under test, with a copy of the configuration in `folder`."""
-
-    def __init__(self, program, config, folder):
-        self.program, self.config = program, Path(folder) / "robot.yaml"
-        self.config.write_text(Path(config).read_text(encoding="utf-8"), encoding="utf-8")
-        self.configure("domain_id: 0", f"domain_id: {DOMAIN}")
-        self.start()
-
-    def configure(self, line, instead):
-        text = self.config.read_text(encoding="utf-8")
-        assert line in text, f"{self.config}: expected {line!r}"
-        self.config.write_text(text.replace(line, instead), encoding="utf-8")
-
-    def start(self):
-        self.process = subprocess.Popen([self.program, self.config])
-
-    def end(self):
-        self.process.send_signal(signal.SIGTERM)
-        return self.process.wait(10)
-
-    def kill(self):
-        self.process.kill()
-        self.process.wait()
-
-
-def state(robot):
-    """The state and reason that the diagnostics tell."""
-    return robot.diagnosis.message if robot.diagnosis else ""
-
-
-def drive(robot):
-    """Has the robot drive towards a far goal; the goal is given until it is taken."""
-
-    def drives():
-        if not robot.is_driving():
-            robot.send_goal(robot.x + FAR_M, robot.y)
-            time.sleep(1.0)
-        return robot.is_driving()
-
-    return until(drives, DISCOVERY_S)
-
-
-def stops(robot, fault, limit_s, reason):
-    """Whether zero comes within the limit after a fault, and the diagnostics name the reason."""
-    if not drive(robot):
-        return False, f"it does not drive: {state(robot)}"
-    began = time.monotonic()
-    fault()
-    # Those after the fault.
-    first = lambda: next((at for at, v, w in robot.commands if at > began and v == 0.0 and w == 0.0), None)
-    until(lambda: first() is not None, limit_s + 2.0)
-    if first() is None:
-        return False, f"no zero command within {limit_s + 2.0:.2f} s; expected {reason}"
-    took = first() - began
-    told = until(lambda: reason in state(robot), 3.0)
-    after = [v for at, v, w in robot.commands if at >= first() and (v != 0.0 or w != 0.0)]
-    ok = took < limit_s + SLACK_S and told and not after
-    return ok, f"stopped after {took:.3f} s of {limit_s:.2f}: {state(robot)}, expected {reason}"
-
-
-def no_cloud_is_lost(robot, _node):
-    if not drive(robot):
-        return False, f"it does not drive: {state(robot)}"
-    time.sleep(1.0)
-    begin = time.monotonic()
-    time.sleep(10.0)
-    sent = {stamp: at for at, stamp in robot.scans if begin <= at < begin + 9.5}
-    answers = {}
-    for at, stamp in list(robot.decisions):
-        if stamp in sent:
-            answers.setdefault(stamp, []).append(at)
-    once = sum(len(times) == 1 for times in answers.values())
-    delays = sorted(times[0] - sent[stamp] for stamp, times in answers.items())
-    rate = sum(begin <= at < begin + 9.5 for at, _, _ in robot.commands) / 9.5
-    median = 1e3 * delays[len(delays) // 2] if delays else float("nan")
-    ok = len(sent) > 80 and once == len(sent) and rate > 45.0
-    return ok, (
-        f"{once} of {len(sent)} clouds of 633 600 bytes were answered by one decision, "
-        f"{median:.0f} ms after they were sent in the median; {rate:.0f} commands a second"
-    )
+from checks import DISCOVERY_S, drive, state, stops  # noqa: E402
+from robot import BASE_HEIGHT_M, NAMESPACE, until  # noqa: E402
+from wire_rclpy import Wire  # noqa: E402
 
 
 def no_cloud_of_a_reliable_publisher_is_lost(robot, node):
     robot.is_scanning = False
     time.sleep(0.3)
-    robot.destroy_publisher(robot.scan)
-    robot.scan = robot.scan_publisher(ReliabilityPolicy.RELIABLE)
+    robot.wire.remove_publisher(robot.scan)
+    robot.scan = robot.scan_publisher(is_reliable=True)
     robot.is_scanning = True
     time.sleep(1.0)
-    return no_cloud_is_lost(robot, node)
-
-
-def limits_hold(robot, _node):
-    speeds = [v for _, v, _ in robot.commands]
-    return max(speeds) <= 0.5 + 1e-9 and max(speeds) > 0.4, f"the fastest command is {max(speeds):.3f} of 0.5 m/s"
+    return checks.no_cloud_is_lost(robot, node)
 
 
 def the_picture_lies_where_the_robot_is(robot, _node):
-    if not drive(robot):
-        return False, f"it does not drive: {state(robot)}"
+    got = {}
+    kept = [
+        robot.wire.subscribe(Path, "mapless/path", lambda m: got.update(path=m)),
+        robot.wire.subscribe(MarkerArray, "mapless/subgoals", lambda m: got.update(subgoals=m)),
+    ]
+    if not drive(robot) or not until(lambda: len(got) == 2, DISCOVERY_S):
+        return False, f"{state(robot)}; only {sorted(got)} came"
     time.sleep(0.5)
-    marker = robot.subgoals.markers[0]
+    path, marker = got["path"], got["subgoals"].markers[0]
     greens = [p for p, c in zip(marker.points, marker.colors) if c.g > 0.7]
-    begins = robot.path.poses[0].pose.position
+    begins = path.poses[0].pose.position
     off_m = math.hypot(begins.x - robot.x - robot.shift, begins.y - robot.y)
-    ok = off_m < 1.0 and len(greens) == 1 and greens[0].x > robot.x and robot.path.header.frame_id == "odom"
+    ok = off_m < 1.0 and len(greens) == 1 and greens[0].x > robot.x and path.header.frame_id == "odom"
+    for subscription in kept:
+        robot.wire.remove_subscription(subscription)
     return ok, f"the path begins {off_m:.2f} m from the robot; {len(marker.points)} subgoals, {len(greens)} chosen"
-
-
-def scans_cease(robot, _node):
-    return stops(robot, lambda: setattr(robot, "is_scanning", False), 0.35, "scan: Stale")
-
-
-def odometry_ceases(robot, _node):
-    return stops(robot, lambda: setattr(robot, "is_turning_wheels", False), 0.15, "odometry: Stale")
-
-
-def imu_ceases(robot, _node):
-    return stops(robot, lambda: setattr(robot, "is_feeling", False), 0.10, "IMU: Stale")
-
-
-def clouds_are_cut(robot, _node):
-    return stops(robot, lambda: setattr(robot, "is_cloud_whole", False), 0.35, "scan: Malformed")
-
-
-def the_robot_leans(robot, _node):
-    return stops(robot, lambda: setattr(robot, "roll", 0.6), 0.05, "tilted")
-
-
-def the_odometry_jumps(robot, _node):
-    return stops(robot, lambda: setattr(robot, "shift", 5.0), 0.05, "jumped")
-
-
-def the_emergency_stop_is_pressed(robot, _node):
-    # It is told at 10 Hz.
-    return stops(robot, lambda: setattr(robot, "is_pressed", True), 0.10, "emergency stop is pressed")
-
-
-def a_release_moves_nothing(robot, _node):
-    robot.is_pressed = False
-    time.sleep(3.0)
-    began = time.monotonic()
-    time.sleep(1.0)
-    moved = [v for at, v, w in robot.commands if at > began and (v != 0.0 or w != 0.0)]
-    return not moved and "Standby" in state(robot), f"{len(moved)} commands moved it; it is in {state(robot)}"
 
 
 def another_publisher_is_noticed(robot, _node):
     other = []
     checked = stops(
-        robot, lambda: other.append(robot.create_publisher(TwistStamped, "cmd_vel", 10)), 3.0, "another publisher"
+        robot, lambda: other.append(robot.wire.publisher(TwistStamped, "cmd_vel")), 3.0, "another publisher"
     )
     for publisher in other:
-        robot.destroy_publisher(publisher)
-    return checked
-
-
-def it_arrives(robot, _node):
-    arrived = lambda: robot.x > goal_x - 0.6 and "Standby" in state(robot) and not robot.is_driving()
-    goal_x = robot.x + 3.0
-    robot.shift = 2.0  # The odometry need not begin where the node's own frame does.
-    time.sleep(3.0)
-    until(lambda: "Standby" in state(robot), 10.0)
-    robot.send_goal(goal_x + robot.shift, robot.y)
-    ok = until(arrived, 30.0)
-    return ok, f"the robot is {goal_x - robot.x:.2f} m from its goal, {state(robot)}"
-
-
-def it_ends_with_zero(robot, node):
-    if not drive(robot):
-        return False, f"it does not drive: {state(robot)}"
-    code = node.end()
-    time.sleep(0.3)
-    _, v, w = robot.commands[-1]
-    return code == 0 and v == 0.0 and w == 0.0, f"it ended with status {code} and the command {v}, {w}"
-
-
-def a_suspended_process_goes_on_standing(robot, node):
-    """SIGSTOP of 1.5 s: nothing moves the robot after SIGCONT. The node ends, to be started anew, as its
-    middleware does not survive this; systemd does so, and here the test."""
-    if not drive(robot):
-        return False, f"it does not drive: {state(robot)}"
-    node.process.send_signal(signal.SIGSTOP)
-    time.sleep(1.5)
-    count = len(robot.commands)
-    node.process.send_signal(signal.SIGCONT)
-    code = node.process.wait(5)
-    node.start()
-    back = until(lambda: len(robot.commands) > count + 50, DISCOVERY_S)
-    moved = [v for _, v, w in robot.commands[count:] if v != 0.0 or w != 0.0]
-    return code == 1 and back and not moved, (
-        f"it ended with status {code}; {len(moved)} of {len(robot.commands) - count} commands after it moved the robot"
-    )
-
-
-def killed_it_stands_until_a_goal(robot, node):
-    if not drive(robot):
-        return False, f"it does not drive: {state(robot)}"
-    node.kill()
-    count = len(robot.commands)
-    node.start()
-    back = until(lambda: len(robot.commands) > count + 100, DISCOVERY_S)
-    moved = [v for _, v, w in robot.commands[count + 3 :] if v != 0.0 or w != 0.0]
-    return back and not moved, f"{len(robot.commands) - count} commands later, {len(moved)} moved the robot"
-
-
-def stamps_ahead_of_the_simulated_clock_stop_it(robot, node):
-    """After all others: the node is begun anew with `use_sim_time`. The clock stands, and stamps go on."""
-    if node.process.poll() is None:
-        node.end()
-    node.configure("node_name: mapless", "node_name: mapless\n    use_sim_time: true")
-    robot.is_simulated, robot.diagnosis = True, None
-    node.start()
-    checked = stops(robot, lambda: setattr(robot, "is_simulated", False), 0.5, "Future")
-    node.end()
+        robot.wire.remove_publisher(publisher)
     return checked
 
 
@@ -262,7 +70,7 @@ def answer(future):
 
 def parameters_are_told_and_set(robot, _node):
     """rclpy's own client lists, describes, gets and sets; a limit holds at once, and what is refused says why."""
-    client = AsyncParameterClient(robot, f"{NAMESPACE}/mapless")
+    client = AsyncParameterClient(robot.wire.node, f"{NAMESPACE}/mapless")
     if not client.wait_for_services(DISCOVERY_S):
         return False, "its services were not found"
     limit = "supervisor.max_speed_m_s"
@@ -298,113 +106,93 @@ def parameters_are_told_and_set(robot, _node):
     return ok, f"{len(names)} names; {before} to {after} m/s, the fastest command {fastest:.3f}; {refused.reason!r}; {neither.reason!r}"
 
 
-def skyline_and_variance_are_shown(robot, node):
+def as_points(cloud, names):
+    """The points of a cloud, whose fields must be floats with these names."""
+    found = [field.name for field in cloud.fields]
+    assert found == names and all(field.datatype == PointField.FLOAT32 for field in cloud.fields), found
+    layout = {"names": names, "formats": ["<f4"] * len(names), "offsets": [field.offset for field in cloud.fields]}
+    points = np.frombuffer(bytes(cloud.data), dtype=np.dtype({**layout, "itemsize": cloud.point_step}))
+    return points.reshape(cloud.height, cloud.width)
+
+
+def surfaces_are_shown(robot, node):
     """The node is begun anew with `visualise`."""
     if node.process.poll() is None:
         node.end()
     node.configure("node_name: mapless", "node_name: mapless\n    visualise: true")
-    got = {}
+    got, elevations = {}, []
     kept = [
-        robot.create_subscription(PointCloud2, "mapless/variance", lambda m: got.update(variance=m), qos_profile_sensor_data),
-        robot.create_subscription(MarkerArray, "mapless/skyline", lambda m: got.update(skyline=m), 10),
+        robot.wire.subscribe(PointCloud2, "mapless/variance", lambda m: got.update(variance=m), is_reliable=False),
+        robot.wire.subscribe(PointCloud2, "mapless/elevation", elevations.append, is_reliable=False),
+        robot.wire.subscribe(MarkerArray, "mapless/skyline", lambda m: got.update(skyline=m)),
     ]
     node.start()
-    if not drive(robot) or not until(lambda: len(got) == 2, DISCOVERY_S):
-        return False, f"{state(robot)}; only {sorted(got)} came"
+    if not drive(robot) or not until(lambda: len(got) == 2 and elevations, DISCOVERY_S):
+        return False, f"{state(robot)}; only {sorted(got)} and {len(elevations)} of remembered ground came"
     time.sleep(2.0)
-    begin = time.monotonic()
+    begin, first = time.monotonic(), len(elevations)
     time.sleep(5.0)
+    rate = (len(elevations) - first) / 5.0
     sent = {stamp: at for at, stamp in robot.scans if begin <= at < begin + 4.5}
     delays = sorted(at - sent[stamp] for at, stamp in list(robot.decisions) if stamp in sent)
-    cloud, marker = got["variance"], got["skyline"].markers[0]
-    fields = {"names": [f.name for f in cloud.fields], "formats": ["<f4"] * 5, "offsets": [f.offset for f in cloud.fields]}
-    points = np.frombuffer(bytes(cloud.data), dtype=np.dtype({**fields, "itemsize": cloud.point_step}))
-    points = points.reshape(cloud.height, cloud.width)
+    cloud, marker, ground = got["variance"], got["skyline"].markers[0], elevations[-1]
     # Level ground from 0.8 m up: the lowest beam meets it 3.1 m away; every direction below the horizon was seen.
-    lowest = points[0]
+    lowest = as_points(cloud, ["x", "y", "z", "variance", "range"])[0]
     off = np.hypot(lowest["x"] - robot.x - robot.shift, lowest["y"] - robot.y) - 7.0 * math.cos(math.radians(15.0))
     ends = np.array([(p.x, p.y, p.z) for p in marker.points])
+    cells = as_points(ground, ["x", "y", "z", "returns", "age", "upright"])[0]
+    away = np.maximum(np.abs(cells["x"] - robot.x - robot.shift), np.abs(cells["y"] - robot.y))
     ok = (
-        fields["names"] == ["x", "y", "z", "variance", "range"]
-        and cloud.width == 360
-        and cloud.header.frame_id == marker.header.frame_id == "odom"
+        cloud.width == 360
+        and cloud.header.frame_id == marker.header.frame_id == ground.header.frame_id == "odom"
         and np.abs(off).max() < 1.0
         and lowest["variance"].max() < 0.3
         and abs(np.median(lowest["range"]) - 3.1) < 0.8
         and marker.type == Marker.LINE_LIST
         and len(marker.points) == len(marker.colors) > 600
         and np.abs(ends[:, 2] - ends[:, 2].mean()).max() < 0.7
+        and 0.4 <= rate <= 1.2
+        and len(cells) > 1000
+        and np.abs(cells["z"] + BASE_HEIGHT_M).max() < 0.1
+        and away.min() < 0.5
+        and away.max() < 14.0
+        and cells["upright"].max() == 0.0
+        and 1.0 <= cells["returns"].min()
+        and cells["returns"].max() == 30.0
     )
     median = 1e3 * delays[len(delays) // 2] if delays else float("nan")
     for subscription in kept:
-        robot.destroy_subscription(subscription)
-    return ok, f"{cloud.height} rows, {len(marker.points) // 2} lines; {len(delays)} of {len(sent)} clouds answered, median {median:.1f} ms"
-
-
-def in_order(robot):
-    """Takes every fault back, and resets."""
-    robot.is_scanning = robot.is_turning_wheels = robot.is_feeling = robot.is_cloud_whole = True
-    robot.is_pressed, robot.roll = False, 0.0
-    time.sleep(0.3)
-
-    def is_well():
-        if "Latched" in state(robot):
-            robot.reset.publish(Bool(data=True))
-        return state(robot).startswith(("Standby", "Driving"))
-
-    until(is_well, 10.0)
+        robot.wire.remove_subscription(subscription)
+    return ok, (
+        f"{cloud.height} rows, {len(marker.points) // 2} lines; {len(cells)} cells of ground in {len(ground.data)} bytes, "
+        f"{rate:.1f} times a second, as high as {cells['z'].min():.3f} to {cells['z'].max():.3f} m; "
+        f"{len(delays)} of {len(sent)} clouds answered, median {median:.1f} ms"
+    )
 
 
 CHECKS = (
-    no_cloud_is_lost,
+    checks.no_cloud_is_lost,
     no_cloud_of_a_reliable_publisher_is_lost,
-    limits_hold,
+    checks.limits_hold,
     the_picture_lies_where_the_robot_is,
-    scans_cease,
-    odometry_ceases,
-    imu_ceases,
-    clouds_are_cut,
-    the_robot_leans,
-    the_odometry_jumps,
-    the_emergency_stop_is_pressed,
-    a_release_moves_nothing,
-    it_arrives,
+    checks.scans_cease,
+    checks.odometry_ceases,
+    checks.imu_ceases,
+    checks.clouds_are_cut,
+    checks.the_robot_leans,
+    checks.the_odometry_jumps,
+    checks.the_emergency_stop_is_pressed,
+    checks.a_release_moves_nothing,
+    checks.it_arrives,
     parameters_are_told_and_set,
-    a_suspended_process_goes_on_standing,
+    checks.a_suspended_process_goes_on_standing,
     another_publisher_is_noticed,
-    killed_it_stands_until_a_goal,
-    it_ends_with_zero,
-    skyline_and_variance_are_shown,
-    stamps_ahead_of_the_simulated_clock_stop_it,
+    checks.killed_it_stands_until_a_goal,
+    checks.it_ends_with_zero,
+    surfaces_are_shown,
+    checks.stamps_ahead_of_the_simulated_clock_stop_it,
 )
 
 
-def main():
-    program, config = sys.argv[1:3]
-    names = sys.argv[3:]
-    rclpy.init()
-    robot = Robot()
-    spinning(robot)
-    folder = tempfile.TemporaryDirectory()
-    node = Node(program, config, folder.name)
-    failed = passed = 0
-    try:
-        for check in CHECKS:
-            if names and check.__name__ not in names:
-                continue
-            ok, found = check(robot, node)
-            passed, failed = passed + ok, failed + (not ok)
-            print(f"{'ok' if ok else 'FAILED'}: {check.__name__}: {found}", flush=True)
-            if node.process.poll() is None and check is not the_emergency_stop_is_pressed:
-                in_order(robot)
-    finally:
-        if node.process.poll() is None:
-            node.kill()
-        folder.cleanup()
-    print(f"{failed} failed\n{passed} passed", flush=True)
-    # Threads of rclpy abort an orderly end now and then.
-    os._exit(failed > 0)
-
-
 if __name__ == "__main__":
-    main()
+    checks.main(Wire(NAMESPACE), CHECKS)

@@ -1,21 +1,10 @@
-"""A Husky on level ground as rclpy sees it: publishes its sensors and obeys `cmd_vel`."""
+"""A Husky on level ground: publishes its sensors and obeys `cmd_vel`, by a wire that is rclpy or another DDS."""
 
 import math
 import threading
 import time
 
 import numpy as np
-import rclpy
-from geometry_msgs.msg import PoseStamped, TwistStamped
-from diagnostic_msgs.msg import DiagnosticArray
-from nav_msgs.msg import Odometry, Path
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import Imu, PointCloud2, PointField
-from std_msgs.msg import Bool
-from visualization_msgs.msg import MarkerArray
 
 NAMESPACE = "/a200_0000"
 SENSOR_HEIGHT_M = 0.8
@@ -44,11 +33,11 @@ def level_ground():
     return range_m, directions
 
 
-class Robot(Node):
+class Robot:
     """The robot. Faults are switched on by its attributes."""
 
-    def __init__(self):
-        super().__init__("robot", namespace=NAMESPACE)
+    def __init__(self, wire):
+        self.wire, self.messages = wire, wire.messages
         self.x = self.y = self.yaw = 0.0
         self.speed = self.turn_rate = 0.0
         self.is_scanning = self.is_turning_wheels = self.is_feeling = True
@@ -59,31 +48,31 @@ class Robot(Node):
         self.commands = []  # arrival, speed, turn rate
         self.decisions = []  # arrival, stamp
         self.scans = []  # when sent, stamp
-        self.diagnosis = self.path = self.subgoals = None
-        self.scan = self.scan_publisher(ReliabilityPolicy.BEST_EFFORT)
-        self.odometry = self.create_publisher(Odometry, "platform/odom/filtered", 10)
-        self.imu = self.create_publisher(Imu, "sensors/imu_0/data", qos_profile_sensor_data)
-        self.stop = self.create_publisher(Bool, "platform/emergency_stop", qos_profile_sensor_data)
-        self.reset = self.create_publisher(Bool, "mapless/reset", 10)
-        self.goal = self.create_publisher(PoseStamped, "goal_pose", 10)
-        self.clock = self.create_publisher(Clock, "/clock", 10)
-        self.create_subscription(TwistStamped, "cmd_vel", self.obey, 10)
-        self.create_subscription(TwistStamped, "mapless/decision", self.note, 10)
-        self.create_subscription(Path, "mapless/path", lambda path: setattr(self, "path", path), 10)
-        self.create_subscription(
-            MarkerArray, "mapless/subgoals", lambda markers: setattr(self, "subgoals", markers), 10
-        )
-        self.create_subscription(DiagnosticArray, "diagnostics", self.diagnose, 10)
+        self.diagnosis = None
+        messages = self.messages
+        self.scan = self.scan_publisher(is_reliable=False)
+        self.odometry = wire.publisher(messages.Odometry, "platform/odom/filtered")
+        self.imu = wire.publisher(messages.Imu, "sensors/imu_0/data", is_reliable=False)
+        self.stop = wire.publisher(messages.Bool, "platform/emergency_stop", is_reliable=False)
+        self.reset = wire.publisher(messages.Bool, "mapless/reset")
+        self.goal = wire.publisher(messages.PoseStamped, "goal_pose")
+        self.clock = wire.publisher(messages.Clock, "/clock")
+        wire.subscribe(messages.TwistStamped, "cmd_vel", self.obey)
+        wire.subscribe(messages.TwistStamped, "mapless/decision", self.note)
+        wire.subscribe(messages.DiagnosticArray, "diagnostics", self.diagnose)
         self.range_m, self.directions = level_ground()
         self.random = np.random.default_rng(1)
         self.points = np.zeros(RINGS * COLUMNS, dtype=POINT)
         self.points["ring"] = np.tile(np.arange(RINGS), COLUMNS)
         self.points["time"] = np.repeat(np.linspace(-0.1, 0.0, COLUMNS), RINGS)
-        self.thread = threading.Thread(target=self.publish_all, daemon=True)
 
-    def scan_publisher(self, reliability):
-        qos = QoSProfile(depth=5, reliability=reliability)
-        return self.create_publisher(PointCloud2, "sensors/lidar3d_0/points", qos)
+    def start(self):
+        """Begins to publish and to hear, in threads."""
+        self.wire.spin()
+        threading.Thread(target=self.publish_all, daemon=True).start()
+
+    def scan_publisher(self, is_reliable):
+        return self.wire.publisher(self.messages.PointCloud2, "sensors/lidar3d_0/points", is_reliable)
 
     def obey(self, message):
         twist = message.twist
@@ -102,13 +91,13 @@ class Robot(Node):
         while True:
             self.move(0.01)
             if self.is_simulated:
-                self.clock.publish(Clock(clock=self.get_clock().now().to_msg()))
+                self.clock.publish(self.messages.Clock(clock=self.wire.now()))
             if self.is_feeling:
                 self.publish_imu()
             if tick % 2 == 0 and self.is_turning_wheels:
                 self.publish_odometry()
             if tick % 10 == 0:
-                self.stop.publish(Bool(data=self.is_pressed))
+                self.stop.publish(self.messages.Bool(data=self.is_pressed))
                 if self.is_scanning:
                     self.publish_scan()
             tick += 1
@@ -124,8 +113,8 @@ class Robot(Node):
         self.yaw += seconds * self.turn_rate
 
     def publish_imu(self):
-        imu = Imu()
-        imu.header.stamp, imu.header.frame_id = self.get_clock().now().to_msg(), "imu_0_link"
+        imu = self.messages.Imu()
+        imu.header.stamp, imu.header.frame_id = self.wire.now(), "imu_0_link"
         imu.orientation.x, imu.orientation.w = math.sin(0.5 * self.roll), math.cos(0.5 * self.roll)
         noise = self.random.normal(0.0, 0.001, 4)
         imu.angular_velocity.x, imu.angular_velocity.y = float(noise[0]), float(noise[1])
@@ -134,8 +123,8 @@ class Robot(Node):
         self.imu.publish(imu)
 
     def publish_odometry(self):
-        odometry = Odometry()
-        odometry.header.stamp, odometry.header.frame_id = self.get_clock().now().to_msg(), "odom"
+        odometry = self.messages.Odometry()
+        odometry.header.stamp, odometry.header.frame_id = self.wire.now(), "odom"
         odometry.child_frame_id = "base_link"
         pose = odometry.pose.pose
         pose.position.x, pose.position.y = self.x + self.shift, self.y
@@ -148,15 +137,13 @@ class Robot(Node):
         range_m = self.range_m + self.random.normal(0.0, 0.005, len(self.range_m))
         places = self.directions * range_m[:, None]
         self.points["x"], self.points["y"], self.points["z"] = places.T
-        cloud = PointCloud2()
-        cloud.header.stamp, cloud.header.frame_id = self.get_clock().now().to_msg(), "lidar3d_0_laser"
+        cloud, field = self.messages.PointCloud2(), self.messages.PointField
+        cloud.header.stamp, cloud.header.frame_id = self.wire.now(), "lidar3d_0_laser"
         cloud.height, cloud.width, cloud.point_step = 1, len(self.points), POINT.itemsize
         cloud.row_step = CLOUD_BYTES
-        types = {"<f4": PointField.FLOAT32, "<u2": PointField.UINT16}
+        types = {"<f4": field.FLOAT32, "<u2": field.UINT16}
         for name, (kind, offset) in POINT.fields.items():
-            cloud.fields.append(
-                PointField(name=name, offset=offset, datatype=types[kind.str], count=1)
-            )
+            cloud.fields.append(field(name=name, offset=offset, datatype=types[kind.str], count=1))
         data = self.points.tobytes()
         cloud.data = data if self.is_cloud_whole else data[: CLOUD_BYTES // 3]
         cloud.is_dense = True
@@ -164,22 +151,13 @@ class Robot(Node):
         self.scan.publish(cloud)
 
     def send_goal(self, x, y):
-        goal = PoseStamped()
+        goal = self.messages.PoseStamped()
         goal.header.frame_id = "odom"
         goal.pose.position.x, goal.pose.position.y, goal.pose.orientation.w = float(x), float(y), 1.0
         self.goal.publish(goal)
 
     def is_driving(self):
         return bool(self.commands) and self.commands[-1][1] > 0.05
-
-
-def spinning(robot):
-    """Runs the robot and its callbacks in threads."""
-    executor = SingleThreadedExecutor()
-    executor.add_node(robot)
-    thread = threading.Thread(target=executor.spin, daemon=True)
-    thread.start()
-    robot.thread.start()
 
 
 def until(holds, seconds):

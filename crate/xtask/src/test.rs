@@ -40,6 +40,9 @@ pub(crate) enum Part {
     /// The node for robots with a robot of rclpy; only on request, as it needs Python 3.11 and installs rclpy
     /// under target/. The native tests have it over DDS without ROS.
     Robot,
+    /// The node for robots with a robot of Cyclone DDS, a second vendor; only on request, as it needs Python
+    /// 3.11 and installs Cyclone DDS under target/.
+    Cyclone,
 }
 
 impl Part {
@@ -59,7 +62,7 @@ struct Stage {
 impl Stage {
     /// Whether it belongs to a part, or to all of them: those that need no more than Rust and Node.
     fn belongs_to(&self, part: Option<Part>) -> bool {
-        let on_request = [Part::Ray, Part::Reports, Part::Physics, Part::Robot];
+        let on_request = [Part::Ray, Part::Reports, Part::Physics, Part::Robot, Part::Cyclone];
         part.map_or(!self.parts.iter().all(|part| on_request.contains(part)), |part| {
             self.parts.contains(&part)
         })
@@ -85,6 +88,7 @@ const STAGES: &[Stage] = &[
     Stage { title: "campaigns on Ray", parts: &[Part::Ray], run: test_ray },
     Stage { title: "physics engine", parts: &[Part::Physics], run: physics::test },
     Stage { title: "node with rclpy", parts: &[Part::Robot], run: robot::test },
+    Stage { title: "node with Cyclone DDS", parts: &[Part::Cyclone], run: robot::test_cyclone },
     Stage { title: "browser tests of the page", parts: &[Part::Page], run: test_page },
 ];
 
@@ -147,6 +151,9 @@ fn set_up(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     }
     if part == Some(Part::Robot) {
         robot::python(sh)?;
+    }
+    if part == Some(Part::Cyclone) {
+        robot::cyclone_python(sh)?;
     }
     if wants(&[Part::Lint, Part::Page]) {
         setup::npm_packages(sh)?;
@@ -326,6 +333,8 @@ mod tests {
         assert_eq!(titles(Some(Part::Physics)), ["physics engine"]);
         assert!(!titles(None).contains(&"node with rclpy"));
         assert_eq!(titles(Some(Part::Robot)), ["node with rclpy"]);
+        assert!(!titles(None).contains(&"node with Cyclone DDS"));
+        assert_eq!(titles(Some(Part::Cyclone)), ["node with Cyclone DDS"]);
         assert_eq!(titles(Some(Part::Reports)), ["reports"]);
         assert!(titles(Some(Part::Ray)).contains(&"campaigns on Ray"));
     }
