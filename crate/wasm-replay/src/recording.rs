@@ -3,7 +3,7 @@
 use core::time::Duration;
 
 use js_sys::{Float32Array, Float64Array};
-use mapless_recording::{Difference, Options, Player};
+use mapless_recording::{Difference, Options, Player, RecordingError};
 use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -13,6 +13,7 @@ use crate::file::{File, RecordingFile};
 use crate::frame::{RecordedFrame, frame};
 use crate::scene::RecordedScene;
 use crate::sight::FrameBuffers;
+use crate::topics::NamedTopics;
 
 const EXPECTED: &str =
     "Expected an MCAP recording of mapless-node or of a robot (rosbag2), with scan, odometry and IMU";
@@ -64,17 +65,16 @@ pub struct Recording {
 
 #[wasm_bindgen]
 impl Recording {
-    /// Opens a recording of the node, or a robot's own.
+    /// Opens a recording of the node, or a robot's own with the topics that must be named.
     ///
     /// # Errors
     /// A file that is neither, with its name and what was expected.
     #[wasm_bindgen(constructor)]
-    pub fn new(file: RecordingFile) -> Result<Self, JsError> {
+    pub fn new(file: RecordingFile, topics: Ts<NamedTopics>) -> Result<Self, JsError> {
         let (name, file) = File::new(file);
-        match Player::open(file, Options::default()) {
-            Ok(player) => Ok(Self { player, name }),
-            Err(error) => Err(JsError::new(&format!("{name}: {error}. {EXPECTED}"))),
-        }
+        let options = Options { topics: read(topics)?.by_role(), ..Options::default() };
+        let player = Player::open(file, options).map_err(|error| refused(&name, &error))?;
+        Ok(Self { player, name })
     }
 
     /// What it was made with, where somebody looks.
@@ -170,6 +170,11 @@ impl Recording {
             surfaces && is_decided && self.player.ask(|planner| fill(planner, &buffers)).unwrap_or_default();
         give(&if predicted || !is_decided { shown.with_surfaces() } else { shown })
     }
+}
+
+/// Why a file is no recording, and what was expected.
+pub(crate) fn refused(name: &str, error: &RecordingError) -> JsError {
+    JsError::new(&format!("{name}: {error}. {EXPECTED}"))
 }
 
 /// Predicts the surfaces; without a posterior there are none.
