@@ -153,6 +153,9 @@ for (const [device, options] of Object.entries(DEVICES)) {
       await expect(now(page)).not.toHaveText(there ?? '');
       const at_s = (text: string | null) => Number(text?.replace('0:', ''));
       expect(at_s(await now(page).textContent()) - at_s(there)).toBeCloseTo(0.2, 1);
+      await expect(panel(page)).toContainText('decided on');
+      await expect(page.locator('#candidate-count')).toContainText('candidate');
+      await drawnIn(page, '#variance', 20);
       await drawnIn(page, '#view', 20);
     });
   });
