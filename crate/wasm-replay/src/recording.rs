@@ -3,20 +3,17 @@
 use core::time::Duration;
 
 use js_sys::{Float32Array, Float64Array};
-use mapless_recording::{Difference, Options, Player, RecordingError};
+use mapless_recording::{Difference, Options, Player};
 use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 use crate::crossing::{give, read};
-use crate::file::{File, RecordingFile};
+use crate::file::{File, RecordingFile, refused};
 use crate::frame::{RecordedFrame, frame};
 use crate::scene::RecordedScene;
 use crate::sight::FrameBuffers;
 use crate::topics::NamedTopics;
-
-const EXPECTED: &str =
-    "Expected an MCAP recording of mapless-node or of a robot (rosbag2), with scan, odometry and IMU";
 
 /// How far the recording was decided again.
 #[derive(Debug, Serialize, Tsify)]
@@ -170,11 +167,6 @@ impl Recording {
             surfaces && is_decided && self.player.ask(|planner| fill(planner, &buffers)).unwrap_or_default();
         give(&if predicted || !is_decided { shown.with_surfaces() } else { shown })
     }
-}
-
-/// Why a file is no recording, and what was expected.
-pub(crate) fn refused(name: &str, error: &RecordingError) -> JsError {
-    JsError::new(&format!("{name}: {error}. {EXPECTED}"))
 }
 
 /// Predicts the surfaces; without a posterior there are none.

@@ -8,8 +8,7 @@ use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 use crate::crossing::give;
-use crate::file::{File, RecordingFile};
-use crate::recording::refused;
+use crate::file::{File, RecordingFile, refused};
 
 /// A topic that a role may have.
 #[derive(Debug, Serialize, Tsify)]
