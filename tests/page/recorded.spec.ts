@@ -1,6 +1,7 @@
 /** A robot's recording in the page: what the robot saw and decided at any moment, and why a file is none. */
 
 import { readFileSync } from 'node:fs';
+import { McapStreamReader, McapWriter } from '@mcap/core';
 import type { Page } from '@playwright/test';
 import { DEVICES, faults } from './axe.ts';
 import { drag, drawnIn, expect, file, misplaced, state, test, within } from './page.ts';
@@ -16,6 +17,44 @@ const close = (page: Page) => page.getByRole('button', { name: 'Close the record
 async function open(page: Page, name: string, content: Buffer): Promise<void> {
   await page.locator('#files').setInputFiles(file(name, content));
   await expect(panel(page)).toContainText('of the decisions differ');
+}
+
+/** The same drive as the robot's own rosbag2 would have it: no decisions, and two clouds and two odometries, of which each second one is half as fast. */
+async function foreign(): Promise<Buffer> {
+  const parts: Uint8Array[] = [];
+  const written = () => parts.reduce((sum, { length }) => sum + length, 0);
+  const write = async (part: Uint8Array) => {
+    parts.push(part.slice());
+  };
+  const writer = new McapWriter({ writable: { write, position: () => BigInt(written()) } });
+  await writer.start({ profile: 'ros2', library: 'rosbag2' });
+  const topics: Record<string, string[]> = {
+    scan: ['/front/points', '/rear/points'],
+    odometry: ['/odometry/filtered', '/platform/odometry'],
+    imu: ['/imu/data'],
+    goal_pose: ['/goal_pose'],
+  };
+  const [schemas, channels] = [new Map<number, number>(), new Map<number, number[]>()];
+  const reader = new McapStreamReader();
+  reader.append(KEPT);
+  const passed = new Map<number, number>();
+  for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
+    if (record.type === 'Schema') schemas.set(record.id, await writer.registerSchema(record));
+    else if (record.type === 'Channel') {
+      const schemaId = schemas.get(record.schemaId) ?? 0;
+      const given = { schemaId, messageEncoding: 'cdr', metadata: new Map() };
+      const names = topics[record.topic.replace('/a200_0000/', '')] ?? [];
+      channels.set(record.id, await Promise.all(names.map((topic) => writer.registerChannel({ ...given, topic }))));
+    } else if (record.type === 'Message') {
+      const [first, second] = channels.get(record.channelId) ?? [];
+      if (first !== undefined) await writer.addMessage({ ...record, channelId: first });
+      const count = passed.get(record.channelId) ?? 0;
+      passed.set(record.channelId, count + 1);
+      if (second !== undefined && count % 2 === 0) await writer.addMessage({ ...record, channelId: second });
+    }
+  }
+  await writer.end();
+  return Buffer.concat(parts);
 }
 
 for (const [device, options] of Object.entries(DEVICES)) {
@@ -76,8 +115,73 @@ for (const [device, options] of Object.entries(DEVICES)) {
       await press('One tick');
       await expect.poll(async () => (await state(page)).tick).toBe(before.tick + 1);
     });
+
+    test('topics that cannot be told apart are asked for', async ({ mapless: page }) => {
+      const phone = device === 'phone';
+      const press = (name: string) => {
+        const button = page.getByRole('button', { name, exact: true });
+        return phone ? button.tap() : button.click();
+      };
+      await page.evaluate(() => window.mapless?.pause());
+      const before = await state(page);
+      const form = page.getByRole('region', { name: 'Which topics?' });
+      const scan = form.getByRole('combobox', { name: 'Scan' });
+      const bag = file('bag.mcap', await foreign());
+      await page.locator('#files').setInputFiles(bag);
+      await expect(scan).toBeFocused();
+      await expect(scan).toBeInViewport({ ratio: 1 });
+      await expect(form.getByRole('button', { name: 'Open' })).toBeInViewport({ ratio: 1 });
+      await expect(scan.getByRole('option')).toHaveText([/^\/front\/points \(\d+ messages\)$/, /^\/rear\/points \(/]);
+      expect(await faults(page)).toEqual([]);
+      expect(await misplaced(page, false)).toEqual([]);
+
+      // Called off, the run is as it was.
+      await press('Cancel');
+      await expect(form).toHaveCount(0);
+      expect(await state(page)).toEqual(before);
+      await expect(page.locator('#setup')).toBeVisible();
+
+      await page.locator('#files').setInputFiles(bag);
+      await scan.selectOption('/rear/points');
+      await press('Open');
+      await expect(panel(page)).toContainText('decided by this page alone');
+      await expect(form).toHaveCount(0);
+      await expect(page.locator('#scrub-end')).toHaveText('0:02.5');
+      // The rear cloud comes every 0.2 s.
+      const there = await now(page).textContent();
+      await press('To the next scan');
+      await expect(now(page)).not.toHaveText(there ?? '');
+      const at_s = (text: string | null) => Number(text?.replace('0:', ''));
+      expect(at_s(await now(page).textContent()) - at_s(there)).toBeCloseTo(0.2, 1);
+      await expect(panel(page)).toContainText('decided on');
+      await expect(page.locator('#candidate-count')).toContainText('candidate');
+      await drawnIn(page, '#variance', 20);
+      await drawnIn(page, '#view', 20);
+    });
   });
 }
+
+test('topics are chosen by keyboard, too; Escape and another file call the question off', async ({ mapless: page }) => {
+  const form = page.getByRole('region', { name: 'Which topics?' });
+  const bag = file('bag.mcap', await foreign());
+  await page.locator('#files').setInputFiles(bag);
+  await expect(form.getByRole('combobox', { name: 'Scan' })).toBeFocused();
+  await page.keyboard.press('Escape');
+  await expect(form).toHaveCount(0);
+
+  await page.locator('#files').setInputFiles(bag);
+  await expect(form).toHaveCount(1);
+  await page.evaluate(() => window.mapless?.loadScenario('ht'));
+  await expect(form).toHaveCount(0);
+
+  await page.locator('#files').setInputFiles(bag);
+  await expect(form.getByRole('combobox', { name: 'Scan' })).toBeFocused();
+  await page.keyboard.press('ArrowDown');
+  for (let time = 0; time < 2; time += 1) await page.keyboard.press('Tab');
+  await expect(form.getByRole('button', { name: 'Open' })).toBeFocused();
+  await page.keyboard.press('Enter');
+  await expect(panel(page)).toContainText('decided by this page alone');
+});
 
 test('by keyboard: play to the end, jump, step, arrow keys', async ({ mapless: page }) => {
   await open(page, 'drive.mcap', KEPT);

@@ -36,7 +36,7 @@ fn topic(text: &str) -> Result<(Role, String), String> {
     let names = Role::INPUTS.map(Role::name).join(", ");
     let fail = || format!("expected ROLE=TOPIC with one of {names}, as scan=/points");
     let (name, topic) = text.split_once('=').ok_or_else(fail)?;
-    let role = Role::INPUTS.into_iter().find(|role| role.name() == name).ok_or_else(fail)?;
+    let role = Role::named(name).ok_or_else(fail)?;
     Ok((role, topic.to_owned()))
 }
 

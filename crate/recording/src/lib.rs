@@ -9,7 +9,8 @@
 //!   up to where the file ends.
 //! - [`replay()`] drives estimator, motion compensation, supervisor and planner with it, and tells where
 //!   their decisions differ from those that were recorded.
-//! - [`Player`] goes to any moment of a recording and tells what was seen and decided there.
+//! - [`Player`] goes to any moment of a recording and tells what was seen and decided there; [`choices`]
+//!   tells beforehand which topics must be named.
 //!
 //! The crate opens no file, reads no clock and starts no thread. It builds natively and for
 //! wasm32-unknown-unknown.
@@ -30,7 +31,7 @@ pub use entry::{Content, Entry};
 pub use error::{Fault, RecordingError};
 pub use head::Head;
 pub use message::{AnswerMessage, GoalMessage, LostMessage, SpoiltMessage, TickMessage};
-pub use player::{Found, Player, Source};
+pub use player::{Candidate, Choice, Found, Player, Source, choices};
 pub use reader::Reader;
 pub use replay::{Difference, Moment, News, Options, Report, Seen, replay};
 pub use topics::{Role, TopicNames};

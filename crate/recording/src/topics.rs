@@ -77,6 +77,12 @@ impl Role {
         }
     }
 
+    /// The role of a robot's messages that has this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::INPUTS.into_iter().find(|role| role.name() == name)
+    }
+
     /// The type of its messages.
     #[must_use]
     pub fn schema(self) -> &'static str {
@@ -141,17 +147,20 @@ impl Roles {
         self.by_channel.get(&channel).copied()
     }
 
+    /// Whether a topic whose messages have the type `schema` has this role, as far as that can be told from
+    /// it alone.
+    pub(crate) fn may_be(&self, role: Role, topic: &str, schema: &str) -> bool {
+        match self.named.get(&role) {
+            Some(name) => name == topic,
+            None if Role::DECISIONS.contains(&role) => topic == decision_topic(role),
+            None => schema == role.schema() && role.usual_end().is_none_or(|end| topic.ends_with(end)),
+        }
+    }
+
     /// Takes a channel whose messages have the type `schema`.
     pub(crate) fn take(&mut self, channel: &Channel, schema: &str) -> Result<(), Fault> {
         for role in Role::INPUTS.into_iter().chain(Role::DECISIONS) {
-            let is_it = match self.named.get(&role) {
-                Some(name) => *name == channel.topic,
-                None if Role::DECISIONS.contains(&role) => channel.topic == decision_topic(role),
-                None => {
-                    schema == role.schema() && role.usual_end().is_none_or(|end| channel.topic.ends_with(end))
-                }
-            };
-            if !is_it {
+            if !self.may_be(role, &channel.topic, schema) {
                 continue;
             }
             if schema != role.schema() || channel.message_encoding != "cdr" {

@@ -3,8 +3,11 @@
 use std::io::{Error, Result};
 
 use js_sys::Uint8Array;
-use mapless_recording::Source;
-use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+use mapless_recording::{RecordingError, Source};
+use wasm_bindgen::prelude::{JsError, JsValue, wasm_bindgen};
+
+const EXPECTED: &str =
+    "Expected an MCAP recording of mapless-node or of a robot (rosbag2), with scan, odometry and IMU";
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r"
@@ -57,4 +60,9 @@ impl Source for File {
         bytes.subarray(0, read as u32).copy_to(&mut into[..read]);
         Ok(read)
     }
+}
+
+/// Why a file is no recording, and what was expected.
+pub(crate) fn refused(name: &str, error: &RecordingError) -> JsError {
+    JsError::new(&format!("{name}: {error}. {EXPECTED}"))
 }

@@ -18,6 +18,7 @@ mod scene;
 #[path = "../../wasm/src/sight.rs"]
 mod sight;
 mod surroundings;
+mod topics;
 
 pub use decision::{
     Activity, Cost, Forecast, PathPoint, ReachEnd, Refusal, Segment, Subgoal, Velocity, Verdict,
@@ -31,6 +32,7 @@ pub use returns::SetAside;
 pub use scene::RecordedScene;
 pub use sight::{FrameBuffers, ImageSize, Mount, Point, SegmentDemands, SensorPose, TiltLimits};
 pub use surroundings::Surroundings;
+pub use topics::{NamedTopics, TopicCandidate, TopicChoice, TopicChoices, topic_choices};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// Runs once when the page loads the module.

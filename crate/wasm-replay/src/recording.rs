@@ -9,13 +9,11 @@ use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 use crate::crossing::{give, read};
-use crate::file::{File, RecordingFile};
+use crate::file::{File, RecordingFile, refused};
 use crate::frame::{RecordedFrame, frame};
 use crate::scene::RecordedScene;
 use crate::sight::FrameBuffers;
-
-const EXPECTED: &str =
-    "Expected an MCAP recording of mapless-node or of a robot (rosbag2), with scan, odometry and IMU";
+use crate::topics::NamedTopics;
 
 /// How far the recording was decided again.
 #[derive(Debug, Serialize, Tsify)]
@@ -64,17 +62,16 @@ pub struct Recording {
 
 #[wasm_bindgen]
 impl Recording {
-    /// Opens a recording of the node, or a robot's own.
+    /// Opens a recording of the node, or a robot's own with the topics that must be named.
     ///
     /// # Errors
     /// A file that is neither, with its name and what was expected.
     #[wasm_bindgen(constructor)]
-    pub fn new(file: RecordingFile) -> Result<Self, JsError> {
+    pub fn new(file: RecordingFile, topics: Ts<NamedTopics>) -> Result<Self, JsError> {
         let (name, file) = File::new(file);
-        match Player::open(file, Options::default()) {
-            Ok(player) => Ok(Self { player, name }),
-            Err(error) => Err(JsError::new(&format!("{name}: {error}. {EXPECTED}"))),
-        }
+        let options = Options { topics: read(topics)?.by_role(), ..Options::default() };
+        let player = Player::open(file, options).map_err(|error| refused(&name, &error))?;
+        Ok(Self { player, name })
     }
 
     /// What it was made with, where somebody looks.

@@ -5,7 +5,8 @@ import { byId } from '../base/dom.ts';
 import type { HeightField } from '../ground/heightField.ts';
 import type { Frame, SessionInfo } from '../protocol/simulationProtocol.ts';
 import type { DrivePanel } from '../recorded/drivePanel.ts';
-import type { RecordedDrive } from '../recorded/recordedDrive.ts';
+import type { DriveViews, RecordedDrive } from '../recorded/recordedDrive.ts';
+import type { TopicsForm } from '../recorded/topicsForm.ts';
 
 /** The panels that a run and a recording share. */
 export interface SharedPanels {
@@ -25,6 +26,7 @@ export class Recordings {
   readonly #page = byId('app', HTMLElement);
   #drive: RecordedDrive | undefined;
   #panel: DrivePanel | undefined;
+  #form: TopicsForm | undefined;
   #newest = 0;
 
   constructor(app: App, panels: SharedPanels) {
@@ -40,17 +42,18 @@ export class Recordings {
   async open(file: File): Promise<void> {
     this.#newest += 1;
     const number = this.#newest;
+    this.#form?.close();
     const [{ RecordedDrive }, { DrivePanel }] = await Promise.all([
       import('../recorded/recordedDrive.ts'),
       import('../recorded/drivePanel.ts'),
     ]);
     const panels = this.#panels;
     let panel: DrivePanel | undefined;
-    const drive = await RecordedDrive.open(file, {
+    const views: DriveViews = {
       session: (info, field) => panels.session(info, field),
       surroundings: (field) => panels.surroundings(field),
       frame: (frame, recorded) => {
-        panels.frame(frame, drive.playing);
+        panels.frame(frame, this.#drive?.playing ?? false);
         panel?.show(recorded);
       },
       playing: (playing) => panels.playing(playing),
@@ -60,7 +63,14 @@ export class Recordings {
         this.close();
         panels.notice(`${file.name}: ${message}`);
       },
+    };
+    const drive = await RecordedDrive.open(file, views, async (choices) => {
+      const { TopicsForm } = await import('../recorded/topicsForm.ts');
+      if (number !== this.#newest) return undefined;
+      this.#form = new TopicsForm(file.name, choices);
+      return this.#form.chosen;
     });
+    if (!drive) return;
     if (number !== this.#newest) {
       drive.close();
       return;
@@ -84,6 +94,7 @@ export class Recordings {
 
   /** Goes back to the run. */
   close(): void {
+    this.#form?.close();
     if (!this.#drive) return;
     this.#forget();
     this.#page.removeAttribute('data-recorded');

@@ -1,13 +1,21 @@
 /** A recording that is open: goes to any moment of it, plays it, and tells the panels what is there. */
 
 import { gate } from '../base/gate.ts';
+import { messageOf } from '../base/messageOf.ts';
 import { HeightField } from '../ground/heightField.ts';
 import type { Frame, FrameBuffers, Pose, SessionInfo } from '../protocol/simulationProtocol.ts';
 import { transferables } from '../protocol/simulationProtocol.ts';
 import { SPEEDS } from '../run/speeds.ts';
 import { frameOf, goalOf, infoOf, PERIOD_S } from './recordedFrame.ts';
 import { RecordedPast } from './recordedPast.ts';
-import type { FromRecording, RecordedFrame, RecordedScene, ToRecording } from './recordedProtocol.ts';
+import type {
+  FromRecording,
+  RecordedFrame,
+  RecordedScene,
+  TopicChoice,
+  Topics,
+  ToRecording,
+} from './recordedProtocol.ts';
 
 /** One jump along the timeline. */
 const JUMP_S = 5;
@@ -61,8 +69,15 @@ export class RecordedDrive {
     };
   }
 
-  /** Rejected, with what was expected, if the file is no recording. */
-  static open(file: File, views: DriveViews): Promise<RecordedDrive> {
+  /**
+   * `ask` has topics chosen that cannot be told apart; where it gives none, nothing is opened. Rejected, with what was expected, if the file
+   * is no recording.
+   */
+  static open(
+    file: File,
+    views: DriveViews,
+    ask: (choices: readonly TopicChoice[]) => Promise<Topics | undefined>,
+  ): Promise<RecordedDrive | undefined> {
     const worker = new Worker(new URL('./recordingWorker.ts', import.meta.url), { type: 'module' });
     return new Promise((resolve, reject) => {
       const refuse = (message: string) => {
@@ -73,8 +88,16 @@ export class RecordedDrive {
         event.preventDefault();
         refuse(`${file.name}: ${event.message || 'the replay could not be loaded'}`);
       };
+      const asked = (topics: Topics | undefined) => {
+        if (topics) worker.postMessage({ type: 'open', file, topics } satisfies ToRecording);
+        else {
+          worker.terminate();
+          resolve(undefined);
+        }
+      };
       worker.onmessage = ({ data }: MessageEvent<FromRecording>) => {
-        if (data.type === 'opened') resolve(new RecordedDrive(file.name, data.scene, worker, views));
+        if (data.type === 'asks') ask(data.choices).then(asked, (error) => refuse(messageOf(error)));
+        else if (data.type === 'opened') resolve(new RecordedDrive(file.name, data.scene, worker, views));
         else if (data.type === 'failed') refuse(data.message);
       };
       worker.postMessage({ type: 'open', file } satisfies ToRecording);

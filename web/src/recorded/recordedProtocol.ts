@@ -1,9 +1,12 @@
 /** What the page and the worker that reads a recording say to each other. */
 
 import type { FrameBuffers } from '../protocol/simulationProtocol.ts';
-import type { Change, Decided, RecordedFrame, RecordedScene } from '../wasm/mapless_wasm_replay.js';
+import type { Change, Decided, RecordedFrame, RecordedScene, TopicChoice } from '../wasm/mapless_wasm_replay.js';
 
-export type { Change, Decided, RecordedFrame, RecordedScene };
+export type { Change, Decided, RecordedFrame, RecordedScene, TopicChoice };
+
+/** Names of topics by their roles. */
+export type Topics = Readonly<Record<string, string>>;
 
 /** What was found since the news before, as far as everything was decided again. */
 export interface News {
@@ -18,14 +21,16 @@ export interface News {
 }
 
 export type ToRecording =
-  /** First of all; answered by `opened` or `failed`. */
-  | { type: 'open'; file: File }
+  /** First of all; answered by `opened` or `failed`, or, without topics, by `asks`. */
+  | { type: 'open'; file: File; topics?: Topics }
   /** Answered by `shown`, once the drive was decided so far; only the newest of several is. */
   | { type: 'show'; time_s: number; since_s: number }
   | { type: 'recycle'; buffers: FrameBuffers };
 
 export type FromRecording =
   | { type: 'opened'; scene: RecordedScene }
+  /** Topics must be chosen before it can be opened. */
+  | { type: 'asks'; choices: readonly TopicChoice[] }
   | { type: 'news'; news: News }
   | { type: 'shown'; frame: RecordedFrame; buffers: FrameBuffers }
   /** Nothing more comes. */

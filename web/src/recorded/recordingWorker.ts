@@ -5,7 +5,7 @@ import { loadReplay } from '../bindings/replayModule.ts';
 import { type FrameBuffers, transferables } from '../protocol/simulationProtocol.ts';
 import { newFrameBuffers } from '../simulation/frameBuffers.ts';
 import type { Recording } from '../wasm/mapless_wasm_replay.js';
-import type { Decided, FromRecording, ToRecording } from './recordedProtocol.ts';
+import type { Decided, FromRecording, Topics, ToRecording } from './recordedProtocol.ts';
 
 /** How long it decides before it listens again. */
 const SLICE_MS = 25;
@@ -40,7 +40,7 @@ function guarded<Given extends unknown[]>(act: (...given: Given) => void | Promi
 }
 
 self.onmessage = guarded(async ({ data }: MessageEvent<ToRecording>) => {
-  if (data.type === 'open') await open(data.file);
+  if (data.type === 'open') await open(data.file, data.topics);
   else {
     if (data.type === 'recycle') pool.push(data.buffers);
     else wanted = data;
@@ -48,11 +48,17 @@ self.onmessage = guarded(async ({ data }: MessageEvent<ToRecording>) => {
   }
 });
 
-async function open(file: File): Promise<void> {
-  const { Recording } = await loadReplay();
+async function open(file: File, topics?: Topics): Promise<void> {
+  const { Recording, topic_choices } = await loadReplay();
   const reader = new FileReaderSync();
   const read = (at: number, bytes: number) => new Uint8Array(reader.readAsArrayBuffer(file.slice(at, at + bytes)));
-  recording = new Recording({ name: file.name, size: file.size, read });
+  const source = { name: file.name, size: file.size, read };
+  const choices = topics ? [] : topic_choices(source);
+  if (choices.length > 0) {
+    post({ type: 'asks', choices });
+    return;
+  }
+  recording = new Recording(source, topics ?? {});
   const scene = recording.scene();
   pool = [newFrameBuffers(scene.image), newFrameBuffers(scene.image)];
   post({ type: 'opened', scene });

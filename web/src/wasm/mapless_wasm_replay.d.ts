@@ -76,6 +76,24 @@ export interface Point {
 }
 
 /**
+ * A role that several topics of a recording may have.
+ */
+export interface TopicChoice {
+    /**
+     * `scan`, `odometry`, `imu`, `emergency_stop`, `reset`, `goal_pose` or `clock`.
+     */
+    role: string;
+    /**
+     * The type of their messages.
+     */
+    schema: string;
+    /**
+     * Those with the most messages first.
+     */
+    candidates: TopicCandidate[];
+}
+
+/**
  * A run of neighbouring columns at one level of the skyline.
  */
 export interface Segment {
@@ -114,9 +132,25 @@ export interface Surroundings {
 }
 
 /**
+ * A topic that a role may have.
+ */
+export interface TopicCandidate {
+    topic: string;
+    /**
+     * How many messages it has, if the file tells.
+     */
+    messages: number | undefined;
+}
+
+/**
  * Changes, in their order.
  */
 export type ChangeList = Change[];
+
+/**
+ * Choices, in the order of their roles.
+ */
+export type TopicChoices = TopicChoice[];
 
 /**
  * Everything that a moment saw, decided and did.
@@ -257,6 +291,11 @@ export interface ImageSize {
     rows: number;
     rings: number;
 }
+
+/**
+ * Names of topics by their roles.
+ */
+export type NamedTopics = Readonly<Record<string, string>>;
 
 /**
  * The weighted terms of a subgoal's cost. The paper has the first three.
@@ -491,12 +530,12 @@ export class Recording {
      */
     differences_s(known: number): Float64Array;
     /**
-     * Opens a recording of the node, or a robot's own.
+     * Opens a recording of the node, or a robot's own with the topics that must be named.
      *
      * # Errors
      * A file that is neither, with its name and what was expected.
      */
-    constructor(file: RecordingFile);
+    constructor(file: RecordingFile, topics: NamedTopics);
     /**
      * Times of the planner's answers and, while it had no goal, of scans, seconds, after the first `known`.
      */
@@ -564,6 +603,14 @@ export function replay_recording(file: string, bytes: Uint8Array | number[]): Re
  */
 export function start(): void;
 
+/**
+ * The roles for which a topic must be named before the recording can be opened; mostly none.
+ *
+ * # Errors
+ * A file that is no recording, with its name and what was expected.
+ */
+export function topic_choices(file: RecordingFile): TopicChoices;
+
 export type InitInput = RequestInfo | URL | Response | BufferSource | WebAssembly.Module;
 
 export interface InitOutput {
@@ -573,7 +620,7 @@ export interface InitOutput {
     readonly recording_changes: (a: number, b: number) => [number, number, number];
     readonly recording_decide_on: (a: number, b: number) => [number, number, number];
     readonly recording_differences_s: (a: number, b: number) => any;
-    readonly recording_new: (a: any) => [number, number, number];
+    readonly recording_new: (a: any, b: any) => [number, number, number];
     readonly recording_scans_s: (a: number, b: number) => any;
     readonly recording_scene: (a: number) => [number, number, number];
     readonly recording_show: (a: number, b: number, c: number, d: any, e: number) => [number, number, number];
@@ -585,6 +632,7 @@ export interface InitOutput {
     readonly replayed_digest: (a: number) => [number, number];
     readonly replayed_until_s: (a: number) => number;
     readonly start: () => void;
+    readonly topic_choices: (a: any) => [number, number, number];
     readonly __wbindgen_malloc: (a: number, b: number) => number;
     readonly __wbindgen_realloc: (a: number, b: number, c: number, d: number) => number;
     readonly __wbindgen_free: (a: number, b: number, c: number) => void;

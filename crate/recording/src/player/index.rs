@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 
-use mcap::records::{Footer, Record, op};
+use mcap::records::{Channel, Footer, Record, op};
 use mcap::{MAGIC, McapError};
 
 use super::source::Source;
@@ -44,8 +44,8 @@ impl Index {
         if fill(source, 0, &mut magic)? < magic.len() || magic != *MAGIC {
             return Err(McapError::BadMagic.into());
         }
-        if let Some(summary) = summary(source)?
-            && let Some(index) = Self::from_summary(source, &summary, topics)?
+        if let Some(summary) = Summary::of(source)?
+            && let Some(index) = Self::from_summary(source, summary, topics)?
         {
             return Ok(index);
         }
@@ -53,29 +53,16 @@ impl Index {
     }
 
     /// `None` if the summary does not tell of chunks.
-    fn from_summary(source: &impl Source, bytes: &[u8], topics: &TopicNames) -> Result<Option<Self>, Fault> {
-        let (mut schemas, mut roles) = (BTreeMap::new(), Roles::new(topics.clone()));
-        let (mut begins, mut until_ns) = (Vec::new(), 0);
-        let mut rest = bytes;
-        while let Some((head, body)) = rest.split_at_checked(RECORD_HEAD as usize) {
-            let length = usize::try_from(length_of(head)).unwrap_or(usize::MAX);
-            let Some((record, after)) = body.split_at_checked(length) else { return Ok(None) };
-            match mcap::parse_record(head[0], record)? {
-                Record::Schema { header, .. } => {
-                    schemas.insert(header.id, header.name);
-                }
-                Record::Channel(channel) => {
-                    let schema = schemas.get(&channel.schema_id).map_or("", String::as_str);
-                    roles.take(&channel, schema)?;
-                }
-                Record::ChunkIndex(chunk) => {
-                    begins.push(chunk.chunk_start_offset);
-                    until_ns = until_ns.max(chunk.message_end_time);
-                }
-                _ => {}
-            }
-            rest = after;
+    fn from_summary(
+        source: &impl Source,
+        summary: Summary,
+        topics: &TopicNames,
+    ) -> Result<Option<Self>, Fault> {
+        let mut roles = Roles::new(topics.clone());
+        for (channel, schema) in &summary.channels {
+            roles.take(channel, schema)?;
         }
+        let mut begins = summary.chunks;
         if begins.is_empty() {
             return Ok(None);
         }
@@ -87,7 +74,7 @@ impl Index {
         begins.sort_unstable();
         // What stands before the first chunk is a section of its own.
         let sections = std::iter::once(0).chain(begins).collect();
-        Ok(Some(Self { sections, end: source.length(), until_ns }))
+        Ok(Some(Self { sections, end: source.length(), until_ns: summary.until_ns }))
     }
 
     fn from_heads(source: &impl Source) -> Result<Self, Fault> {
@@ -138,7 +125,50 @@ impl Index {
     }
 }
 
-/// The summary of a file that was ended; `None` without one.
+/// What a file that was ended says of itself.
+#[derive(Debug, Default)]
+pub(super) struct Summary {
+    /// Each with the type of its messages.
+    pub(super) channels: Vec<(Channel, String)>,
+    /// Messages of each channel, where they were counted.
+    pub(super) messages: BTreeMap<u16, u64>,
+    /// Bytes at which chunks begin.
+    pub(super) chunks: Vec<u64>,
+    /// The newest message's log time, nanoseconds.
+    until_ns: u64,
+}
+
+impl Summary {
+    /// `None` if the file has none, or a broken one.
+    pub(super) fn of(source: &impl Source) -> Result<Option<Self>, Fault> {
+        let Some(bytes) = summary(source)? else { return Ok(None) };
+        let (mut schemas, mut summary) = (BTreeMap::new(), Self::default());
+        let mut rest = &*bytes;
+        while let Some((head, body)) = rest.split_at_checked(RECORD_HEAD as usize) {
+            let length = usize::try_from(length_of(head)).unwrap_or(usize::MAX);
+            let Some((record, after)) = body.split_at_checked(length) else { return Ok(None) };
+            match mcap::parse_record(head[0], record)? {
+                Record::Schema { header, .. } => {
+                    schemas.insert(header.id, header.name);
+                }
+                Record::Channel(channel) => {
+                    let schema = schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+                    summary.channels.push((channel, schema));
+                }
+                Record::ChunkIndex(chunk) => {
+                    summary.chunks.push(chunk.chunk_start_offset);
+                    summary.until_ns = summary.until_ns.max(chunk.message_end_time);
+                }
+                Record::Statistics(statistics) => summary.messages = statistics.channel_message_counts,
+                _ => {}
+            }
+            rest = after;
+        }
+        Ok(Some(summary))
+    }
+}
+
+/// The bytes of the summary of a file that was ended; `None` without one.
 fn summary(source: &impl Source) -> Result<Option<Vec<u8>>, Fault> {
     let Some(at) = source.length().checked_sub(TAIL) else { return Ok(None) };
     let mut tail = [0; TAIL as usize];

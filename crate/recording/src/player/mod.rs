@@ -5,6 +5,7 @@
 //! a chunk at a time, and copies are given up once they take too much, so the memory does not grow with the
 //! length of the recording but for a few bytes a tenth of a second.
 
+mod choices;
 mod index;
 mod run;
 mod source;
@@ -20,6 +21,7 @@ use crate::reader::Known;
 use crate::replay::{Difference, Moment, News, Options, Replay, Report};
 use crate::topics::Role;
 
+pub use choices::{Candidate, Choice, choices};
 use index::Index;
 use run::{Checkpoint, Opened, Run};
 pub use source::Source;

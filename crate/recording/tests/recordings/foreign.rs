@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::{Cursor, Write as _};
 
-use mapless_recording::{News, Options, Report, Role, replay};
+use mapless_recording::{Candidate, Choice, News, Options, Player, Report, Role, choices, replay};
 use mcap::records::{ChunkHeader, MessageHeader, Record};
 
 use crate::drive::{Plan, SHORT, drive, file};
@@ -12,6 +12,11 @@ const PLAN: Plan = Plan { seconds: 2.5, pressed_s: 9.0, ..SHORT };
 
 /// The messages of a drive under other names; `rename` gives a topic its name, or leaves it out.
 fn bag(rename: impl Fn(&str) -> Option<String>) -> Vec<u8> {
+    bag_of(|topic| rename(topic).into_iter().collect())
+}
+
+/// Likewise with each topic under any number of names.
+fn bag_of(rename: impl Fn(&str) -> Vec<String>) -> Vec<u8> {
     let own = file(&drive(PLAN));
     let mut writer =
         mcap::WriteOptions::new().profile("ros2").compression(None).create(Cursor::new(Vec::new())).unwrap();
@@ -22,13 +27,14 @@ fn bag(rename: impl Fn(&str) -> Option<String>) -> Vec<u8> {
                 schemas.insert(header.id, writer.add_schema(&header.name, &header.encoding, &data).unwrap());
             }
             Record::Channel(channel) if !channels.contains_key(&channel.id) => {
-                if let Some(name) = rename(&channel.topic) {
-                    let id = writer.add_channel(schemas[&channel.schema_id], &name, "cdr", &BTreeMap::new());
-                    channels.insert(channel.id, id.unwrap());
-                }
+                let mut add = |name: String| {
+                    writer.add_channel(schemas[&channel.schema_id], &name, "cdr", &BTreeMap::new()).unwrap()
+                };
+                let ids: Vec<u16> = rename(&channel.topic).into_iter().map(&mut add).collect();
+                channels.insert(channel.id, ids);
             }
             Record::Message { header, data } => {
-                if let Some(&channel_id) = channels.get(&header.channel_id) {
+                for &channel_id in channels.get(&header.channel_id).into_iter().flatten() {
                     // As rosbag2: both times are when it was heard.
                     let header = MessageHeader { channel_id, publish_time: header.log_time, ..header };
                     writer.write_to_known_channel(&header, &data).unwrap();
@@ -187,4 +193,65 @@ fn topics_that_cannot_be_told_apart_are_asked_for() {
     let expected = "/front/points and /rear/points are both sensor_msgs/msg/PointCloud2: \
         expected one to be named, as --topic scan=/front/points";
     assert!(text.contains(expected), "{text}");
+}
+
+#[test]
+fn the_topics_among_which_one_must_choose_are_told_beforehand() {
+    // A second cloud, and odometry from two sources.
+    let two = |topic: &str| match robots(topic) {
+        Some(name) if name.ends_with("scan") => vec!["/front/points".to_owned(), "/rear/points".to_owned()],
+        Some(name) if name.ends_with("odometry") => vec!["/wheels".to_owned(), "/filtered".to_owned()],
+        name => name.into_iter().collect(),
+    };
+    let bytes = bag_of(two);
+    assert!(choices(bag(robots), &Options::default().topics).unwrap().is_empty());
+    let choice = |role, topics: [&str; 2], messages| {
+        let candidates =
+            topics.map(|topic| Candidate { topic: topic.to_owned(), messages }).into_iter().collect();
+        Choice { role, candidates }
+    };
+    let asked = choices(bytes.clone(), &Options::default().topics).unwrap();
+    let scans = asked[0].candidates[0].messages;
+    assert!(scans > Some(20), "{scans:?}");
+    let odometry = asked[1].candidates[0].messages;
+    assert!(odometry > scans, "{odometry:?}");
+    assert_eq!(
+        asked,
+        [
+            choice(Role::Scan, ["/front/points", "/rear/points"], scans),
+            choice(Role::Odometry, ["/filtered", "/wheels"], odometry),
+        ]
+    );
+
+    // What is named is not asked for; with all that is named the file opens.
+    let name = |names: &[(Role, &str)]| {
+        names.iter().map(|(role, topic)| (*role, (*topic).to_owned())).collect::<BTreeMap<_, _>>()
+    };
+    let scan = name(&[(Role::Scan, "/rear/points")]);
+    assert_eq!(choices(bytes.clone(), &scan).unwrap(), asked[1..]);
+    let both = name(&[(Role::Scan, "/rear/points"), (Role::Odometry, "/wheels")]);
+    assert!(choices(bytes.clone(), &both).unwrap().is_empty());
+    let options = Options { topics: both, ..sensor() };
+    assert_eq!(replayed(&bytes, &options).0.digest, replayed(&bag(robots), &sensor()).0.digest);
+    Player::open(bytes.clone(), options).unwrap();
+    assert!(Player::open(bytes.clone(), Options { topics: scan, ..sensor() }).is_err());
+
+    // A file that was cut off tells what comes at its begin, but not how often.
+    let cut = bytes[..bytes.len() / 2].to_vec();
+    assert_eq!(
+        choices(cut, &Options::default().topics).unwrap(),
+        [
+            choice(Role::Scan, ["/front/points", "/rear/points"], None),
+            choice(Role::Odometry, ["/filtered", "/wheels"], None),
+        ]
+    );
+    // A recording of the node names its own topics.
+    let own = file(&drive(PLAN));
+    for bytes in [own[..own.len() / 2].to_vec(), own] {
+        assert!(choices(bytes, &Options::default().topics).unwrap().is_empty());
+    }
+    // Naming a cloud helps nothing where there is no IMU.
+    let blind = bag_of(|topic| two(topic).into_iter().filter(|name| !name.ends_with("imu")).collect());
+    let text = choices(blind, &Options::default().topics).unwrap_err().to_string();
+    assert!(text.contains("no topic of type sensor_msgs/msg/Imu: expected one for imu"), "{text}");
 }
