@@ -1,7 +1,7 @@
 //! Writes a recording of ten minutes with the scans of a VLP-16 at 10 Hz: 1.3 GB, and needs as much memory.
 //!
-//! `cargo run --release -p mapless-recording --example ten_minutes -- FILE.mcap`. `npm run recording` opens it
-//! in the page.
+//! `cargo run --release -p mapless-recording --example ten_minutes -- FILE.mcap`. `npm run recording`
+//! opens it in the page.
 
 #[allow(dead_code, clippy::unwrap_used, reason = "it is the tests' own")]
 #[path = "../tests/recordings/drive.rs"]
