@@ -25,7 +25,9 @@ test('the page keeps to its budget: 370 kB of wasm (470 kB as gzip) to begin wit
   const isParquet = (name: string) => /^parquet-.*\.js$/.test(name);
   const parquet = sent(isParquet);
   const isRecording = (name: string) =>
-    /^(recorded|recordedDrive|recordedFrame|drivePanel|topicsForm|recordingWorker|mapless_wasm_replay)-.*\.(js|css)$/.test(name);
+    /^(recorded|recordedDrive|recordedFrame|drivePanel|topicsForm|recordingWorker|mapless_wasm_replay)-.*\.(js|css)$/.test(
+      name,
+    );
   const recording = sent(isRecording);
   const isElsewhere = (name: string) =>
     /^(addressFiles|savedRun|vertiBenchSheet|vertiBenchModule|mapless_wasm_verti_bench)-.*\.js$/.test(name);
