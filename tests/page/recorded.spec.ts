@@ -19,6 +19,12 @@ async function open(page: Page, name: string, content: Buffer): Promise<void> {
   await expect(panel(page)).toContainText('of the decisions differ');
 }
 
+/** Presses buttons by their names, on a phone with a finger. */
+const presser = (page: Page, phone: boolean) => (name: string) => {
+  const button = page.getByRole('button', { name, exact: true });
+  return phone ? button.tap() : button.click();
+};
+
 /** The same drive as the robot's own rosbag2 would have it: no decisions, and two clouds and two odometries, of which each second one is half as fast. */
 async function foreign(): Promise<Buffer> {
   const parts: Uint8Array[] = [];
@@ -63,10 +69,7 @@ for (const [device, options] of Object.entries(DEVICES)) {
 
     test('a recording opens, is gone along, explains itself and gives the run back', async ({ mapless: page }) => {
       const phone = device === 'phone';
-      const press = (name: string) => {
-        const button = page.getByRole('button', { name, exact: true });
-        return phone ? button.tap() : button.click();
-      };
+      const press = presser(page, phone);
       await page.evaluate(() => window.mapless?.pause());
       const before = await state(page);
       const title = await page.locator('#scene-title').textContent();
@@ -118,10 +121,7 @@ for (const [device, options] of Object.entries(DEVICES)) {
 
     test('topics that cannot be told apart are asked for', async ({ mapless: page }) => {
       const phone = device === 'phone';
-      const press = (name: string) => {
-        const button = page.getByRole('button', { name, exact: true });
-        return phone ? button.tap() : button.click();
-      };
+      const press = presser(page, phone);
       await page.evaluate(() => window.mapless?.pause());
       const before = await state(page);
       const form = page.getByRole('region', { name: 'Which topics?' });

@@ -3,7 +3,7 @@
 //! `cargo run --release -p mapless-recording --example ten_minutes -- FILE.mcap`. `npm run recording`
 //! opens it in the page.
 
-#[allow(dead_code, clippy::unwrap_used, reason = "it is the tests' own")]
+#[allow(clippy::unwrap_used, reason = "it is the tests' own")]
 #[path = "../tests/recordings/drive.rs"]
 mod drive;
 

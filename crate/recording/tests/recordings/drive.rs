@@ -1,7 +1,7 @@
 //! A drive over hills by the parts of the node, in the order in which its threads would call them.
 
 use core::time::Duration;
-use std::io::{Cursor, Seek, Write};
+use std::io::{Seek, Write};
 
 use mapless::glam::{DQuat, DVec2, DVec3};
 use mapless::{PlannerConfig, Pose, RobotModel, SensorModel};
@@ -35,9 +35,6 @@ pub(crate) struct Plan {
     /// When the limits are lowered, the planner is set otherwise and a scan is spoilt.
     pub(crate) changed_s: f64,
 }
-
-/// A short one with a thin sensor.
-pub(crate) const SHORT: Plan = Plan { rings: 8, columns: 90, seconds: 2.5, pressed_s: 2.1, changed_s: 9.0 };
 
 struct Drive {
     caster: Caster,
@@ -102,11 +99,6 @@ pub(crate) fn drive(plan: Plan) -> (Head, Vec<Entry>) {
     let topic = |role: Role| (role, format!("/a200_0000/{}", role.name()));
     let topics = Role::INPUTS.into_iter().map(topic).collect();
     (Head { began_ns: BEGAN_NS, config: drive.config, topics }, drive.entries)
-}
-
-/// The recording of a drive as a file.
-pub(crate) fn file(recorded: &(Head, Vec<Entry>)) -> Vec<u8> {
-    write(Cursor::new(Vec::new()), recorded).into_inner()
 }
 
 /// Writes the recording of a drive.

@@ -6,7 +6,8 @@ use mapless_recording::{Entry, Reader, RecordingError};
 use mcap::records::Record;
 use proptest::prelude::*;
 
-use crate::drive::{Plan, SHORT, drive, file};
+use crate::drive::{Plan, drive};
+use crate::{SHORT, file};
 
 fn read(bytes: &[u8]) -> Result<(Vec<Entry>, bool), RecordingError> {
     let mut reader = Reader::new(bytes, Default::default())?;

@@ -6,7 +6,8 @@ use std::io::{Cursor, Write as _};
 use mapless_recording::{Candidate, Choice, News, Options, Player, Report, Role, choices, replay};
 use mcap::records::{ChunkHeader, MessageHeader, Record};
 
-use crate::drive::{Plan, SHORT, drive, file};
+use crate::drive::{Plan, drive};
+use crate::{SHORT, file};
 
 const PLAN: Plan = Plan { seconds: 2.5, pressed_s: 9.0, ..SHORT };
 

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use mapless_recording::{Options, replay};
 
-use crate::drive::{SHORT, drive, file};
+use crate::drive::drive;
+use crate::{SHORT, file};
 
 /// Written anew by `MAPLESS_RECORD_DRIVE=1 cargo test -p mapless-recording --test recordings kept`.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/kept");

@@ -8,3 +8,17 @@ mod foreign;
 mod kept;
 mod player;
 mod replaying;
+
+use std::io::Cursor;
+
+use mapless_recording::{Entry, Head};
+
+use crate::drive::{Plan, write};
+
+/// A short drive with a thin sensor.
+const SHORT: Plan = Plan { rings: 8, columns: 90, seconds: 2.5, pressed_s: 2.1, changed_s: 9.0 };
+
+/// The recording of a drive as a file.
+fn file(recorded: &(Head, Vec<Entry>)) -> Vec<u8> {
+    write(Cursor::new(Vec::new()), recorded).into_inner()
+}

@@ -7,7 +7,8 @@ use std::rc::Rc;
 
 use mapless_recording::{Moment, Options, Player, RecordingError, Source, replay};
 
-use crate::drive::{Plan, SHORT, drive, file};
+use crate::drive::{Plan, drive};
+use crate::{SHORT, file};
 
 /// A file that counts what is read of it.
 #[derive(Debug)]

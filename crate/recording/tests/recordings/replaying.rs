@@ -2,7 +2,8 @@
 
 use mapless_recording::{Content, News, Options, Report, replay};
 
-use crate::drive::{Plan, SHORT, drive, file};
+use crate::drive::{Plan, drive};
+use crate::{SHORT, file};
 
 fn replayed(bytes: &[u8], settings: &[&str]) -> (Report, Vec<News>) {
     let settings = settings.iter().map(|&setting| setting.to_owned()).collect();
