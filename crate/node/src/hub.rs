@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use mapless::{PlannerConfig, Pose, Status};
 use mapless_recording::{Content, Entry, GoalMessage, TickMessage};
 use mapless_robot::senses::{Arrival, Scan};
 use mapless_robot::supervisor::{Decision, Inputs, Proposal, Supervisor, SupervisorConfig};
 
-use crate::messages::{self, Clock, PointCloud2, Time};
+use crate::clock::NodeClock;
+use crate::messages::{Clock, PointCloud2, Time};
 use crate::navigation::Task;
 use crate::recorder::Recorder;
 use crate::slot::{Slot, lock};
@@ -52,11 +53,9 @@ const COMPLAIN_EVERY: Duration = Duration::from_secs(5);
 /// What the threads share.
 #[derive(Debug)]
 pub(crate) struct Hub {
-    began: Instant,
+    clock: NodeClock,
     is_ending: AtomicBool,
     has_jumped: AtomicBool,
-    /// The simulation's clock, if time is simulated.
-    clock: Option<Mutex<Time>>,
     /// From the LiDAR, if it sends packets, to the middleware.
     pub(crate) revolution: Slot<Revolution>,
     /// From the middleware to the planner.
@@ -78,13 +77,12 @@ pub(crate) struct Hub {
 }
 
 impl Hub {
-    /// Without any message; with `use_sim_time`, stamps are those of the simulation's clock.
+    /// Without any message; with `use_sim_time`, time is that of the simulation's clock.
     pub(crate) fn new(use_sim_time: bool) -> Self {
         Self {
-            began: Instant::now(),
+            clock: NodeClock::new(use_sim_time),
             is_ending: AtomicBool::new(false),
             has_jumped: AtomicBool::new(false),
-            clock: use_sim_time.then(Mutex::default),
             revolution: Slot::default(),
             scan: Slot::default(),
             proposal: Slot::default(),
@@ -102,18 +100,22 @@ impl Hub {
 
     /// Monotonic time since the node began; nothing else measures ages.
     pub(crate) fn now(&self) -> Duration {
-        self.began.elapsed()
+        self.clock.now()
+    }
+
+    /// How long to wait, on the system's clock, before it is looked again whether it is `due`.
+    pub(crate) fn wait_for(&self, due: Duration) -> Duration {
+        self.clock.wait_for(due)
     }
 
     /// When the node began, on the system's clock, nanoseconds.
     pub(crate) fn began_ns(&self) -> u64 {
-        let now_ns = u64::try_from(messages::now().nanoseconds()).unwrap_or(0);
-        now_ns.saturating_sub(u64::try_from(self.now().as_nanos()).unwrap_or(0))
+        self.clock.began_ns()
     }
 
     /// The stamp of what is sent now.
     pub(crate) fn stamp(&self) -> Time {
-        self.clock.as_ref().map_or_else(messages::now, |clock| *lock(clock))
+        self.clock.stamp()
     }
 
     /// A message arrives now.
@@ -123,9 +125,7 @@ impl Hub {
 
     /// The simulation's clock says this.
     pub(crate) fn set_clock(&self, time: Time) {
-        if let Some(clock) = &self.clock {
-            *lock(clock) = time;
-        }
+        self.clock.set(time);
         let told = || Content::Clock(Clock { clock: time });
         self.tell_of(self.arrival(), told, |inputs| inputs.hear_clock(time));
     }

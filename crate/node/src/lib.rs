@@ -12,6 +12,7 @@
 //! | LiDAR | if the sensor sends packets: puts them together |
 //! | recording | writes what the others leave for it, if the file asks for a recording |
 
+mod clock;
 pub mod config;
 mod diagnostics;
 mod elevation;

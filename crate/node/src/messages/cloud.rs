@@ -1,4 +1,4 @@
-//! Clouds for viewers.
+//! Clouds of floats.
 
 use super::{Header, PointCloud2, PointField};
 
@@ -6,7 +6,8 @@ const FLOAT32: u8 = 7;
 const FLOAT_BYTES: u32 = 4;
 
 /// A cloud of points of the same number of floats each, in rows of the same length.
-pub(crate) fn cloud_of_floats<const N: usize>(
+#[must_use]
+pub fn cloud_of_floats<const N: usize>(
     header: Header,
     fields: [&str; N],
     rows: usize,

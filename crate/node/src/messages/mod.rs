@@ -16,7 +16,7 @@ pub use mapless_robot::messages::{
     PoseWithCovariance, Quaternion, Time, Twist, TwistStamped, TwistWithCovariance, Vector3,
 };
 
-pub(crate) use cloud::cloud_of_floats;
+pub use cloud::cloud_of_floats;
 pub use diagnostic::{DiagnosticArray, DiagnosticStatus, KeyValue, Level};
 pub use navigate::{Feedback, HumbleResult, JazzyResult, NavigateGoal, NavigateResult};
 pub use tf::{TfMessage, Transform, TransformStamped};
