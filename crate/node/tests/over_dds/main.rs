@@ -6,6 +6,7 @@
 mod packets;
 mod parameters;
 mod robot;
+mod simulated;
 mod surfaces;
 mod tf;
 mod velodyne;
@@ -15,14 +16,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use mapless_node::config::NodeConfig;
-use mapless_node::messages::{Feedback, Header, NavigateGoal, NavigateResult, Point, Pose, PoseStamped};
+use mapless_node::messages::{NavigateGoal, NavigateResult};
 use mapless_node::navigation::code;
+use mapless_peer::{NavigateClient, goal, navigate_client, until};
 use mapless_recording::{Options, replay};
 use robot::Robot;
-use ros2_client::action::{ActionClient, ActionClientQosPolicies, GoalId, GoalStatusEnum};
-use ros2_client::dds::ServiceMapping;
-use ros2_client::qos::{Durability, History};
-use ros2_client::{ActionTypeName, Context, ContextOptions, Name, Node, NodeName, NodeOptions, QosProfile};
+use ros2_client::Node;
+use ros2_client::action::{GoalId, GoalStatusEnum};
 
 /// Peers find each other within this, even on a loaded machine.
 const DISCOVERY: Duration = Duration::from_secs(60);
@@ -33,8 +33,6 @@ const FAR_M: f64 = 200.0;
 const DRIVES: &str = "drives";
 /// The sample file's section about the mount.
 const MOUNT: [&str; 5] = ["sensor:", "height_m:", "forward_m:", "left_m:", "pitch_rad:"];
-
-type Client = ActionClient<NavigateGoal, NavigateResult, Feedback>;
 
 /// One test at a time: each has a robot that must keep its rates.
 static ALONE: Mutex<()> = Mutex::new(());
@@ -104,58 +102,22 @@ impl Drop for Process {
     }
 }
 
-/// A node of the test, with its spin task.
+/// A node of the test.
 fn peer(domain_id: u16, name: &str) -> Node {
-    let context = Context::with_options(ContextOptions::new().domain_id(domain_id)).unwrap();
-    let name = NodeName::new("/a200_0000", name).unwrap();
-    let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
-    let mut node = context.new_node(name, options).unwrap();
-    let spinner = node.spinner().unwrap();
-    std::thread::spawn(move || futures::executor::block_on(spinner.spin()));
-    node
+    mapless_peer::join(domain_id, name).unwrap()
 }
 
-fn client(node: &mut Node) -> Client {
-    let service = QosProfile::publisher_default().history(History::KeepLast { depth: 10 });
-    let qos = ActionClientQosPolicies {
-        goal_service: service.clone(),
-        result_service: service.clone(),
-        cancel_service: service.clone(),
-        feedback_subscription: service.clone(),
-        status_subscription: service.durability(Durability::TransientLocal),
-    };
-    let kind = ActionTypeName::new("nav2_msgs", "NavigateToPose");
-    let name = Name::new("", "navigate_to_pose").unwrap();
-    node.create_action_client(ServiceMapping::Enhanced, &name, &kind, qos).unwrap()
-}
-
-/// Asks again and again; the answer, if it comes in time.
-fn until<T>(most: Duration, mut ask: impl FnMut() -> Option<T>) -> Option<T> {
-    let end = Instant::now() + most;
-    loop {
-        match ask() {
-            Some(answer) => return Some(answer),
-            None if Instant::now() > end => return None,
-            None => std::thread::sleep(Duration::from_millis(2)),
-        }
-    }
-}
-
-fn goal(frame_id: &str, x: f64, y: f64) -> NavigateGoal {
-    let pose = Pose { position: Point { x, y, z: 0.0 }, ..Pose::default() };
-    let header = Header { frame_id: frame_id.to_owned(), ..Header::default() };
-    NavigateGoal { pose: PoseStamped { header, pose }, behavior_tree: String::new() }
+fn client(node: &mut Node) -> NavigateClient {
+    navigate_client(node).unwrap()
 }
 
 /// Sends a goal; its id, and whether it was accepted.
-fn send(client: &Client, goal: NavigateGoal) -> Option<(GoalId, bool)> {
-    let (request, id) = client.send_goal(goal).unwrap();
-    let response = until(Duration::from_secs(2), || client.receive_goal_response(request).unwrap());
-    response.map(|response| (id, response.accepted))
+fn send(client: &NavigateClient, goal: NavigateGoal) -> Option<(GoalId, bool)> {
+    mapless_peer::send(client, goal).unwrap()
 }
 
 /// Sends a far goal until the robot drives to it.
-fn drive(client: &Client, robot: &Robot) -> GoalId {
+fn drive(client: &NavigateClient, robot: &Robot) -> GoalId {
     let accepted = until(DISCOVERY, || {
         let [x, y] = robot.position_m();
         send(client, goal("odom", x + FAR_M, y)).filter(|(_, accepted)| *accepted)
@@ -165,7 +127,7 @@ fn drive(client: &Client, robot: &Robot) -> GoalId {
     id
 }
 
-fn result(client: &Client, id: GoalId) -> (GoalStatusEnum, NavigateResult) {
+fn result(client: &NavigateClient, id: GoalId) -> (GoalStatusEnum, NavigateResult) {
     let request = client.request_result(id).unwrap();
     until(Duration::from_secs(5), || client.receive_result(request).unwrap()).expect("no result came")
 }

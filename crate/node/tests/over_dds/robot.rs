@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use crate::velodyne::Velodyne;
 use mapless_node::messages::{
-    Bool, DiagnosticArray, Header, Imu, Odometry, PointCloud2, PointField, Quaternion, Twist, TwistStamped,
-    now,
+    Bool, Clock, DiagnosticArray, Header, Imu, Odometry, PointCloud2, PointField, Quaternion, Time, Twist,
+    TwistStamped, now,
 };
-use ros2_client::{MessageTypeName, Name, Node, Publisher, QosProfile, Subscription};
+use ros2_client::{Node, Publisher, Subscription};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -29,6 +29,8 @@ struct State {
     diagnosis: String,
     resets: bool,
     is_ending: bool,
+    /// Its time.
+    stamp: Time,
 }
 
 /// The robot: obeys `cmd_vel` and publishes what it senses, on a thread of its own.
@@ -44,6 +46,8 @@ struct Sensors {
     imu: Publisher<Imu>,
     stop: Publisher<Bool>,
     reset: Publisher<Bool>,
+    /// The rate of its time over the system's, if it is simulated, and who hears of it.
+    clock: Option<(f64, Publisher<Clock>)>,
     commands: Subscription<TwistStamped>,
     decisions: Subscription<TwistStamped>,
     diagnostics: Subscription<DiagnosticArray>,
@@ -55,47 +59,51 @@ enum Scans {
     Packets(Velodyne),
 }
 
+/// As the robot's drivers do, it keeps the newest alone.
+const DEPTH: usize = 1;
+
 fn subscription<M: DeserializeOwned + 'static>(
     node: &mut Node,
     topic: &str,
-    package: &str,
-    kind: &str,
+    message: &str,
 ) -> Subscription<M> {
-    let qos = QosProfile::publisher_default();
-    let name = Name::parse(topic).unwrap();
-    let topic = node.create_topic(&name, MessageTypeName::new(package, kind), &qos).unwrap();
-    node.create_subscription(&topic, Some(qos)).unwrap()
+    mapless_peer::subscription(node, topic, message, DEPTH).unwrap()
 }
 
-fn publisher<M: Serialize>(node: &mut Node, topic: &str, package: &str, kind: &str) -> Publisher<M> {
-    let qos = QosProfile::publisher_default();
-    let name = Name::parse(topic).unwrap();
-    let topic = node.create_topic(&name, MessageTypeName::new(package, kind), &qos).unwrap();
-    node.create_publisher(&topic, Some(qos)).unwrap()
+fn publisher<M: Serialize>(node: &mut Node, topic: &str, message: &str) -> Publisher<M> {
+    mapless_peer::publisher(node, topic, message, DEPTH).unwrap()
 }
 
 impl Robot {
     /// Its scans are clouds.
     pub(crate) fn start(mut node: Node) -> Self {
-        let scan = publisher(&mut node, "sensors/lidar3d_0/points", "sensor_msgs", "PointCloud2");
-        Self::start_with(node, Scans::Clouds(Box::new(scan)))
+        let scan = publisher(&mut node, "sensors/lidar3d_0/points", "sensor_msgs/PointCloud2");
+        Self::start_with(node, Scans::Clouds(Box::new(scan)), None)
+    }
+
+    /// Its time passes at another rate than the system's.
+    pub(crate) fn start_simulated(mut node: Node, rate: f64) -> Self {
+        let scan = publisher(&mut node, "sensors/lidar3d_0/points", "sensor_msgs/PointCloud2");
+        let clock = publisher(&mut node, "/clock", "rosgraph_msgs/Clock");
+        Self::start_with(node, Scans::Clouds(Box::new(scan)), Some((rate, clock)))
     }
 
     /// Its scans are packets.
     pub(crate) fn start_with_packets(node: Node, velodyne: Velodyne) -> Self {
-        Self::start_with(node, Scans::Packets(velodyne))
+        Self::start_with(node, Scans::Packets(velodyne), None)
     }
 
-    fn start_with(mut node: Node, scan: Scans) -> Self {
+    fn start_with(mut node: Node, scan: Scans, clock: Option<(f64, Publisher<Clock>)>) -> Self {
         let sensors = Sensors {
-            commands: subscription(&mut node, "cmd_vel", "geometry_msgs", "TwistStamped"),
-            decisions: subscription(&mut node, "mapless/decision", "geometry_msgs", "TwistStamped"),
-            diagnostics: subscription(&mut node, "diagnostics", "diagnostic_msgs", "DiagnosticArray"),
+            clock,
+            commands: subscription(&mut node, "cmd_vel", "geometry_msgs/TwistStamped"),
+            decisions: subscription(&mut node, "mapless/decision", "geometry_msgs/TwistStamped"),
+            diagnostics: subscription(&mut node, "diagnostics", "diagnostic_msgs/DiagnosticArray"),
             scan,
-            odometry: publisher(&mut node, "platform/odom/filtered", "nav_msgs", "Odometry"),
-            imu: publisher(&mut node, "sensors/imu_0/data", "sensor_msgs", "Imu"),
-            stop: publisher(&mut node, "platform/emergency_stop", "std_msgs", "Bool"),
-            reset: publisher(&mut node, "mapless/reset", "std_msgs", "Bool"),
+            odometry: publisher(&mut node, "platform/odom/filtered", "nav_msgs/Odometry"),
+            imu: publisher(&mut node, "sensors/imu_0/data", "sensor_msgs/Imu"),
+            stop: publisher(&mut node, "platform/emergency_stop", "std_msgs/Bool"),
+            reset: publisher(&mut node, "mapless/reset", "std_msgs/Bool"),
             _node: node,
         };
         let state = Arc::new(Mutex::new(State::default()));
@@ -178,11 +186,23 @@ fn go(state: &Mutex<State>, mut sensors: Sensors) {
             let values = status.values.iter().map(|value| format!("; {}: {}", value.key, value.value));
             state.diagnosis = status.message + &values.collect::<String>();
         }
+        let period_s = match &sensors.clock {
+            None => {
+                state.stamp = now();
+                PERIOD.as_secs_f64()
+            }
+            Some((rate, clock)) => {
+                let period = PERIOD.mul_f64(*rate);
+                state.stamp = Time::from_nanoseconds((period * tick).as_nanos() as i64);
+                clock.publish(Clock { clock: state.stamp }).unwrap();
+                period.as_secs_f64()
+            }
+        };
         let (speed_m_s, turn_rad_s) = (state.command.linear.x, state.command.angular.z);
         let (sin, cos) = libm::sincos(state.yaw_rad);
-        let way_m = speed_m_s * PERIOD.as_secs_f64();
+        let way_m = speed_m_s * period_s;
         state.position_m = [state.position_m[0] + way_m * cos, state.position_m[1] + way_m * sin];
-        state.yaw_rad += turn_rad_s * PERIOD.as_secs_f64();
+        state.yaw_rad += turn_rad_s * period_s;
         // What is measured is never the same twice.
         let noise = 1e-6 * f64::from(tick % 997);
         sensors.imu.publish(imu(&state, noise)).unwrap();
@@ -195,7 +215,7 @@ fn go(state: &Mutex<State>, mut sensors: Sensors) {
                 sensors.reset.publish(Bool { data: true }).unwrap();
             }
             if let (Scans::Clouds(publisher), false) = (&sensors.scan, state.is_blind) {
-                publisher.publish(scan(noise as f32)).unwrap();
+                publisher.publish(scan(&state, noise as f32)).unwrap();
             }
         }
         if let (Scans::Packets(velodyne), false) = (&mut sensors.scan, state.is_blind) {
@@ -206,13 +226,13 @@ fn go(state: &Mutex<State>, mut sensors: Sensors) {
     }
 }
 
-fn header(frame_id: &str) -> Header {
-    Header { stamp: now(), frame_id: frame_id.to_owned() }
+fn header(state: &State, frame_id: &str) -> Header {
+    Header { stamp: state.stamp, frame_id: frame_id.to_owned() }
 }
 
 fn imu(state: &State, noise: f64) -> Imu {
     let (sin, cos) = libm::sincos(0.5 * state.roll_rad);
-    let mut imu = Imu { header: header("imu_0_link"), ..Imu::default() };
+    let mut imu = Imu { header: header(state, "imu_0_link"), ..Imu::default() };
     imu.orientation = Quaternion { x: sin, y: 0.0, z: 0.0, w: cos };
     imu.angular_velocity.z = state.command.angular.z + noise;
     imu.linear_acceleration.z = 9.81 + noise;
@@ -220,8 +240,11 @@ fn imu(state: &State, noise: f64) -> Imu {
 }
 
 fn odometry(state: &State) -> Odometry {
-    let mut odometry =
-        Odometry { header: header("odom"), child_frame_id: "base_link".to_owned(), ..Odometry::default() };
+    let mut odometry = Odometry {
+        header: header(state, "odom"),
+        child_frame_id: "base_link".to_owned(),
+        ..Odometry::default()
+    };
     [odometry.pose.pose.position.x, odometry.pose.pose.position.y] = state.position_m;
     odometry.pose.pose.orientation = Quaternion::from_yaw(state.yaw_rad);
     odometry.twist.twist = state.command;
@@ -229,7 +252,7 @@ fn odometry(state: &State) -> Odometry {
 }
 
 /// Level ground as a VLP-16 sees it; what looks up meets a wall 30 m away.
-fn scan(noise: f32) -> PointCloud2 {
+fn scan(state: &State, noise: f32) -> PointCloud2 {
     let mut data = Vec::with_capacity(12 * RINGS * COLUMNS);
     for column in 0..COLUMNS {
         let (sin_a, cos_a) = libm::sincosf((360.0 / COLUMNS as f32 * column as f32).to_radians());
@@ -244,7 +267,7 @@ fn scan(noise: f32) -> PointCloud2 {
     }
     let field = |name: &str, offset| PointField { name: name.to_owned(), offset, datatype: 7, count: 1 };
     PointCloud2 {
-        header: header("lidar3d_0_laser"),
+        header: header(state, "lidar3d_0_laser"),
         height: 1,
         width: (RINGS * COLUMNS) as u32,
         fields: vec![field("x", 0), field("y", 4), field("z", 8)],
