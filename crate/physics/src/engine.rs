@@ -6,7 +6,8 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use anyhow::{Context as _, bail, ensure};
 use glam::DVec3;
-use mapless_trials::Trial;
+use mapless::Pose;
+use mapless_trials::{Navigator, Trial};
 use mapless_world::{DriveCommand, HeightField, RobotConfig, Shape, Solid};
 
 /// Where the robot is after a command.
@@ -22,6 +23,13 @@ pub(crate) struct State {
     pub(crate) wheels: DriveCommand,
     /// Whether anything but the wheels touches anything.
     pub(crate) body_touches: bool,
+}
+
+impl State {
+    /// The pose in it.
+    pub(crate) fn pose(&self) -> Pose {
+        Pose::from_roll_pitch_yaw(self.position_m, self.roll_rad, self.pitch_rad, self.yaw_rad)
+    }
 }
 
 /// The world that the engine is told first.
@@ -74,9 +82,9 @@ impl Engine {
     ///
     /// # Errors
     /// An object that walks, and a program that does not start or answer.
-    pub(crate) fn start(
+    pub(crate) fn start<N: Navigator>(
         command: &[String],
-        trial: &Trial,
+        trial: &Trial<N>,
         robot: &RobotConfig,
         friction: f64,
     ) -> anyhow::Result<(Self, State)> {
@@ -127,7 +135,12 @@ impl Drop for Engine {
     }
 }
 
-fn tell_world(to: &mut impl Write, trial: &Trial, robot: &RobotConfig, friction: f64) -> anyhow::Result<()> {
+fn tell_world<N: Navigator>(
+    to: &mut impl Write,
+    trial: &Trial<N>,
+    robot: &RobotConfig,
+    friction: f64,
+) -> anyhow::Result<()> {
     let [x, y, z, roll, pitch, yaw, ..] = trial.motion();
     let field: &HeightField = trial.field();
     let world = World {

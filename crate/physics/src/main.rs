@@ -1,16 +1,18 @@
-//! `mapless-physics TASK SIMULATOR COMMAND…`: the planner drives a scenario's task, its robot moved by a
-//! physics engine or by the trial's own kinematics, and the result is printed as a line of JSON.
+//! `mapless-physics drive TASK SIMULATOR COMMAND…`: the planner drives a scenario's task, its robot moved by a
+//! physics engine or by the trial's own kinematics. `mapless-physics over-ros TASK … COMMAND…`: the node for
+//! robots drives it over DDS. The result is printed as a line of JSON.
 
 mod engine;
 mod measures;
 mod motion;
+mod over_ros;
 mod simulator;
 
 use std::io::Write as _;
 use std::path::PathBuf;
 
 use anyhow::{Context as _, ensure};
-use clap::Parser;
+use clap::{Parser, Subcommand};
 use mapless_trials::{LoadedScenario, Outcome, Preset, Trial};
 
 use engine::Engine;
@@ -18,10 +20,24 @@ use measures::{Before, Measures};
 use motion::Motion;
 use simulator::Simulator;
 
-/// Drive one task in a physics engine, or in the kinematic world, and print the result as a line of JSON.
+/// Drive one task and print the result as a line of JSON.
 #[derive(Debug, Parser)]
 #[command(name = "mapless-physics")]
 struct Args {
+    #[command(subcommand)]
+    form: Form,
+}
+
+#[derive(Debug, Subcommand)]
+enum Form {
+    /// The planner drives, in a physics engine or in the kinematic world.
+    Drive(DriveArgs),
+    /// The node for robots drives in the physics engine, over DDS.
+    OverRos(over_ros::OverRosArgs),
+}
+
+#[derive(Debug, clap::Args)]
+struct DriveArgs {
     /// Scenario file: terrain, objects that stand, start, goal and seed. Its [reality] does not count.
     task: PathBuf,
     /// What moves the robot, and what goes wrong.
@@ -56,11 +72,14 @@ struct Driven {
 }
 
 fn main() -> anyhow::Result<()> {
-    let driven = drive(&Args::parse())?;
-    writeln!(std::io::stdout(), "{}", serde_json::to_string(&driven)?).context("standard output")
+    let driven = match Args::parse().form {
+        Form::Drive(args) => serde_json::to_string(&drive(&args)?)?,
+        Form::OverRos(args) => serde_json::to_string(&over_ros::drive(&args)?)?,
+    };
+    writeln!(std::io::stdout(), "{driven}").context("standard output")
 }
 
-fn drive(args: &Args) -> anyhow::Result<Driven> {
+fn drive(args: &DriveArgs) -> anyhow::Result<Driven> {
     let file = || args.task.display().to_string();
     let LoadedScenario { mut scenario, terrain } = LoadedScenario::read(&args.task)?;
     scenario.reality = args.simulator.reality();

@@ -1,8 +1,8 @@
 //! What a task is driven in.
 
 use clap::ValueEnum;
-use mapless_trials::{RealityConfig, RealityPreset};
-use mapless_world::MotionConfig;
+use mapless_trials::{PoseConfig, RealityConfig, RealityPreset};
+use mapless_world::{MotionCompensation, MotionConfig, SensingConfig};
 
 /// What moves the robot, and what goes wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -35,6 +35,14 @@ impl Simulator {
             Self::Field => field,
         }
     }
+}
+
+/// What goes wrong where the node itself drives: sensing and dead time of commands as in [`Simulator::MujocoField`].
+/// The node corrects sweeps for motion, and believes a pose of its own.
+pub(crate) fn reality_of_the_node() -> RealityConfig {
+    let RealityConfig { sensing, motion, preset, .. } = Simulator::MujocoField.reality();
+    let sensing = SensingConfig { motion_compensation: MotionCompensation::None, ..sensing };
+    RealityConfig { preset, sensing, pose: PoseConfig::default(), motion }
 }
 
 /// The coefficient of friction in the physics engine: that of the preset `field`.

@@ -79,6 +79,10 @@ enum Command {
         /// Two routes only; prints the page.
         #[arg(long)]
         short: bool,
+        /// Three routes with ten seeds each, driven by the node for robots over DDS in MuJoCo; writes
+        /// docs/results/physics-over-ros.md. Its short form is the begin of one route.
+        #[arg(long)]
+        over_ros: bool,
     },
     /// Build a Debian package of mapless-node, with a static program, into target/package.
     Package {
@@ -119,7 +123,8 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Results { quick: true, .. } => results::run(&sh, &results::QUICK.map(str::to_owned)),
         Command::Results { campaigns, .. } => results::run(&sh, &campaigns),
         Command::Bench { rounds } => bench::run(&sh, rounds),
-        Command::Physics { short } => physics::run(&sh, short),
+        Command::Physics { short, over_ros: false } => physics::run(&sh, short),
+        Command::Physics { short, over_ros: true } => physics::over_ros::run(&sh, short),
         Command::Package { distro, arch } => package::run(&sh, distro, arch),
         Command::Fuzz { seconds } => fuzz::run(&sh, seconds),
     }

@@ -34,8 +34,9 @@ pub(crate) enum Part {
     /// Campaigns on a local Ray cluster; only on request, as it needs Python 3.10 or newer and installs Ray
     /// under target/.
     Ray,
-    /// The physics engine on ground whose answers are known, and two routes in it and in our own world; only
-    /// on request, as it needs Python 3.11 or newer and installs MuJoCo under target/.
+    /// The physics engine on ground whose answers are known, two routes in it and in our own world, and the
+    /// node for robots in it over DDS; only on request, as it needs Python 3.11 or newer and installs MuJoCo
+    /// under target/.
     Physics,
     /// The node for robots with a robot of rclpy; only on request, as it needs Python 3.11 and installs rclpy
     /// under target/. The native tests have it over DDS without ROS.
@@ -87,6 +88,7 @@ const STAGES: &[Stage] = &[
     Stage { title: "build of the command line", parts: &[Part::Page, Part::Ray], run: build_command_line },
     Stage { title: "campaigns on Ray", parts: &[Part::Ray], run: test_ray },
     Stage { title: "physics engine", parts: &[Part::Physics], run: physics::test },
+    Stage { title: "node in the physics engine", parts: &[Part::Physics], run: physics::over_ros::test },
     Stage { title: "node with rclpy", parts: &[Part::Robot], run: robot::test },
     Stage { title: "node with Cyclone DDS", parts: &[Part::Cyclone], run: robot::test_cyclone },
     Stage { title: "browser tests of the page", parts: &[Part::Page], run: test_page },
@@ -330,7 +332,7 @@ mod tests {
         assert!(titles(None).contains(&"build of the command line"));
         assert!(!titles(None).contains(&"campaigns on Ray") && !titles(None).contains(&"reports"));
         assert!(!titles(None).contains(&"physics engine"));
-        assert_eq!(titles(Some(Part::Physics)), ["physics engine"]);
+        assert_eq!(titles(Some(Part::Physics)), ["physics engine", "node in the physics engine"]);
         assert!(!titles(None).contains(&"node with rclpy"));
         assert_eq!(titles(Some(Part::Robot)), ["node with rclpy"]);
         assert!(!titles(None).contains(&"node with Cyclone DDS"));

@@ -1,5 +1,6 @@
 //! The planner in closed loop with MuJoCo beside our own world, written to `docs/results/physics.md`.
 
+pub(crate) mod over_ros;
 mod report;
 mod tasks;
 
@@ -51,7 +52,7 @@ struct Job {
     simulator: Simulator,
 }
 
-/// What `mapless-physics` prints of a drive.
+/// What `mapless-physics drive` prints.
 #[derive(Clone, Debug, PartialEq, serde::Deserialize)]
 struct Driven {
     outcome: String,
@@ -144,7 +145,7 @@ fn drive(sh: &Shell, tasks: Vec<Task>) -> anyhow::Result<Drives> {
 
 fn drive_one(program: &Path, python: &Path, engine: &Path, job: &Job) -> anyhow::Result<Driven> {
     let mut command = Command::new(program);
-    command.arg(&job.task.file).arg(job.simulator.name());
+    command.arg("drive").arg(&job.task.file).arg(job.simulator.name());
     if matches!(job.simulator, Simulator::Mujoco | Simulator::MujocoField) {
         command.arg(python).arg(engine);
     }

@@ -185,7 +185,7 @@ fn failures(text: &mut String, tasks: &ByTask<'_>) -> fmt::Result {
 }
 
 /// The middle value, or the mean of the middle two; 0 of none.
-fn median(mut values: Vec<f64>) -> f64 {
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     let middle = values.len() / 2;
     match (values.get(middle.wrapping_sub(1)), values.get(middle)) {

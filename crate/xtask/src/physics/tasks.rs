@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use xshell::{Shell, cmd};
 
-const ROUTES: &str = "terrains/scenarios";
+/// The folder of the routes.
+pub(super) const ROUTES: &str = "terrains/scenarios";
 /// Those of the short form.
 const SHORT: [&str; 2] = ["gsb", "ht"];
 /// Families of generated tasks with their number, and their seed.
