@@ -17,7 +17,7 @@ use glam::DVec2;
 use mapless::{Command, Goal, Pose};
 use mapless_node::messages::{Time, Twist};
 use mapless_peer::{NavigateClient, goal, navigate_client, send};
-use mapless_trials::{Activity, Decision, LoadedScenario, Navigator, Outcome, Trial};
+use mapless_trials::{Activity, Decision, LoadedScenario, Moved, Navigator, Outcome, Trial};
 use mapless_world::DriveCommand;
 use ros2_client::action::{GoalId, GoalStatusEnum};
 use ros2_client::service::request_id::RmwRequestId;
@@ -113,6 +113,7 @@ impl Navigator for Elsewhere {
 /// The robot between physics engine and network.
 struct Platform {
     engine: Engine,
+    state: State,
     motion: Motion,
     robot: Robot,
     imu: ImuModel,
@@ -167,6 +168,7 @@ fn drive_with(args: &OverRosArgs, node: &NodeProcess) -> anyhow::Result<DrivenOv
     let mut platform = Platform {
         imu: ImuModel::new(args.seed, rest.pose()),
         drift: Drift::new(&node.config.drive, rest.pose())?,
+        state: rest,
         motion: Motion::new(rest),
         odometry: WheelOdometry::default(),
         steps: 0,
@@ -186,7 +188,9 @@ fn drive_with(args: &OverRosArgs, node: &NodeProcess) -> anyhow::Result<DrivenOv
             let is_pursuing = matches!(errand, Errand::Pursued { .. });
             unanswered += u64::from(!platform.robot.tell_scan(cloud, is_pursuing)?);
         }
-        if let Some(outcome) = trial.act_by(|_, seconds| platform.step(seconds)).with_context(file)? {
+        let is_held = matches!(errand, Errand::None { .. });
+        let moved = trial.act_by(|_, seconds| platform.step(seconds, is_held)).with_context(file)?;
+        if let Some(outcome) = moved {
             break Ended::by_the_world(outcome, trial.end_reason());
         }
         match &mut errand {
@@ -209,8 +213,11 @@ fn drive_with(args: &OverRosArgs, node: &NodeProcess) -> anyhow::Result<DrivenOv
             }
             Errand::Pursued { id, request, .. } => {
                 while let Ok(Some(feedback)) = client.receive_feedback(*id) {
-                    let off_m = platform.drift.distance_m(goal_m) - f64::from(feedback.distance_remaining);
-                    feedback_off_m = feedback_off_m.max(off_m.abs());
+                    let stamp = feedback.current_pose.header.stamp;
+                    if let Some(distance_m) = platform.drift.distance_m(goal_m, stamp) {
+                        let off_m = distance_m - f64::from(feedback.distance_remaining);
+                        feedback_off_m = feedback_off_m.max(off_m.abs());
+                    }
                 }
                 if let Ok(Some((status, result))) = client.receive_result(*request) {
                     break Ended::by_the_node(status, result.error_code, result.error_msg);
@@ -280,9 +287,15 @@ impl Platform {
 
     /// Drives on for a step, tells what was measured, and waits for the node's command. It commands at least
     /// every other step.
-    fn step(&mut self, seconds: f64) -> anyhow::Result<mapless_trials::Moved> {
+    ///
+    /// A robot that is held does not move: MuJoCo's tyres creep on a slope, and a turn at rest looks to the node
+    /// like the gyro's bias.
+    fn step(&mut self, seconds: f64, is_held: bool) -> anyhow::Result<Moved> {
         let command = self.waiting.pop_front().unwrap_or_default();
-        let state: State = self.engine.drive(command, seconds)?;
+        if !is_held {
+            self.state = self.engine.drive(command, seconds)?;
+        }
+        let state = self.state;
         self.steps += 1;
         let now = self.now();
         self.robot.tell_clock(now)?;
