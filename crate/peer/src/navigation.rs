@@ -8,7 +8,8 @@ use ros2_client::dds::ServiceMapping;
 use ros2_client::qos::{Durability, History};
 use ros2_client::{ActionTypeName, Name, Node, QosProfile};
 
-use crate::{making, until};
+use crate::error::making;
+use crate::waiting::until;
 
 /// How long a server may take to say whether it accepts.
 const ANSWERED_WITHIN: Duration = Duration::from_secs(2);

@@ -5,7 +5,7 @@ use ros2_client::{MessageTypeName, Name, Node, Publisher, QosProfile, Subscripti
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::making;
+use crate::error::making;
 
 /// Publishes messages of the type `message`, as `package/Type`, on `topic`, and keeps the last `depth` for
 /// those who missed them.

@@ -1,6 +1,6 @@
-//! `mapless-physics drive TASK SIMULATOR COMMAND…`: the planner drives a scenario's task, its robot moved by a
-//! physics engine or by the trial's own kinematics. `mapless-physics over-ros TASK … COMMAND…`: the node for
-//! robots drives it over DDS. The result is printed as a line of JSON.
+//! `mapless-physics drive TASK SIMULATOR COMMAND…`: the planner drives a scenario's task, its robot moved by
+//! a physics engine or by the trial's own kinematics. `mapless-physics over-ros TASK … COMMAND…`: the node
+//! for robots drives it over DDS. The result is printed as a line of JSON.
 
 mod engine;
 mod measures;

@@ -37,8 +37,8 @@ impl Simulator {
     }
 }
 
-/// What goes wrong where the node itself drives: sensing and dead time of commands as in [`Simulator::MujocoField`].
-/// The node corrects sweeps for motion, and believes a pose of its own.
+/// What goes wrong where the node itself drives: sensing and dead time of commands as in
+/// [`Simulator::MujocoField`]. The node corrects sweeps for motion, and believes a pose of its own.
 pub(crate) fn reality_of_the_node() -> RealityConfig {
     let RealityConfig { sensing, motion, preset, .. } = Simulator::MujocoField.reality();
     let sensing = SensingConfig { motion_compensation: MotionCompensation::None, ..sensing };

@@ -2,47 +2,29 @@
 
 mod cloud;
 mod drift;
+mod errand;
 mod imu;
 mod node;
 mod odometry;
+mod platform;
 mod robot;
 
-use std::collections::VecDeque;
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::Duration;
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
-use glam::DVec2;
+use glam::{DVec2, Vec3};
 use mapless::{Command, Goal, Pose};
-use mapless_node::messages::{Time, Twist};
-use mapless_peer::{NavigateClient, goal, navigate_client, send};
-use mapless_trials::{Activity, Decision, LoadedScenario, Moved, Navigator, Outcome, Trial};
-use mapless_world::DriveCommand;
-use ros2_client::action::{GoalId, GoalStatusEnum};
-use ros2_client::service::request_id::RmwRequestId;
+use mapless_trials::{Activity, Decision, LoadedScenario, Navigator, Trial};
 
-use crate::engine::{Engine, State};
-use crate::motion::Motion;
+use crate::engine::Engine;
 use crate::simulator;
-use drift::Drift;
-use imu::ImuModel;
+use cloud::cloud;
+use errand::{Ended, Errand};
 use node::NodeProcess;
-use odometry::WheelOdometry;
+use platform::Platform;
 use robot::Robot;
-
-/// When a drive begins on the simulation's clock: some drivers take 0 for no time.
-const BEGIN_NS: i64 = 100_000_000_000;
-const STEP_NS: i64 = 10_000_000;
-/// The IMU is told at every step, 100 Hz; odometry at 50 Hz and the emergency stop at 10 Hz.
-const STEPS_PER_ODOMETRY: u64 = 2;
-const STEPS_PER_STOP: u64 = 10;
-/// The robot stands for so many periods before it gets its goal, and as many again if that is refused: long
-/// enough for the gyro's bias.
-const STAND_PERIODS: u64 = 50;
-const ASK_AGAIN_PERIODS: u64 = 5;
-/// Goals that are refused before a drive is given up.
-const MOST_REFUSALS: u64 = 60;
 
 /// What a drive over ROS needs.
 #[derive(Debug, Args)]
@@ -70,7 +52,7 @@ pub(crate) struct OverRosArgs {
 #[derive(Debug, serde::Serialize)]
 pub(crate) struct DrivenOverRos {
     /// `reached` as the node says, `aborted` by the node, or how the drive ended otherwise.
-    outcome: String,
+    outcome: &'static str,
     reason: Option<String>,
     /// Since the goal was accepted, on the simulation's clock.
     time_s: f64,
@@ -88,6 +70,8 @@ pub(crate) struct DrivenOverRos {
     estimate_off_rad: f64,
     /// The most by which the node's own word on the distance to the goal differed from the estimate.
     feedback_off_m: f64,
+    /// Times that the node began to backtrack or to search.
+    recoveries: i16,
     /// Scans that the planner did not answer.
     unanswered: u64,
 }
@@ -99,7 +83,7 @@ struct Elsewhere {
 }
 
 impl Navigator for Elsewhere {
-    fn navigate(&mut self, _: &[glam::Vec3], _: &Pose, _: &Goal, _: std::time::Duration) -> Decision {
+    fn navigate(&mut self, _: &[Vec3], _: &Pose, _: &Goal, _: Duration) -> Decision {
         Decision { activity: Activity::Driving, command: Command::STOP }
     }
 
@@ -108,26 +92,6 @@ impl Navigator for Elsewhere {
     }
 
     fn reset(&mut self) {}
-}
-
-/// The robot between physics engine and network.
-struct Platform {
-    engine: Engine,
-    state: State,
-    motion: Motion,
-    robot: Robot,
-    imu: ImuModel,
-    odometry: WheelOdometry,
-    drift: Drift,
-    steps: u64,
-    /// Commands on their way to the wheels, the oldest first.
-    waiting: VecDeque<DriveCommand>,
-}
-
-/// The goal at the node.
-enum Errand {
-    None { refusals: u64 },
-    Pursued { id: GoalId, request: RmwRequestId, since_s: f64, began: Instant },
 }
 
 /// Drives the task.
@@ -161,75 +125,31 @@ fn drive_with(args: &OverRosArgs, node: &NodeProcess) -> anyhow::Result<DrivenOv
     let (engine, rest) =
         Engine::start(&args.command, &trial, &scenario.robot, simulator::friction()).with_context(file)?;
     let mut robot = Robot::new(mapless_peer::join(args.domain, "robot")?)?;
-    let mut client_node = mapless_peer::join(args.domain, "client")?;
-    let client = navigate_client(&mut client_node)?;
+    let client = mapless_peer::join(args.domain, "client")?;
     robot.meet()?;
-    let latency_steps = (scenario.reality.motion.latency_s * 1e9 / STEP_NS as f64).round() as usize;
-    let mut platform = Platform {
-        imu: ImuModel::new(args.seed, rest.pose()),
-        drift: Drift::new(&node.config.drive, rest.pose())?,
-        state: rest,
-        motion: Motion::new(rest),
-        odometry: WheelOdometry::default(),
-        steps: 0,
-        waiting: vec![DriveCommand::default(); latency_steps].into(),
-        engine,
-        robot,
-    };
-    let goal_m = platform.drift.in_odometry(scenario.goal_m);
+    let latency_s = scenario.reality.motion.latency_s;
+    let mut platform = Platform::new(engine, rest, robot, &node.config.drive, latency_s, args.seed)?;
+    let mut errand = Errand::new(client, platform.drift.in_odometry(scenario.goal_m))?;
 
-    let mut errand = Errand::None { refusals: 0 };
-    let (mut unanswered, mut feedback_off_m) = (0, 0.0_f64);
+    let mut unanswered = 0;
     let ended = loop {
         trial.look();
         if let Some(question) = trial.question() {
             trial.decide(&question);
-            let cloud = cloud::cloud(&trial.scan().points, trial.sensor().config(), platform.now());
-            let is_pursuing = matches!(errand, Errand::Pursued { .. });
-            unanswered += u64::from(!platform.robot.tell_scan(cloud, is_pursuing)?);
+            let cloud = cloud(&trial.scan().points, trial.sensor().config(), platform.now());
+            unanswered += u64::from(!platform.robot.tell_scan(cloud, errand.is_pursued())?);
         }
-        let is_held = matches!(errand, Errand::None { .. });
+        let is_held = !errand.is_pursued();
         let moved = trial.act_by(|_, seconds| platform.step(seconds, is_held)).with_context(file)?;
         if let Some(outcome) = moved {
-            break Ended::by_the_world(outcome, trial.end_reason());
+            break Ended { outcome: outcome.name(), reason: trial.end_reason() };
         }
-        match &mut errand {
-            Errand::None { refusals } => {
-                if trial.ticks() == STAND_PERIODS + *refusals * ASK_AGAIN_PERIODS {
-                    match ask(&client, goal_m)? {
-                        Some(id) => {
-                            let request = client
-                                .request_result(id)
-                                .map_err(|error| anyhow::anyhow!("asking for the result: {error}"))?;
-                            let (since_s, began) = (trial.time_s(), Instant::now());
-                            errand = Errand::Pursued { id, request, since_s, began };
-                        }
-                        None => *refusals += 1,
-                    }
-                    if let Errand::None { refusals } = errand {
-                        ensure!(refusals < MOST_REFUSALS, "the node takes no goal");
-                    }
-                }
-            }
-            Errand::Pursued { id, request, .. } => {
-                while let Ok(Some(feedback)) = client.receive_feedback(*id) {
-                    let stamp = feedback.current_pose.header.stamp;
-                    if let Some(distance_m) = platform.drift.distance_m(goal_m, stamp) {
-                        let off_m = distance_m - f64::from(feedback.distance_remaining);
-                        feedback_off_m = feedback_off_m.max(off_m.abs());
-                    }
-                }
-                if let Ok(Some((status, result))) = client.receive_result(*request) {
-                    break Ended::by_the_node(status, result.error_code, result.error_msg);
-                }
-            }
+        if let Some(ended) = errand.go_on(trial.ticks(), trial.time_s(), &platform.drift)? {
+            break ended;
         }
     };
     let metrics = trial.metrics();
-    let (time_s, took_s) = match errand {
-        Errand::None { .. } => (trial.time_s(), 0.0),
-        Errand::Pursued { since_s, began, .. } => (trial.time_s() - since_s, began.elapsed().as_secs_f64()),
-    };
+    let [time_s, took_s] = errand.took_s(trial.time_s());
     let [odometry, estimate] = platform.drift.off(&platform.odometry);
     Ok(DrivenOverRos {
         outcome: ended.outcome,
@@ -244,76 +164,8 @@ fn drive_with(args: &OverRosArgs, node: &NodeProcess) -> anyhow::Result<DrivenOv
         odometry_off_rad: odometry.yaw_rad,
         estimate_off_m: estimate.plan_m,
         estimate_off_rad: estimate.yaw_rad,
-        feedback_off_m,
+        feedback_off_m: errand.feedback_off_m,
+        recoveries: errand.recoveries,
         unanswered,
     })
-}
-
-/// Asks the node to drive there; the goal's id, if it accepts.
-fn ask(client: &NavigateClient, goal_m: DVec2) -> anyhow::Result<Option<GoalId>> {
-    let answer = send(client, goal("odom", goal_m.x, goal_m.y))?;
-    Ok(answer.filter(|(_, is_accepted)| *is_accepted).map(|(id, _)| id))
-}
-
-/// How a drive ended.
-struct Ended {
-    outcome: String,
-    reason: Option<String>,
-}
-
-impl Ended {
-    fn by_the_world(outcome: Outcome, reason: Option<String>) -> Self {
-        Self { outcome: outcome.name().to_owned(), reason }
-    }
-
-    fn by_the_node(status: GoalStatusEnum, code: u16, text: String) -> Self {
-        if status == GoalStatusEnum::Succeeded {
-            return Self { outcome: Outcome::Reached.name().to_owned(), reason: None };
-        }
-        Self { outcome: "aborted".to_owned(), reason: Some(format!("{code}: {text}")) }
-    }
-}
-
-impl Platform {
-    /// The time on the simulation's clock.
-    fn now(&self) -> Time {
-        self.time(0)
-    }
-
-    /// That of some steps ago.
-    fn time(&self, steps_ago: i64) -> Time {
-        Time::from_nanoseconds(BEGIN_NS + (self.steps as i64 - steps_ago) * STEP_NS)
-    }
-
-    /// Drives on for a step, tells what was measured, and waits for the node's command. It commands at least
-    /// every other step.
-    ///
-    /// A robot that is held does not move: MuJoCo's tyres creep on a slope, and a turn at rest looks to the node
-    /// like the gyro's bias.
-    fn step(&mut self, seconds: f64, is_held: bool) -> anyhow::Result<Moved> {
-        let command = self.waiting.pop_front().unwrap_or_default();
-        if !is_held {
-            self.state = self.engine.drive(command, seconds)?;
-        }
-        let state = self.state;
-        self.steps += 1;
-        let now = self.now();
-        self.robot.tell_clock(now)?;
-        let imu = self.imu.measure(state.pose(), seconds, now);
-        self.drift.take_imu(&imu);
-        self.robot.tell_imu(imu)?;
-        self.odometry.turn(state.wheels, seconds);
-        if self.steps.is_multiple_of(STEPS_PER_ODOMETRY) {
-            let odometry = self.odometry.message(now);
-            self.drift.take_odometry(&odometry);
-            self.robot.tell_odometry(odometry)?;
-        }
-        if self.steps.is_multiple_of(STEPS_PER_STOP) {
-            self.robot.tell_released()?;
-        }
-        self.drift.move_to(state.pose());
-        let Twist { linear, angular } = self.robot.command(self.time(1), now)?;
-        self.waiting.push_back(DriveCommand { speed_m_s: linear.x, turn_rate_rad_s: angular.z });
-        Ok(self.motion.moved(state, seconds))
-    }
 }

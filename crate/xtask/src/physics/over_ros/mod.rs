@@ -59,6 +59,7 @@ struct Driven {
     estimate_off_m: f64,
     estimate_off_rad: f64,
     feedback_off_m: f64,
+    recoveries: u32,
     unanswered: u64,
 }
 

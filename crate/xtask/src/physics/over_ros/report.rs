@@ -5,12 +5,17 @@ use std::fmt::{self, Write as _};
 use super::super::report::median;
 use super::{Driven, Drives, Job, ROUTES};
 
+/// Without links: a summary elsewhere begins with it.
 const INTRODUCTION: &str = "\
-Written by `cargo xtask physics --over-ros`. The program `mapless-node` drives a Husky in MuJoCo over DDS on the loopback, with \
-[its file](../../crate/physics/over_ros.yaml), in simulated time. It gets what a Clearpath A200 tells: `/clock`, clouds of a VLP-16 with the time of \
-each point, swept along the motion; odometry of the wheels alone, in two dimensions, whatever they slip; an IMU with the biases and noises of an \
-Xsens MTi-30; the emergency stop. It gets no true pose. Its goal comes by `NavigateToPose`, in the odometry's frame. Commands reach the wheels \
-0.1 s late, and sensing is as in the preset `field`. MuJoCo's true pose judges. [How it works](../design/physics.md#how-does-the-node-itself-drive).
+Written by `cargo xtask physics --over-ros`. The program `mapless-node` drives a Husky in MuJoCo over DDS on the loopback, in simulated time. It \
+gets what a Clearpath A200 tells: `/clock`, clouds of a VLP-16 with the time of each point, swept along the motion; odometry of the wheels alone, \
+in two dimensions, whatever they slip; an IMU with the biases and noises of an Xsens MTi-30; the emergency stop. It gets no true pose. Its goal \
+comes by `NavigateToPose`, in the odometry's frame. Commands reach the wheels 0.1 s late, and sensing is as in the preset `field`. MuJoCo's true \
+pose judges.
+";
+const LINKS: &str = "\
+[What the robot tells, and what is left to chance](../design/physics.md#how-does-the-node-itself-drive). [The node's \
+file](../../crate/physics/over_ros.yaml).
 ";
 
 /// The page, in Markdown.
@@ -22,7 +27,7 @@ pub(super) fn page(drives: &Drives) -> Result<String, fmt::Error> {
         "\nMedian, and the most. *From the goal* is in truth, when the node says that it has arrived: within 0.5 m by its own estimate. *Off* is \
          how far odometry and estimate are from the truth at the end, seen from above, and in the heading; in percent of the path.\n"
     )?;
-    writeln!(text, "## By drive\n")?;
+    writeln!(text, "## By drive\n\n{LINKS}")?;
     by_drive(&mut text, drives)?;
     failures(&mut text, drives)?;
     Ok(text)
@@ -82,17 +87,18 @@ fn both(values: Vec<f64>, digits: usize, unit: &str) -> String {
 fn by_drive(text: &mut String, drives: &Drives) -> fmt::Result {
     writeln!(
         text,
-        "| route, seed | outcome | path | time | roll | pitch | from the goal | odometry off | estimate off |"
+        "| route, seed | outcome | recoveries | path | time | roll | pitch | from the goal | odometry off | estimate off |"
     )?;
-    writeln!(text, "|---|---|---:|---:|---:|---:|---:|---:|---:|")?;
+    writeln!(text, "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|")?;
     for (job, driven) in drives {
         let outcome =
             if driven.has_reached() { driven.outcome.clone() } else { format!("**{}**", driven.outcome) };
         writeln!(
             text,
-            "| {}, {} | {outcome} | {:.1} m | {:.0} s | {:.1}° | {:.1}° | {:.2} m | {:.2} m, {:.1}° | {:.2} m, {:.1}° |",
+            "| {}, {} | {outcome} | {} | {:.1} m | {:.0} s | {:.1}° | {:.1}° | {:.2} m | {:.2} m, {:.1}° | {:.2} m, {:.1}° |",
             job.route(),
             job.seed,
+            driven.recoveries,
             driven.path_m,
             driven.time_s,
             driven.max_abs_roll_rad.to_degrees(),
@@ -107,7 +113,8 @@ fn by_drive(text: &mut String, drives: &Drives) -> fmt::Result {
     let most = |value: fn(&Driven) -> f64| drives.values().map(value).fold(0.0, f64::max);
     writeln!(
         text,
-        "\nThe estimate is the node's own estimator on the same messages. What the node said of the distance to its goal differed from it by \
+        "\n*Recoveries*: times that the planner began to backtrack or to search. The estimate is the node's own estimator on the same \
+         messages. What the node said of the distance to its goal differed from it by \
          at most {:.2} m. Scans that the planner did not answer: {}.",
         most(|driven| driven.feedback_off_m),
         drives.values().map(|driven| driven.unanswered).sum::<u64>(),
@@ -151,6 +158,7 @@ mod tests {
             estimate_off_m: 0.3,
             estimate_off_rad: 0.01,
             feedback_off_m: 0.02,
+            recoveries: 2,
             unanswered: 1,
         }
     }
@@ -171,7 +179,7 @@ mod tests {
             "| ht | 2 of 3 | 30.0, 40.0 m | 60, 60 s | 5.7, 5.7° | 11.5, 11.5° | 0.40, 0.40 m | \
              3.00, 8.00 m (10.0, 20.0 %) | 28.6, 28.6° | ",
             "| vta | 1 of 1 |",
-            "| ht, 3 | **aborted** | 20.0 m |",
+            "| ht, 3 | **aborted** | 2 | 20.0 m |",
             "by at most 0.02 m. Scans that the planner did not answer: 4.",
             "- ht with seed 3: aborted after 60 s, 0.4 m before the goal: 9000: the robot is tilted too far.",
         ] {
