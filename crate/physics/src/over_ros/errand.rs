@@ -74,7 +74,8 @@ impl Errand {
         })
     }
 
-    /// A period has passed, `periods` in all: gives the goal when it is due, and hears what the node says of it.
+    /// A period has passed, `periods` in all: gives the goal when it is due, and hears what the node says of
+    /// it.
     pub(crate) fn go_on(
         &mut self,
         periods: u64,

@@ -35,8 +35,8 @@ pub(crate) struct Platform {
 }
 
 impl Platform {
-    /// A robot at rest whose commands reach the wheels `latency_s` late, with errors by `seed`. `config` is the
-    /// node's.
+    /// A robot at rest whose commands reach the wheels `latency_s` late, with errors by `seed`. `config` is
+    /// the node's.
     pub(crate) fn new(
         engine: Engine,
         rest: State,
