@@ -59,8 +59,10 @@ mod tests {
             odometry.turn(wheels, turn_s / f64::from(steps));
         }
         assert!(odometry.x_m.abs() < 1e-9 && odometry.y_m.abs() < 1e-9, "{odometry:?}");
-        odometry.turn(wheels, 0.5 * std::f64::consts::PI / 0.4);
-        assert!((odometry.x_m - 1.25).abs() < 0.03 && (odometry.y_m - 1.25).abs() < 0.03, "{odometry:?}");
+        for _ in 0..steps / 4 {
+            odometry.turn(wheels, turn_s / f64::from(steps));
+        }
+        assert!((odometry.x_m - 1.25).abs() < 1e-4 && (odometry.y_m - 1.25).abs() < 1e-4, "{odometry:?}");
         let message = odometry.message(Time::default());
         assert_eq!((message.pose.pose.position.z, message.pose.pose.orientation.x), (0.0, 0.0));
         assert_eq!((message.twist.twist.linear.x, message.twist.twist.angular.z), (0.5, 0.4));
