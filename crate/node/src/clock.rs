@@ -11,7 +11,7 @@ use crate::slot::lock;
 
 /// A simulation that has not gone on for so long on the system's clock stands still: the node's time goes on
 /// without it, and what is late is noticed.
-const STANDS_AFTER: Duration = Duration::from_secs(2);
+const STANDS_AFTER: Duration = Duration::from_secs(5);
 /// How often it is looked whether simulated time has come so far.
 const LOOK_EVERY: Duration = Duration::from_millis(1);
 
@@ -130,11 +130,11 @@ mod tests {
         clock.hear(time(200), after(100));
         // The same again is no going on.
         clock.hear(time(200), after(1_000));
-        assert_eq!(clock.now(after(2_000)), Duration::from_millis(100));
-        assert_eq!(clock.now(after(2_600)), Duration::from_millis(600));
+        assert_eq!(clock.now(after(5_000)), Duration::from_millis(100));
+        assert_eq!(clock.now(after(5_600)), Duration::from_millis(600));
         // What passed meanwhile stays passed.
-        clock.hear(time(210), after(2_600));
-        assert_eq!(clock.now(after(2_650)), Duration::from_millis(610));
+        clock.hear(time(210), after(5_600));
+        assert_eq!(clock.now(after(5_650)), Duration::from_millis(610));
     }
 
     #[test]

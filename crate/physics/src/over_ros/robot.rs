@@ -17,8 +17,9 @@ const DISCOVERY: Duration = Duration::from_secs(60);
 const TELL_AGAIN: Duration = Duration::from_millis(50);
 /// A node that says nothing for so long has ended.
 const SILENCE: Duration = Duration::from_secs(60);
-/// A scan that is not answered within this is none that the planner takes.
-const ANSWERED_WITHIN: Duration = Duration::from_secs(5);
+/// A scan that is not answered within this got lost. A longer wait would seem to the node as if the
+/// simulation had ended: its time goes on by itself after some seconds.
+const ANSWERED_WITHIN: Duration = Duration::from_secs(1);
 
 /// Topics of the robot.
 pub(crate) struct Robot {
