@@ -238,12 +238,15 @@ impl Scenario {
     }
 
     /// The planner's configuration: the preset, with the geometry of this sensor and robot, with what the
-    /// scenario sets.
+    /// scenario sets. It keeps the robot's underside clear where that can touch the ground.
     ///
     /// # Errors
     /// The value that does not fit the preset.
     pub fn planner_config(&self, preset: Preset) -> Result<PlannerConfig, ScenarioFault> {
-        planner_config(preset, &self.sensor, &self.robot, &self.planner)
+        let mut known =
+            preset.planner_config().fitted_to(sensor_model(&self.sensor), robot_model(&self.robot));
+        known.state_lattice.keeps_underside_clear = self.reality.motion.touches_ground;
+        planner_config(&known, &self.planner)
     }
 }
 
@@ -281,17 +284,13 @@ pub fn planner_config_for(
     let sections = Sections::parse(sections).map_err(fail)?;
     let (sensor, robot) =
         sections.applied_to(&SensorConfig::default(), &RobotConfig::default()).map_err(fail)?;
-    planner_config(preset, &sensor, &robot, &sections.planner).map_err(fail)
+    let known = preset.planner_config().fitted_to(sensor_model(&sensor), robot_model(&robot));
+    planner_config(&known, &sections.planner).map_err(fail)
 }
 
-fn planner_config(
-    preset: Preset,
-    sensor: &SensorConfig,
-    robot: &RobotConfig,
-    planner: &toml::Table,
-) -> Result<PlannerConfig, ScenarioFault> {
-    let config = preset.planner_config().fitted_to(sensor_model(sensor), robot_model(robot));
-    let config: PlannerConfig = overridden(&config, planner, "planner")?;
+/// A planner's configuration for what is known of the robot, with what `[planner]` sets.
+fn planner_config(known: &PlannerConfig, planner: &toml::Table) -> Result<PlannerConfig, ScenarioFault> {
+    let config: PlannerConfig = overridden(known, planner, "planner")?;
     config.validate("planner").map_err(|e| ScenarioFault::Value(e.to_string()))?;
     Ok(config)
 }
@@ -451,6 +450,19 @@ mod tests {
         assert!((paper.perception.surface_radius_m - 6.0).abs() < 1e-12);
         assert_eq!(paper.perception.kernel, expected.perception.kernel);
         assert_eq!(paper.decision, expected.decision);
+    }
+
+    #[test]
+    fn the_underside_is_kept_clear_where_it_can_touch_the_ground() {
+        let keeps = |sections: &str| {
+            let scenario = Scenario::parse("x.toml", &format!("{SCENARIO}{sections}")).unwrap();
+            scenario.planner_config(Preset::Default).unwrap().state_lattice.keeps_underside_clear
+        };
+        assert!(!keeps("") && keeps("[reality]\npreset = \"field\"\n"));
+        assert!(keeps("[reality.motion]\ntouches_ground = true\n"));
+        assert!(keeps("[planner.state_lattice]\nkeeps_underside_clear = true\n"));
+        let on_a_robot = planner_config_for("robot.yaml", "", Preset::Default).unwrap();
+        assert!(on_a_robot.state_lattice.keeps_underside_clear);
     }
 
     #[test]

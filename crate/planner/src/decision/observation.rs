@@ -33,9 +33,13 @@ pub(crate) fn take_up(
     for point in scan.surface_m() {
         let point = point.as_dvec3();
         if point.length_squared() <= radius_squared {
-            window.add(sensor + world_from_sensor * point);
+            window.add_return(sensor + world_from_sensor * point);
         }
     }
+    scan.each_sight_line(|line| {
+        let end_m = sensor + world_from_robot * line.end_m;
+        window.see_through(sensor, end_m, line.free_share);
+    });
     for &face_m in scan.faces_m() {
         window.add_face((sensor + world_from_robot * face_m).truncate());
     }

@@ -1,11 +1,14 @@
 //! The elevation window: ground around the robot, from the last scans.
 //!
 //! It is no global map: a grid of cells that moves with the robot, holds returns within its radius and the
-//! ground under the wheels, and forgets cells that were not seen again for its memory time. It answers two
-//! questions: the roll and pitch of the robot at a place, and whether a place is a negative obstacle.
+//! ground under the wheels, and forgets cells that were not seen again for its memory time. It answers
+//! three questions: the roll and pitch of the robot at a place, whether something is in its body's way there,
+//! and whether the place is a negative obstacle.
 
 mod cliffs;
 mod footprint;
+mod parts;
+mod underside;
 
 use core::f64::consts::SQRT_2;
 use core::time::Duration;
@@ -16,7 +19,7 @@ use glam::{DVec2, DVec3, IVec2};
 use crate::config::{ElevationWindowConfig, PlannerConfig};
 use crate::math::elementary::floor;
 use crate::pose::FrameChange;
-use crate::robot_model::distance_from_body_m;
+use crate::robot_model::{RobotModel, distance_from_body_m};
 use crate::sensor_model::SensorModel;
 use crate::terrain::headings::{AXES, DIRECTIONS};
 use crate::terrain::plane::{Moments, Plane};
@@ -24,6 +27,7 @@ use crate::terrain::remembered_ground::RememberedGround;
 use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 use cliffs::{DROP_RADIUS_M, MOST_VIEWS, View};
+use parts::{GroundPart, PARTS_PER_CELL};
 
 /// Weight of the past in a cell's average, in returns.
 const MOST_RETURNS: f64 = 30.0;
@@ -56,6 +60,10 @@ pub(crate) trait TerrainQuery {
     /// travel.
     fn touches_upright(&self, place_m: DVec2) -> [bool; AXES];
 
+    /// Whether the robot at a place with this plane, or just before or behind it, would be beyond its tilt
+    /// limits with a wheel in a hole, or would set its underside down, for each axis of travel.
+    fn sets_down(&self, place_m: DVec2, plane: &Plane) -> [bool; AXES];
+
     /// Calls `visit` with the place of each upright thing within `radius_m` of a place.
     fn each_upright(&self, place_m: DVec2, radius_m: f64, visit: &mut dyn FnMut(DVec2));
 }
@@ -75,6 +83,10 @@ impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
     }
 
     fn touches_upright(&self, _: DVec2) -> [bool; AXES] {
+        [false; AXES]
+    }
+
+    fn sets_down(&self, _: DVec2, _: &Plane) -> [bool; AXES] {
         [false; AXES]
     }
 
@@ -111,11 +123,13 @@ pub(crate) struct ElevationWindow {
     half_body_m: DVec2,
     /// Spacing of the places of the state lattice.
     step_m: f64,
+    robot: RobotModel,
     sensor: SensorModel,
     /// The window's clock; cells are kept for [`ElevationWindowConfig::memory`].
     now: Duration,
     memory: Duration,
     cells: RollingGrid<ElevationCell>,
+    parts: RollingGrid<GroundPart>,
     /// The part of the cells that the last scan looked at.
     part: usize,
     /// Where the last scan refuted cells.
@@ -134,10 +148,12 @@ impl ElevationWindow {
             footprint_m: robot.footprint_radius_m(),
             half_body_m: robot.half_body_m(),
             step_m: config.state_lattice.step_m,
+            robot,
             sensor,
             now: Duration::ZERO,
             memory: elevation_window.memory(),
             cells: RollingGrid::new(elevation_window.cells_per_side()),
+            parts: RollingGrid::new(elevation_window.cells_per_side() * PARTS_PER_CELL as usize),
             part: 0,
             refuted_m: Vec::new(),
             views: VecDeque::with_capacity(MOST_VIEWS),
@@ -146,12 +162,19 @@ impl ElevationWindow {
 
     pub(crate) fn clear(&mut self) {
         self.cells.clear();
+        self.parts.clear();
         self.views.clear();
     }
 
     /// Starts a new scan: advances the clock, past which older cells expire.
     pub(crate) fn advance(&mut self, elapsed: Duration) {
         self.now = self.now.saturating_add(elapsed);
+    }
+
+    /// Adds a return on the ground, in the world frame.
+    pub(crate) fn add_return(&mut self, point_m: DVec3) {
+        self.add(point_m);
+        self.add_to_part(point_m);
     }
 
     /// Adds a point on the ground, in the world frame.
@@ -184,6 +207,9 @@ impl ElevationWindow {
             }
             !forgets
         });
+        for index in 0..self.refuted_m.len() {
+            self.forget_parts(self.refuted_m[index]);
+        }
     }
 
     /// Where the last scan refuted ground.
@@ -254,6 +280,7 @@ impl ElevationWindow {
             }
         }
         self.cells = moved;
+        self.parts = self.relocalised_parts(change);
         for view in &mut self.views {
             view.relocalise(change);
         }
@@ -341,6 +368,10 @@ impl TerrainQuery for ElevationWindow {
             }
         });
         touches
+    }
+
+    fn sets_down(&self, place_m: DVec2, plane: &Plane) -> [bool; AXES] {
+        self.underside_touches(place_m, plane)
     }
 
     fn each_upright(&self, place_m: DVec2, radius_m: f64, visit: &mut dyn FnMut(DVec2)) {

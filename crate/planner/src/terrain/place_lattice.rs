@@ -22,8 +22,8 @@ pub(crate) struct Known {
     pub(crate) footprint_slopes: [Option<Slopes>; AXES],
     /// Whether the place is a negative obstacle.
     pub(crate) is_negative_obstacle: bool,
-    /// Whether the body would touch something upright, for each axis of travel.
-    pub(crate) touches_upright: [bool; AXES],
+    /// Whether the body would touch something upright or set its underside down, for each axis of travel.
+    pub(crate) is_blocked: [bool; AXES],
 }
 
 /// Places by their offset from the one nearest to the robot.
@@ -31,6 +31,7 @@ pub(crate) struct Known {
 pub(crate) struct PlaceLattice {
     step_m: f64,
     avoids_negative_obstacles: bool,
+    keeps_underside_clear: bool,
     half: i32,
     centre: IVec2,
     known: RollingGrid<Known>,
@@ -44,6 +45,7 @@ impl PlaceLattice {
         Self {
             step_m: config.step_m,
             avoids_negative_obstacles: config.avoids_negative_obstacles,
+            keeps_underside_clear: config.keeps_underside_clear,
             half,
             centre: IVec2::ZERO,
             known: RollingGrid::new((2 * half + 1) as usize),
@@ -109,7 +111,10 @@ impl PlaceLattice {
             && footprint_slopes.iter().any(Option::is_none)
             && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
         let touches_upright = ground.touches_upright(place_m);
-        Known { plane, footprint_slopes, is_negative_obstacle, touches_upright }
+        let plane_to_stand_on = plane.filter(|_| self.keeps_underside_clear);
+        let sets_down = plane_to_stand_on.map_or([false; AXES], |plane| ground.sets_down(place_m, &plane));
+        let is_blocked = core::array::from_fn(|axis| touches_upright[axis] || sets_down[axis]);
+        Known { plane, footprint_slopes, is_negative_obstacle, is_blocked }
     }
 
     /// What the last query found at a place.

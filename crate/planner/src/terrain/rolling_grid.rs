@@ -6,14 +6,23 @@ use glam::IVec2;
 /// Cells of the world by their index, at most `side` × `side`. Cells a multiple of `side` apart share a slot.
 #[derive(Clone, Debug)]
 pub(crate) struct RollingGrid<T> {
-    side: i32,
+    side: u32,
+    /// A multiple of `side` that makes indices positive, and 2⁶⁴ / `side`, rounded up.
+    bias: u32,
+    inverse: u64,
     slots: Vec<Option<(IVec2, T)>>,
 }
 
 impl<T: Copy> RollingGrid<T> {
     /// An empty grid.
     pub(crate) fn new(side: usize) -> Self {
-        Self { side: side as i32, slots: vec![None; side * side] }
+        let divisor = side.max(1) as u32;
+        Self {
+            side: divisor,
+            bias: (1 << 31) / divisor * divisor,
+            inverse: (u64::MAX / u64::from(divisor)).wrapping_add(1),
+            slots: vec![None; side * side],
+        }
     }
 
     /// Forgets every cell.
@@ -33,6 +42,16 @@ impl<T: Copy> RollingGrid<T> {
         self.slots[slot].as_mut().filter(|(held, _)| *held == index).map(|(_, cell)| cell)
     }
 
+    /// The cell with an index, to change; `cell` if there is none.
+    pub(crate) fn get_or_insert(&mut self, index: IVec2, cell: T) -> &mut T {
+        let slot = self.slot_of(index);
+        let held = &mut self.slots[slot];
+        if held.as_ref().is_some_and(|(held, _)| *held != index) {
+            *held = None;
+        }
+        &mut held.get_or_insert((index, cell)).1
+    }
+
     /// Writes a cell, and overwrites the last one in its slot.
     pub(crate) fn set(&mut self, index: IVec2, cell: T) {
         let slot = self.slot_of(index);
@@ -49,9 +68,9 @@ impl<T: Copy> RollingGrid<T> {
 
     /// The cells from `low` to `high`, both included, row by row.
     pub(crate) fn between(&self, low: IVec2, high: IVec2) -> impl Iterator<Item = (IVec2, &T)> {
-        let first = low.x.rem_euclid(self.side);
+        let first = self.wrapped(low.x);
         (low.y..=high.y).flat_map(move |y| {
-            let begin = (y.rem_euclid(self.side) * self.side) as usize;
+            let begin = (self.wrapped(y) * self.side) as usize;
             let row = &self.slots[begin..begin + self.side as usize];
             let mut slot = first;
             (low.x..=high.x).filter_map(move |x| {
@@ -84,7 +103,14 @@ impl<T: Copy> RollingGrid<T> {
     }
 
     fn slot_of(&self, index: IVec2) -> usize {
-        (index.y.rem_euclid(self.side) * self.side + index.x.rem_euclid(self.side)) as usize
+        (self.wrapped(index.y) * self.side + self.wrapped(index.x)) as usize
+    }
+
+    /// An index modulo the side, without a division: Lemire, Kaser and Kurz, "Faster remainder by direct
+    /// computation" (Software: Practice and Experience 49, 2019).
+    fn wrapped(&self, index: i32) -> u32 {
+        let fraction = self.inverse.wrapping_mul(u64::from((index as u32).wrapping_add(self.bias)));
+        ((u128::from(fraction) * u128::from(self.side)) >> 64) as u32
     }
 }
 

@@ -183,7 +183,7 @@ impl TraversabilityMap {
                     let deviations = self.deviations_at(place_m);
                     let risk = self.risk_of(&plane, &known.footprint_slopes, caution, away_m, deviations);
                     let risk = core::array::from_fn(|axis| {
-                        let is_blocked = is_at_cliff || known.touches_upright[axis];
+                        let is_blocked = is_at_cliff || known.is_blocked[axis];
                         if is_blocked { f32::INFINITY } else { risk[axis] + penalty }
                     });
                     Place { plane: Some(plane), risk, is_at_cliff }
@@ -292,7 +292,7 @@ impl TraversabilityMap {
                 plane.gradient_deviation > GUESS_DEVIATION
                     && self.places.known(offset).is_none_or(|known| {
                         let axis = heading % AXES;
-                        known.footprint_slopes[axis].is_none() && !known.touches_upright[axis]
+                        known.footprint_slopes[axis].is_none() && !known.is_blocked[axis]
                     })
                     && self.risk(offset, heading).is_infinite()
             })

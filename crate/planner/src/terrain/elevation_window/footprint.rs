@@ -10,7 +10,7 @@ use crate::math::elementary::floor;
 use crate::terrain::slopes::Slopes;
 
 /// The footprint is also tried this share of the lattice's step before and behind each place.
-const SHIFT_STEPS: f64 = 0.5;
+pub(super) const SHIFT_STEPS: f64 = 0.5;
 /// Ground under a wheel counts as seen if a return lies this near.
 const NEAR_M: f64 = 0.2;
 /// Returns nearer than this to a wheel have equal weights.
