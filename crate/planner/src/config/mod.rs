@@ -132,8 +132,8 @@ parameters! {
         /// Whether the robot keeps away from negative obstacles: ground that should have been seen and was
         /// not. That is a cliff, or a slope down that begins with a corner of more than 15°.
         avoids_negative_obstacles: bool = true;
-        /// Whether the robot keeps belly and bumpers off the ground, and its wheels out of holes. In a scenario
-        /// it follows touches_ground of reality.motion, unless it is set.
+        /// Whether the robot keeps belly and bumpers off the ground, and its wheels out of holes. In a
+        /// scenario it follows touches_ground of reality.motion, unless it is set.
         keeps_underside_clear: bool = true;
         /// Cost of a metre at the tilt limit beyond its length, in metres of level ground; it grows with the
         /// square of the slope.
