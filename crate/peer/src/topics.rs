@@ -1,5 +1,6 @@
 //! Topics of a peer. Both ends are reliable, so that a loaded machine loses nothing.
 
+use anyhow::Context as _;
 use ros2_client::qos::History;
 use ros2_client::{MessageTypeName, Name, Node, Publisher, QosProfile, Subscription};
 use serde::Serialize;
@@ -11,7 +12,7 @@ use crate::error::making;
 /// those who missed them.
 ///
 /// # Errors
-/// A name that is none, and those of the middleware.
+/// A name or a type that is none, and those of the middleware.
 pub fn publisher<M: Serialize>(
     node: &mut Node,
     topic: &str,
@@ -19,7 +20,7 @@ pub fn publisher<M: Serialize>(
     depth: usize,
 ) -> anyhow::Result<Publisher<M>> {
     let qos = qos(depth);
-    let told = node.create_topic(&name(topic)?, kind(message), &qos).map_err(making(topic))?;
+    let told = node.create_topic(&name(topic)?, kind(message)?, &qos).map_err(making(topic))?;
     node.create_publisher(&told, Some(qos)).map_err(making(topic))
 }
 
@@ -34,7 +35,7 @@ pub fn subscription<M: DeserializeOwned + 'static>(
     depth: usize,
 ) -> anyhow::Result<Subscription<M>> {
     let qos = qos(depth);
-    let told = node.create_topic(&name(topic)?, kind(message), &qos).map_err(making(topic))?;
+    let told = node.create_topic(&name(topic)?, kind(message)?, &qos).map_err(making(topic))?;
     node.create_subscription(&told, Some(qos)).map_err(making(topic))
 }
 
@@ -46,7 +47,8 @@ fn name(topic: &str) -> anyhow::Result<Name> {
     Name::parse(topic).map_err(making(topic))
 }
 
-fn kind(message: &str) -> MessageTypeName {
-    let (package, kind) = message.split_once('/').unwrap_or(("", message));
-    MessageTypeName::new(package, kind)
+fn kind(message: &str) -> anyhow::Result<MessageTypeName> {
+    let (package, kind) =
+        message.split_once('/').with_context(|| format!("{message:?}: expected package/Type"))?;
+    Ok(MessageTypeName::new(package, kind))
 }
