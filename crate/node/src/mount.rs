@@ -8,6 +8,7 @@ use mapless::glam::{DAffine3, DQuat, DVec3, EulerRot};
 use crate::config::{Mount, NodeConfig};
 use crate::messages::{self, Time, TransformStamped};
 use crate::ros::{Entities, RosError};
+use ros2_client::Subscription;
 
 /// A transform on the topic `tf` that is older does not hold.
 const FRESH_S: f64 = 1.0;
@@ -67,6 +68,9 @@ pub(crate) fn wait(
     is_ending: impl Fn() -> bool,
 ) -> Result<Mount, MountError> {
     let (moving, fixed) = entities.subscribe_tf(config)?;
+    let clock = entities.subscribe_clock(config)?;
+    // What is simulated is as old as the simulation's clock says; before that is heard, nothing is.
+    let mut simulated = Time::default();
     let end = Instant::now() + Duration::from_secs_f64(config.sensor_mount.timeout_s);
     let (mut tree, base, sensor) = (Tree::default(), &config.drive.frames.base, &config.drive.frames.scan);
     log::info!("waiting for tf from {base} to {sensor}");
@@ -84,7 +88,11 @@ pub(crate) fn wait(
                 }
             }
         }
-        match tree.find(base, sensor, messages::now()) {
+        while let Some(Ok(Some((message, _)))) = clock.as_ref().map(Subscription::take) {
+            simulated = message.clock;
+        }
+        let now = if config.use_sim_time { simulated } else { messages::now() };
+        match tree.find(base, sensor, now) {
             Ok(way) => return Ok(mount(way, config.drive.estimator.base_height_m)),
             Err(error) if Instant::now() > end || is_ending() => return Err(error),
             Err(_) => entities.wait(WAIT),

@@ -90,13 +90,20 @@ impl Entities {
             odometry: self.subscription(&topics.odometry, "nav_msgs/Odometry", sensor(WAITING))?,
             imu: self.subscription(&topics.imu, "sensor_msgs/Imu", sensor(WAITING))?,
             emergency_stop: self.subscription(&topics.emergency_stop, "std_msgs/Bool", switch.clone())?,
-            reset: self.subscription(&topics.reset, "std_msgs/Bool", switch.clone())?,
+            reset: self.subscription(&topics.reset, "std_msgs/Bool", switch)?,
             goal_pose: self.subscription(&topics.goal_pose, "geometry_msgs/PoseStamped", goal)?,
-            clock: match config.use_sim_time {
-                true => Some(self.subscription(&topics.clock, "rosgraph_msgs/Clock", switch)?),
-                false => None,
-            },
+            clock: self.subscribe_clock(config)?,
         })
+    }
+
+    /// Subscribes to the simulation's clock, if time is simulated.
+    pub(crate) fn subscribe_clock(
+        &mut self,
+        config: &NodeConfig,
+    ) -> Result<Option<Subscription<Clock>>, RosError> {
+        let newest = sensor_qos(Reliability::BestEffort, 1);
+        let subscribe = || self.subscription(&config.topics.clock, "rosgraph_msgs/Clock", newest);
+        config.use_sim_time.then(subscribe).transpose()
     }
 
     /// Subscribes to `tf` and `tf_static`.

@@ -120,6 +120,11 @@ impl Robot {
         self.state.lock().unwrap().position_m
     }
 
+    /// Its time.
+    pub(crate) fn stamp(&self) -> Time {
+        self.state.lock().unwrap().stamp
+    }
+
     /// Whether the last command moves it.
     pub(crate) fn is_driven(&self) -> bool {
         self.state.lock().unwrap().command != Twist::default()

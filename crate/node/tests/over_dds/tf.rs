@@ -41,6 +41,23 @@ fn a_robot_is_driven_once_tf_told_the_mount() {
 }
 
 #[test]
+fn transforms_of_a_simulation_are_as_old_as_its_clock_says() {
+    let domain_id = 226 + (std::process::id() % 7) as u16;
+    let process = Process::start(domain_id, "    use_sim_time: true\n    sensor_mount: {source: tf}\n");
+    let robot = Robot::start_simulated(peer(domain_id, "robot"), 1.0);
+    let mut node = peer(domain_id, "state_publisher");
+    let topic = mapless_peer::publisher(&mut node, "tf", "tf2_msgs/TFMessage", 1).unwrap();
+    let mounted = until(DISCOVERY, || {
+        // By the system's clock they would be half a century old.
+        let mut transform = told("base_link", "lidar3d_0_laser", 0.635);
+        transform.header.stamp = robot.stamp();
+        topic.publish(TfMessage { transforms: vec![transform] }).unwrap();
+        process.log().contains("the sensor's mount by tf").then_some(())
+    });
+    assert!(mounted.is_some(), "{}", process.log());
+}
+
+#[test]
 fn without_tf_the_node_ends_and_says_what_is_missing() {
     let domain_id = 176 + (std::process::id() % 25) as u16;
     let mut process = Process::start(domain_id, "    sensor_mount: {source: tf, timeout_s: 2.0}\n");
