@@ -17,9 +17,9 @@ export function driven(...args: string[]): Driven {
 
 /** What the command line says. */
 export function said(...args: string[]): string {
-  const run = spawnSync('target/release/mapless', args, { encoding: 'utf8' });
+  const run = spawnSync('target/debug/mapless', args, { encoding: 'utf8' });
   if (run.error)
-    throw new Error('Build the command line first: cargo build --release --package mapless-cli', { cause: run.error });
+    throw new Error('Build the command line first: cargo build --workspace --bin mapless', { cause: run.error });
   if (!run.stdout) throw new Error(run.stderr);
   return run.stdout;
 }

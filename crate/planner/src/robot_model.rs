@@ -19,10 +19,10 @@ parameters! {
         wheelbase_m: f64 = 0.512, unit "m", range [0.2, 0.95], check Positive;
         /// Distance between the middles of left and right wheels.
         track_m: f64 = 0.571, unit "m", range [0.2, 1.5], check Positive;
-        /// Radius of the wheels.
-        wheel_radius_m: f64 = 0.165, unit "m", range [0.05, 0.5], check Positive;
         /// Height of the belly above the ground that the wheels stand on.
         ground_clearance_m: f64 = 0.13, unit "m", range [0.02, 0.5], check Positive;
+        /// Height of the underside of body and bumpers beyond the axles.
+        overhang_clearance_m: f64 = 0.18, unit "m", range [0.02, 1.0], check Positive;
         /// Highest vertical step that the wheels climb.
         max_step_m: f64 = 0.165, unit "m", range [0.0, 0.5], check NotNegative;
         /// Overall height with mast and sensor: the robot passes below what is higher.
@@ -56,8 +56,8 @@ impl RobotModel {
             width_m: 0.43,
             wheelbase_m: 0.262,
             track_m: 0.376,
-            wheel_radius_m: 0.098,
             ground_clearance_m: 0.065,
+            overhang_clearance_m: 0.1,
             max_step_m: 0.098,
             ..Self::husky()
         }
@@ -70,8 +70,8 @@ impl RobotModel {
             width_m: 1.38,
             wheelbase_m: 0.914,
             track_m: 1.1,
-            wheel_radius_m: 0.3,
             ground_clearance_m: 0.254,
+            overhang_clearance_m: 0.35,
             max_step_m: 0.3,
             ..Self::husky()
         }

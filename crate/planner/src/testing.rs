@@ -21,7 +21,7 @@ pub(crate) fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> ElevationWindow
         for j in -40..=40 {
             let place_m = DVec2::new(f64::from(i), f64::from(j)) * 0.05;
             if let Some(height_m) = height_m(place_m) {
-                ground.add(place_m.extend(height_m));
+                ground.add_return(place_m.extend(height_m));
             }
         }
     }

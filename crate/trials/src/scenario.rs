@@ -321,8 +321,8 @@ fn robot_model(robot: &RobotConfig) -> RobotModel {
     model.width_m = robot.width_m;
     model.wheelbase_m = robot.wheelbase_m;
     model.track_m = robot.track_m;
-    model.wheel_radius_m = robot.wheel_radius_m;
     model.ground_clearance_m = robot.ground_clearance_m;
+    model.overhang_clearance_m = robot.overhang_clearance_m;
     model.height_m = robot.height_m;
     model.max_step_m = robot.max_step_m;
     model.roll_limit_rad = robot.roll_limit_rad;

@@ -245,10 +245,10 @@ fn test_wasm(sh: &Shell) -> anyhow::Result<Count> {
     let capabilities = sh.current_dir().join("target/webdriver.json");
     sh.write_file(&capabilities, browser.webdriver_json())?;
     let runner = setup::wasm_bindgen(sh)?.join("wasm-bindgen-test-runner");
-    // Optimised as in the page, with which it shares all builds; a whole trial takes longer than the runner's
-    // 20 seconds.
+    // As the page's modules are built, with which it shares all libraries; a whole trial takes longer than
+    // the runner's 20 seconds.
     let test =
-        cmd!(sh, "cargo test --release --package mapless-wasm --package mapless-wasm-replay --target wasm32-unknown-unknown --tests")
+        cmd!(sh, "cargo test --profile page --package mapless-wasm --package mapless-wasm-replay --target wasm32-unknown-unknown --tests")
             .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER", runner)
             .env("CHROMEDRIVER", &browser.driver)
             .env("WASM_BINDGEN_TEST_WEBDRIVER_JSON", &capabilities)
@@ -263,7 +263,8 @@ fn test_page_units(sh: &Shell) -> anyhow::Result<Count> {
 }
 
 fn build_command_line(sh: &Shell) -> anyhow::Result<Count> {
-    check(cmd!(sh, "cargo build --release --package mapless-cli"))
+    // As the native tests have built it: optimisation changes no bits of a result.
+    check(cmd!(sh, "cargo build --workspace --bin mapless"))
 }
 
 fn test_page(sh: &Shell) -> anyhow::Result<Count> {
@@ -283,7 +284,7 @@ fn free_port() -> anyhow::Result<u16> {
 
 fn test_ray(sh: &Shell) -> anyhow::Result<Count> {
     let python = ray(sh)?;
-    let program = setup::target_dir(sh).join("release/mapless").with_extension(env::consts::EXE_EXTENSION);
+    let program = setup::target_dir(sh).join("debug/mapless").with_extension(env::consts::EXE_EXTENSION);
     count(cmd!(sh, "{python} crate/campaign/ray/test_run.py {program}"), Runner::Playwright)
 }
 

@@ -36,9 +36,8 @@ pub(crate) fn take_up(
             window.add_return(sensor + world_from_sensor * point);
         }
     }
-    scan.each_sight_line(|line| {
-        let end_m = sensor + world_from_robot * line.end_m;
-        window.see_through(sensor, end_m, line.free_share);
+    window.see_through(sensor, |line| {
+        scan.each_sight_line(|end_m, free_share| line(sensor + world_from_robot * end_m, free_share));
     });
     for &face_m in scan.faces_m() {
         window.add_face((sensor + world_from_robot * face_m).truncate());

@@ -80,8 +80,7 @@ impl Course for PathCourse<'_> {
     fn met(&self, pose: &PlanPose) -> Option<Met> {
         let on_path = || self.nearest(pose.position_m).2 < ON_PATH_M;
         let is_admissible = !self.lattice.is_too_near_upright(pose.position_m, pose.yaw_rad)
-            && (self.lattice.is_safe(pose.position_m, pose.yaw_rad)
-                || on_path() && !self.lattice.is_blocked(pose.position_m, pose.yaw_rad));
+            && (self.lattice.is_safe(pose.position_m, pose.yaw_rad) || on_path());
         is_admissible.then(|| {
             let risk = self.lattice.risk_at(pose.position_m, pose.yaw_rad);
             Met { risk: risk.price, utilisation: risk.utilisation }

@@ -66,15 +66,6 @@ pub enum ReturnKind {
     Overhead,
 }
 
-/// A line of sight to the ground, from the sensor along the robot's axes.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SightLine {
-    /// The place met.
-    pub(crate) end_m: DVec3,
-    /// Lower beams of its column met nothing farther than this share of the way.
-    pub(crate) free_share: f64,
-}
-
 /// A return within sight, from the sensor along the robot's axes.
 #[derive(Clone, Copy, Debug)]
 struct Echo {
@@ -199,14 +190,15 @@ impl ScanFilter {
     }
 
     /// Calls `visit` with the lines of sight that pass over ground without returns: in each column, those
-    /// that end beyond all lower ones.
-    pub(crate) fn each_sight_line(&self, mut visit: impl FnMut(SightLine)) {
+    /// that end beyond all lower ones. Each has the place that it met, from the sensor along the robot's
+    /// axes, and the share of the way up to which lower ones met something.
+    pub(crate) fn each_sight_line(&self, mut visit: impl FnMut(DVec3, f64)) {
         for column in 0..COLUMNS {
             let direction = DVec2::from_angle(column_azimuth_rad(column));
             let mut met_m = 0.0;
             for end in (0..self.grid.rings()).filter_map(|ring| self.mean(column, ring)) {
                 if end.x > met_m {
-                    visit(SightLine { end_m: (direction * end.x).extend(end.y), free_share: met_m / end.x });
+                    visit((direction * end.x).extend(end.y), met_m / end.x);
                     met_m = end.x;
                 }
             }

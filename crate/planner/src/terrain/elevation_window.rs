@@ -27,7 +27,7 @@ use crate::terrain::remembered_ground::RememberedGround;
 use crate::terrain::rolling_grid::RollingGrid;
 use crate::terrain::slopes::Slopes;
 use cliffs::{DROP_RADIUS_M, MOST_VIEWS, View};
-use parts::{GroundPart, PARTS_PER_CELL};
+use parts::GroundParts;
 
 /// Weight of the past in a cell's average, in returns.
 const MOST_RETURNS: f64 = 30.0;
@@ -116,8 +116,6 @@ impl ElevationCell {
 #[derive(Clone, Debug)]
 pub(crate) struct ElevationWindow {
     config: ElevationWindowConfig,
-    wheelbase_m: f64,
-    track_m: f64,
     footprint_m: f64,
     /// Half the body's length and width, with its load.
     half_body_m: DVec2,
@@ -129,7 +127,8 @@ pub(crate) struct ElevationWindow {
     now: Duration,
     memory: Duration,
     cells: RollingGrid<ElevationCell>,
-    parts: RollingGrid<GroundPart>,
+    /// The ground under belly and bumpers, if the robot keeps them clear of it.
+    parts: Option<GroundParts>,
     /// The part of the cells that the last scan looked at.
     part: usize,
     /// Where the last scan refuted cells.
@@ -143,8 +142,6 @@ impl ElevationWindow {
         let PlannerConfig { elevation_window, robot, sensor, .. } = *config;
         Self {
             config: elevation_window,
-            wheelbase_m: robot.wheelbase_m,
-            track_m: robot.track_m,
             footprint_m: robot.footprint_radius_m(),
             half_body_m: robot.half_body_m(),
             step_m: config.state_lattice.step_m,
@@ -153,7 +150,7 @@ impl ElevationWindow {
             now: Duration::ZERO,
             memory: elevation_window.memory(),
             cells: RollingGrid::new(elevation_window.cells_per_side()),
-            parts: RollingGrid::new(elevation_window.cells_per_side() * PARTS_PER_CELL as usize),
+            parts: config.state_lattice.keeps_underside_clear.then(|| GroundParts::new(&elevation_window)),
             part: 0,
             refuted_m: Vec::new(),
             views: VecDeque::with_capacity(MOST_VIEWS),
@@ -162,7 +159,9 @@ impl ElevationWindow {
 
     pub(crate) fn clear(&mut self) {
         self.cells.clear();
-        self.parts.clear();
+        if let Some(parts) = &mut self.parts {
+            parts.clear();
+        }
         self.views.clear();
     }
 
@@ -174,7 +173,21 @@ impl ElevationWindow {
     /// Adds a return on the ground, in the world frame.
     pub(crate) fn add_return(&mut self, point_m: DVec3) {
         self.add(point_m);
-        self.add_to_part(point_m);
+        if let Some(parts) = &mut self.parts {
+            parts.add(point_m, self.now);
+        }
+    }
+
+    /// Looks along the beams over ground without returns, from `sensor_m`, if the robot's underside is to be
+    /// kept clear. `each_line` gives each beam's end and from which share of its way on it met nothing.
+    pub(crate) fn see_through(
+        &mut self,
+        sensor_m: DVec3,
+        each_line: impl FnOnce(&mut dyn FnMut(DVec3, f64)),
+    ) {
+        if let Some(parts) = &mut self.parts {
+            each_line(&mut |end_m, free_share| parts.see_through(sensor_m, end_m, free_share, self.now));
+        }
     }
 
     /// Adds a point on the ground, in the world frame.
@@ -207,8 +220,8 @@ impl ElevationWindow {
             }
             !forgets
         });
-        for index in 0..self.refuted_m.len() {
-            self.forget_parts(self.refuted_m[index]);
+        if let Some(parts) = &mut self.parts {
+            refuted_m.iter().for_each(|place_m| parts.forget_cell(*place_m));
         }
     }
 
@@ -280,7 +293,9 @@ impl ElevationWindow {
             }
         }
         self.cells = moved;
-        self.parts = self.relocalised_parts(change);
+        if let Some(parts) = &mut self.parts {
+            parts.relocalise(change, self.now);
+        }
         for view in &mut self.views {
             view.relocalise(change);
         }
@@ -371,7 +386,7 @@ impl TerrainQuery for ElevationWindow {
     }
 
     fn sets_down(&self, place_m: DVec2, plane: &Plane) -> [bool; AXES] {
-        self.underside_touches(place_m, plane)
+        self.parts.as_ref().map_or([false; AXES], |parts| self.underside_touches(parts, place_m, plane))
     }
 
     fn each_upright(&self, place_m: DVec2, radius_m: f64, visit: &mut dyn FnMut(DVec2)) {

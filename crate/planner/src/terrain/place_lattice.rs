@@ -31,7 +31,6 @@ pub(crate) struct Known {
 pub(crate) struct PlaceLattice {
     step_m: f64,
     avoids_negative_obstacles: bool,
-    keeps_underside_clear: bool,
     half: i32,
     centre: IVec2,
     known: RollingGrid<Known>,
@@ -45,7 +44,6 @@ impl PlaceLattice {
         Self {
             step_m: config.step_m,
             avoids_negative_obstacles: config.avoids_negative_obstacles,
-            keeps_underside_clear: config.keeps_underside_clear,
             half,
             centre: IVec2::ZERO,
             known: RollingGrid::new((2 * half + 1) as usize),
@@ -111,8 +109,7 @@ impl PlaceLattice {
             && footprint_slopes.iter().any(Option::is_none)
             && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
         let touches_upright = ground.touches_upright(place_m);
-        let plane_to_stand_on = plane.filter(|_| self.keeps_underside_clear);
-        let sets_down = plane_to_stand_on.map_or([false; AXES], |plane| ground.sets_down(place_m, &plane));
+        let sets_down = plane.map_or([false; AXES], |plane| ground.sets_down(place_m, &plane));
         let is_blocked = core::array::from_fn(|axis| touches_upright[axis] || sets_down[axis]);
         Known { plane, footprint_slopes, is_negative_obstacle, is_blocked }
     }

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::{BEGIN, FIRST_STEP_M, MILLIMETRES, PathPoint, ReachedState, StateLattice, UNREACHED};
 use crate::route::forecast::{Forecast, ReachEnd};
-use crate::terrain::headings::{AXES, DIRECTIONS, HEADINGS, STEPS, nearest};
+use crate::terrain::headings::{DIRECTIONS, HEADINGS, STEPS, nearest};
 use crate::terrain::slopes::Slopes;
 use crate::terrain::traversability::RiskBetween;
 
@@ -183,16 +183,6 @@ impl StateLattice {
             self.traversability.risk(offset, heading).is_finite()
                 || self.traversability.is_hidden(offset, heading)
         })
-    }
-
-    /// Whether something is in the way of the body at the place nearest to a pose, at its heading.
-    pub(crate) fn is_blocked(&self, place_m: DVec2, yaw_rad: f64) -> bool {
-        let axis = nearest(DVec2::from_angle(yaw_rad)) % AXES;
-        let places = &self.traversability.places;
-        places
-            .nearest(place_m)
-            .and_then(|offset| places.known(offset))
-            .is_some_and(|known| known.is_blocked[axis])
     }
 
     /// Whether the body at a pose near the robot is too near to something upright.

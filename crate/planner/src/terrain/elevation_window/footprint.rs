@@ -33,14 +33,17 @@ impl ElevationWindow {
 
     /// The least-squares plane through the ground under the four wheels.
     fn stand(&self, place_m: DVec2, direction: DVec2, gradient: DVec2) -> Option<Slopes> {
-        let ahead = direction * (0.5 * self.wheelbase_m);
-        let left = direction.perp() * (0.5 * self.track_m);
+        let ahead = direction * (0.5 * self.robot.wheelbase_m);
+        let left = direction.perp() * (0.5 * self.robot.track_m);
         let height_m = |wheel: DVec2| self.height_m(place_m + wheel, gradient);
         let (front_left, front_right) = (height_m(ahead + left)?, height_m(ahead - left)?);
         let (rear_left, rear_right) = (height_m(left - ahead)?, height_m(-left - ahead)?);
         let rise_m = 0.5 * (front_left + front_right - rear_left - rear_right);
         let lean_m = 0.5 * (front_left + rear_left - front_right - rear_right);
-        Some(Slopes { across: (lean_m / self.track_m).abs(), along: (rise_m / self.wheelbase_m).abs() })
+        Some(Slopes {
+            across: (lean_m / self.robot.track_m).abs(),
+            along: (rise_m / self.robot.wheelbase_m).abs(),
+        })
     }
 
     /// Height of the ground at a point, from the cells around it.

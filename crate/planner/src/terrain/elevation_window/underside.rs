@@ -1,9 +1,10 @@
 //! The underside: whether belly or bumpers come down on the ground between the wheels, or a wheel in a hole.
 
-use glam::{DVec2, DVec3, IVec2};
+use glam::{DVec2, IVec2};
 
 use super::ElevationWindow;
 use super::footprint::SHIFT_STEPS;
+use super::parts::GroundParts;
 use crate::math::elementary::floor;
 use crate::terrain::headings::{AXES, DIRECTIONS};
 use crate::terrain::plane::Plane;
@@ -29,20 +30,22 @@ struct Patch<'a> {
     returns_m: [f64; MOST_SQUARES * MOST_SQUARES],
     /// What the ground of each square is lower than.
     at_most_m: [f64; MOST_SQUARES * MOST_SQUARES],
-    /// The squares with returns: their middles, from the place, and heights.
-    bumps_m: [DVec3; MOST_SQUARES * MOST_SQUARES],
-    bumps: usize,
 }
 
 impl ElevationWindow {
     /// Whether the robot on its wheels at a place, or just before or behind it, would set its underside down
     /// or be beyond its tilt limits, for each axis of travel. `plane` is that of the ground around.
-    pub(super) fn underside_touches(&self, place_m: DVec2, plane: &Plane) -> [bool; AXES] {
+    pub(super) fn underside_touches(
+        &self,
+        parts: &GroundParts,
+        place_m: DVec2,
+        plane: &Plane,
+    ) -> [bool; AXES] {
         // Most ground is too smooth for it.
-        if self.relief_m(place_m, plane) <= self.robot.ground_clearance_m - MARGIN_M {
+        if self.relief_m(parts, place_m, plane) <= self.robot.ground_clearance_m - MARGIN_M {
             return [false; AXES];
         }
-        let patch = Patch::new(self, place_m, plane);
+        let patch = Patch::new(self, parts, place_m, plane);
         let shift_m = SHIFT_STEPS * self.step_m;
         let limits = Slopes::of_limits(&self.robot, 0.0);
         DIRECTIONS.map(|direction| {
@@ -51,10 +54,10 @@ impl ElevationWindow {
     }
 
     /// How much the heights over the plane differ around the robot at a place.
-    fn relief_m(&self, place_m: DVec2, plane: &Plane) -> f64 {
+    fn relief_m(&self, parts: &GroundParts, place_m: DVec2, plane: &Plane) -> f64 {
         let radius_m = (self.half_body_m + BESIDE_M).length() + SHIFT_STEPS * self.step_m;
         let (mut lowest_m, mut highest_m) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (middle_m, part) in self.parts_around(place_m, radius_m) {
+        for (middle_m, part) in parts.around(place_m, radius_m, self.now) {
             let from_place_m = middle_m - place_m;
             if from_place_m.length_squared() > radius_m * radius_m {
                 continue;
@@ -72,9 +75,9 @@ impl ElevationWindow {
 }
 
 impl<'a> Patch<'a> {
-    fn new(window: &'a ElevationWindow, place_m: DVec2, plane: &'a Plane) -> Self {
-        let half_m = window.half_body_m.x + BESIDE_M + SHIFT_STEPS * window.step_m + window.part_m();
-        let part_m = window.part_m();
+    fn new(window: &'a ElevationWindow, parts: &GroundParts, place_m: DVec2, plane: &'a Plane) -> Self {
+        let part_m = parts.part_m;
+        let half_m = window.half_body_m.x + BESIDE_M + SHIFT_STEPS * window.step_m + part_m;
         let square_m = part_m * (2.0 * half_m / (part_m * (MOST_SQUARES - 1) as f64)).ceil().max(1.0);
         let mut patch = Self {
             window,
@@ -84,24 +87,13 @@ impl<'a> Patch<'a> {
             square_m,
             returns_m: [f64::NAN; MOST_SQUARES * MOST_SQUARES],
             at_most_m: [f64::INFINITY; MOST_SQUARES * MOST_SQUARES],
-            bumps_m: [DVec3::ZERO; MOST_SQUARES * MOST_SQUARES],
-            bumps: 0,
         };
-        for (middle_m, part) in window.parts_around(place_m, half_m) {
+        for (middle_m, part) in parts.around(place_m, half_m, window.now) {
             let Some(square) = patch.square(middle_m) else { continue };
             let plane_m = patch.plane_m(middle_m);
             patch.at_most_m[square] = patch.at_most_m[square].min(part.height_at_most_m() - plane_m);
             if let Some(height_m) = part.height_m().filter(|_| !window.is_upright_at(middle_m)) {
                 patch.returns_m[square] = patch.returns_m[square].max(height_m - plane_m);
-            }
-        }
-        for square in 0..MOST_SQUARES * MOST_SQUARES {
-            let height_m = patch.returns_m[square];
-            if !height_m.is_nan() {
-                let [x, y] = [square % MOST_SQUARES, square / MOST_SQUARES].map(|part| part as f64 + 0.5);
-                let middle_m = patch.corner_m + DVec2::new(x, y) * square_m;
-                patch.bumps_m[patch.bumps] = (middle_m - place_m).extend(height_m);
-                patch.bumps += 1;
             }
         }
         patch
@@ -126,13 +118,14 @@ impl<'a> Patch<'a> {
         let middle_m = self.place_m + direction * shift_m;
         let across = direction.perp();
         let at_m = |along_m: f64, aside_m: f64| middle_m + direction * along_m + across * aside_m;
-        let wheels_m = 0.5 * DVec2::new(window.wheelbase_m, window.track_m);
+        let robot = &window.robot;
+        let wheels_m = 0.5 * DVec2::new(robot.wheelbase_m, robot.track_m);
         let wheel_m =
             |along: f64, aside: f64| self.wheel_m(at_m(along * wheels_m.x, aside * wheels_m.y), direction);
         let (front_left, front_right) = (wheel_m(1.0, 1.0), wheel_m(1.0, -1.0));
         let (rear_left, rear_right) = (wheel_m(-1.0, 1.0), wheel_m(-1.0, -1.0));
-        let rise = 0.5 * (front_left + front_right - rear_left - rear_right) / window.wheelbase_m;
-        let lean = 0.5 * (front_left + rear_left - front_right - rear_right) / window.track_m;
+        let rise = 0.5 * (front_left + front_right - rear_left - rear_right) / robot.wheelbase_m;
+        let lean = 0.5 * (front_left + rear_left - front_right - rear_right) / robot.track_m;
         let tilt = Slopes {
             across: (self.plane.gradient.dot(across) + lean).abs(),
             along: (self.plane.gradient.dot(direction) + rise).abs(),
@@ -144,19 +137,24 @@ impl<'a> Patch<'a> {
         let raised_m = 0.25 * (front_left + rear_right - front_right - rear_left).abs();
         let belly_m = 0.25 * (front_left + front_right + rear_left + rear_right) + raised_m - MARGIN_M;
         let half_m = window.half_body_m;
-        let lowest_m = belly_m + window.robot.ground_clearance_m.min(window.robot.wheel_radius_m)
+        let lowest_m = belly_m + robot.ground_clearance_m.min(robot.overhang_clearance_m)
             - rise.abs() * (half_m.x + BESIDE_M)
             - lean.abs() * (half_m.y + BESIDE_M);
-        let inner_m = window.track_m - 0.5 * window.robot.width_m;
-        self.bumps_m[..self.bumps].iter().filter(|bump_m| bump_m.z > lowest_m).any(|bump_m| {
-            let from_middle_m = bump_m.truncate() - direction * shift_m;
+        let inner_m = robot.track_m - 0.5 * robot.width_m;
+        let mut bumps = self.returns_m.iter().enumerate().filter(|(_, height_m)| **height_m > lowest_m);
+        bumps.any(|(square, height_m)| {
+            let [x, y] = [square % MOST_SQUARES, square / MOST_SQUARES].map(|steps| steps as f64 + 0.5);
+            let from_middle_m = self.corner_m + DVec2::new(x, y) * self.square_m - middle_m;
             let (along_m, aside_m) = (from_middle_m.dot(direction), from_middle_m.dot(across));
             let is_deck = along_m.abs() <= wheels_m.x + BESIDE_M;
-            let clearance_m =
-                if is_deck { window.robot.ground_clearance_m } else { window.robot.wheel_radius_m };
+            let (half_width_m, clearance_m) = if is_deck {
+                (inner_m, robot.ground_clearance_m)
+            } else {
+                (half_m.y, robot.overhang_clearance_m)
+            };
             along_m.abs() <= half_m.x + BESIDE_M
-                && aside_m.abs() <= if is_deck { inner_m } else { half_m.y } + BESIDE_M
-                && bump_m.z > belly_m + rise * along_m + lean * aside_m + clearance_m
+                && aside_m.abs() <= half_width_m + BESIDE_M
+                && *height_m > belly_m + rise * along_m + lean * aside_m + clearance_m
         })
     }
 
@@ -184,29 +182,14 @@ impl<'a> Patch<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::PlannerConfig;
     use crate::terrain::elevation_window::TerrainQuery;
-    use crate::testing::STEP;
+    use crate::testing::strewn;
     use core::f64::consts::TAU;
+    use glam::DVec3;
     use proptest::prelude::*;
 
     const EAST: usize = 0;
     const NORTH: usize = 4;
-
-    /// Returns on the ground up to two metres away; none where it has no height.
-    fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> ElevationWindow {
-        let mut window = ElevationWindow::new(&PlannerConfig::default());
-        window.advance(STEP);
-        for i in -80..=80 {
-            for j in -80..=80 {
-                let place_m = DVec2::new(f64::from(i), f64::from(j)) * 0.025;
-                if let Some(height_m) = height_m(place_m) {
-                    window.add_return(place_m.extend(height_m));
-                }
-            }
-        }
-        window
-    }
 
     fn touches(window: &ElevationWindow, place_m: DVec2) -> [bool; AXES] {
         window.sets_down(place_m, &window.plane_at(place_m).unwrap())
@@ -248,7 +231,8 @@ mod tests {
         let over_it = |ditch: &mut ElevationWindow, end_m: f64| {
             for step in -80..=80 {
                 let east_m = f64::from(step) * 0.025;
-                ditch.see_through(DVec3::new(east_m, -3.0, 0.8), DVec3::new(east_m, 0.25, end_m), 0.9);
+                let end_m = DVec3::new(east_m, 0.25, end_m);
+                ditch.see_through(DVec3::new(east_m, -3.0, 0.8), |line| line(end_m, 0.9));
             }
         };
         over_it(&mut ditch, -0.02);
