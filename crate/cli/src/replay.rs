@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use anyhow::Context as _;
 use glam::DVec2;
-use mapless_recording::{Difference, News, Options, Report, Role, TopicNames, replay};
+use mapless_recording::{Difference, InjectedFault, News, Options, Report, Role, TopicNames, replay};
 
 /// Differences are shown up to this many, unless all are asked for.
 const SHOWN: usize = 20;
@@ -27,6 +27,10 @@ pub(crate) struct Args {
     /// A goal from the begin on, for files without any, in metres of the odometry's frame.
     #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
     goal: Option<DVec2>,
+    /// What goes wrong, from when on and for how long, in seconds: no_scan@1.5+0.4. What it is not names all
+    /// kinds.
+    #[arg(long = "fault", value_name = "KIND@BEGIN+LENGTH")]
+    faults: Vec<InjectedFault>,
     /// Show every difference, not the first 20.
     #[arg(long)]
     all: bool,
@@ -57,6 +61,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<bool> {
         topics: args.topics.iter().cloned().collect::<TopicNames>(),
         settings: args.settings.clone(),
         goal_m: args.goal,
+        faults: args.faults.clone(),
     };
     let mut out = std::io::stdout().lock();
     let (mut shown, mut written) = (0, Ok(()));

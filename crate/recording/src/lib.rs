@@ -8,7 +8,8 @@
 //! - [`Writer`] writes a recording, [`Reader`] reads one, or a `rosbag2` MCAP of a robot, compressed or not,
 //!   up to where the file ends.
 //! - [`replay()`] drives estimator, motion compensation, supervisor and planner with it, and tells where
-//!   their decisions differ from those that were recorded.
+//!   their decisions differ from those that were recorded, or what they decide when something fails that did
+//!   not fail on the robot ([`InjectedFault`]).
 //! - [`Player`] goes to any moment of a recording and tells what was seen and decided there; [`choices`]
 //!   tells beforehand which topics must be named.
 //!
@@ -33,6 +34,6 @@ pub use head::Head;
 pub use message::{AnswerMessage, GoalMessage, LostMessage, SpoiltMessage, TickMessage};
 pub use player::{Candidate, Choice, Found, Player, Source, choices};
 pub use reader::Reader;
-pub use replay::{Difference, Moment, News, Options, Report, Seen, replay};
+pub use replay::{Difference, FaultKind, InjectedFault, Moment, News, Options, Report, Seen, replay};
 pub use topics::{Role, TopicNames};
 pub use writer::Writer;

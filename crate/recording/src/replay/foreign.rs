@@ -60,7 +60,11 @@ impl Replay {
     /// A tick that no recording tells of.
     pub(super) fn tick_freely(&mut self, at: Duration, tell: &mut dyn FnMut(&News)) {
         self.inputs.has_peer = true;
-        let proposal = self.proposals.pop_back();
+        self.inputs.other_publishers = 0;
+        let mut proposal = self.proposals.pop_back();
+        if !self.faults.tick(at, &mut self.inputs, &mut proposal) {
+            return;
+        }
         let inputs = self.inputs.take();
         let decision = self.supervisor.tick(at, &inputs, proposal.as_ref());
         self.report.ticks += 1;

@@ -1,6 +1,7 @@
 //! Driving estimator, motion compensation, supervisor and planner with a recording.
 
 mod comparison;
+mod faults;
 mod foreign;
 mod moment;
 mod report;
@@ -29,6 +30,8 @@ use crate::topics::{Role, TopicNames};
 
 use comparison::Comparison;
 pub use comparison::Difference;
+use faults::Faults;
+pub use faults::{FaultKind, InjectedFault};
 pub use moment::{Moment, Seen};
 pub use report::{News, Report};
 
@@ -46,6 +49,8 @@ pub struct Options {
     pub settings: Vec<String>,
     /// A goal from the begin on, in the odometry's frame, metres; for files without any.
     pub goal_m: Option<DVec2>,
+    /// What goes wrong beyond what went wrong on the robot.
+    pub faults: Vec<InjectedFault>,
 }
 
 /// Replays a recording; `tell` hears what happens as it happens.
@@ -90,6 +95,7 @@ pub fn replay(
 pub(crate) struct Replay {
     config: DriveConfig,
     settings: Vec<String>,
+    faults: Faults,
     has_schedule: bool,
     senses: Senses,
     pilot: Pilot,
@@ -134,6 +140,7 @@ impl Replay {
         });
         Ok(Self {
             settings: options.settings.clone(),
+            faults: Faults(options.faults.clone()),
             has_schedule,
             senses: config.senses()?,
             pilot: Pilot::new(config.planner.clone())?,
@@ -171,6 +178,7 @@ impl Replay {
             self.due += PERIOD;
         }
         self.report.until = self.report.until.max(at);
+        let Some(entry) = self.faults.message(entry) else { return Ok(()) };
         match &entry.content {
             Content::Scan(cloud) if self.has_schedule => {
                 let heard = self.senses.take_scan(entry.arrival, cloud);
@@ -184,7 +192,7 @@ impl Replay {
                 let heard = self.senses.take_imu(entry.arrival, imu);
                 self.hear(heard);
             }
-            Content::Scan(_) | Content::Odometry(_) | Content::Imu(_) => self.take_foreign(entry),
+            Content::Scan(_) | Content::Odometry(_) | Content::Imu(_) => self.take_foreign(&entry),
             Content::EmergencyStop(message) => self.inputs.hear_emergency_stop(message.data),
             Content::Reset(message) => self.inputs.reset |= message.data,
             Content::Clock(message) => self.inputs.hear_clock(message.clock),
@@ -247,7 +255,10 @@ impl Replay {
         self.inputs.publish_failed = recorded.publish_failed;
         self.inputs.other_publishers = recorded.other_publishers as usize;
         let is_it = |proposal: &&Proposal| nanoseconds(proposal.scan_arrived) == recorded.answered_scan_ns;
-        let proposal = self.proposals.iter().find(is_it).copied();
+        let mut proposal = self.proposals.iter().find(is_it).copied();
+        if !self.faults.tick(at, &mut self.inputs, &mut proposal) {
+            return;
+        }
         let inputs = self.inputs.take();
         let decision = self.supervisor.tick(at, &inputs, proposal.as_ref());
         let mut replayed = TickMessage::new(&inputs, proposal.as_ref(), &decision);

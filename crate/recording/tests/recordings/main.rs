@@ -5,6 +5,7 @@
 mod drive;
 mod files;
 mod foreign;
+mod injected;
 mod kept;
 mod player;
 mod replaying;
