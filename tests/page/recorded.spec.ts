@@ -119,6 +119,35 @@ for (const [device, options] of Object.entries(DEVICES)) {
       await expect.poll(async () => (await state(page)).tick).toBe(before.tick + 1);
     });
 
+    test('faults are put in by hand, and the supervisor stops the robot', async ({ mapless: page }) => {
+      const press = presser(page, device === 'phone');
+      await page.evaluate(() => window.mapless?.pause());
+      await open(page, 'drive.mcap', KEPT);
+      const supervisor = page.getByRole('region', { name: 'Supervisor' });
+      const states = supervisor.getByRole('img');
+      await expect(supervisor.getByRole('combobox', { name: 'Fault' }).getByRole('option')).toHaveCount(15);
+      await expect(supervisor.getByRole('option', { name: '_' })).toHaveCount(0);
+      await scrub(page).fill('15');
+      await expect(states).toHaveAccessibleName(/in the state Driving.* what needs a reset → Latched/);
+
+      await supervisor.getByRole('combobox', { name: 'Fault' }).selectOption('Somebody else publishes commands');
+      await press('Put in at 0:01.5');
+      await expect(states).toHaveAccessibleName(/in the state Latched.* reset → Aborted/);
+      await expect(now(page)).toHaveText('0:02.0');
+      await expect(panel(page)).toContainText('0:01.5 Latched: another publisher commands the robot');
+      await expect(panel(page)).toContainText(/[1-9]\d* of the decisions differ/);
+      await expect(page.locator('#reason')).toHaveText(
+        'Stopped until it is reset; another publisher commands the robot.',
+      );
+      expect(await faults(page)).toEqual([]);
+      expect(await misplaced(page, false)).toEqual([]);
+
+      await press('Take out: Somebody else publishes commands, at 0:01.5 for 0.50 s');
+      await expect(states).toHaveAccessibleName(/in the state Driving/);
+      await expect(panel(page)).toContainText('none of the decisions differ');
+      await expect(panel(page)).not.toContainText('Latched');
+    });
+
     test('topics that cannot be told apart are asked for', async ({ mapless: page }) => {
       const phone = device === 'phone';
       const press = presser(page, phone);

@@ -25,7 +25,7 @@ test('the page keeps to its budget: 370 kB of wasm (470 kB as gzip) to begin wit
   const isParquet = (name: string) => /^parquet-.*\.js$/.test(name);
   const parquet = sent(isParquet);
   const isRecording = (name: string) =>
-    /^(recorded|recordedDrive|recordedFrame|drivePanel|topicsForm|recordingWorker|mapless_wasm_replay)-.*\.(js|css)$/.test(
+    /^(recorded|recordedDrive|recordedFrame|drivePanel|supervisorPanel|topicsForm|recordingWorker|mapless_wasm_replay)-.*\.(js|css)$/.test(
       name,
     );
   const recording = sent(isRecording);

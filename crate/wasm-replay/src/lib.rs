@@ -17,6 +17,7 @@ mod returns;
 mod scene;
 #[path = "../../wasm/src/sight.rs"]
 mod sight;
+mod supervisor;
 mod surroundings;
 mod topics;
 
@@ -31,6 +32,7 @@ pub use recording::{Change, ChangeList, Decided, Recording};
 pub use returns::SetAside;
 pub use scene::RecordedScene;
 pub use sight::{FrameBuffers, ImageSize, Mount, Point, SegmentDemands, SensorPose, TiltLimits};
+pub use supervisor::{SupervisorTransition, SupervisorTransitions, fault_kinds, supervisor_transitions};
 pub use surroundings::Surroundings;
 pub use topics::{NamedTopics, TopicCandidate, TopicChoice, TopicChoices, topic_choices};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};

@@ -62,14 +62,17 @@ pub struct Recording {
 
 #[wasm_bindgen]
 impl Recording {
-    /// Opens a recording of the node, or a robot's own with the topics that must be named.
+    /// Opens a recording of the node, or a robot's own with the topics that must be named. `faults` go wrong
+    /// beyond what went wrong on the robot, as `no_scan@1.5+0.4`: kind, begin and length in seconds.
     ///
     /// # Errors
-    /// A file that is neither, with its name and what was expected.
+    /// A file that is neither, with its name and what was expected; a fault that is none.
     #[wasm_bindgen(constructor)]
-    pub fn new(file: RecordingFile, topics: Ts<NamedTopics>) -> Result<Self, JsError> {
+    pub fn new(file: RecordingFile, topics: Ts<NamedTopics>, faults: Vec<String>) -> Result<Self, JsError> {
         let (name, file) = File::new(file);
-        let options = Options { topics: read(topics)?.by_role(), ..Options::default() };
+        let faults = faults.iter().map(|fault| fault.parse()).collect::<Result<_, String>>();
+        let faults = faults.map_err(|error| JsError::new(&error))?;
+        let options = Options { topics: read(topics)?.by_role(), faults, ..Options::default() };
         let player = Player::open(file, options).map_err(|error| refused(&name, &error))?;
         Ok(Self { player, name })
     }

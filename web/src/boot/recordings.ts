@@ -79,10 +79,11 @@ export class Recordings {
     this.#forget();
     panels.letGo();
     const attempt = (action: Promise<void>) => this.#app.attempt(action);
-    panel = new DrivePanel(file.name, drive.scene, {
+    panel = new DrivePanel(file.name, drive.scene, drive.supervisor, {
       step: (way) => attempt(drive.step(way)),
       nextDifference: () => attempt(drive.nextDifference()),
       seekTime: (time_s) => attempt(drive.seekTime(time_s)),
+      putIn: (faults, time_s) => attempt(drive.putIn(faults, time_s)),
       close: () => this.close(),
     });
     [this.#drive, this.#panel] = [drive, panel];

@@ -5,7 +5,8 @@ import { button, byId, html, setText } from '../base/dom.ts';
 import { clock, degrees, fixed } from '../base/format.ts';
 import { stateWords } from './recordedFrame.ts';
 import type { RecordedPast } from './recordedPast.ts';
-import type { RecordedFrame, RecordedScene } from './recordedProtocol.ts';
+import type { RecordedFrame, RecordedScene, SupervisorInfo } from './recordedProtocol.ts';
+import { SupervisorPanel } from './supervisorPanel.ts';
 
 /** Changes that are listed; a drive has a handful. */
 const MOST_CHANGES = 200;
@@ -14,6 +15,8 @@ export interface DriveActions {
   step(way: 1 | -1): void;
   nextDifference(): void;
   seekTime(time_s: number): void;
+  /** Decides everything anew with faults, as `no_scan@1.5+0.4`, and shows a moment of that. */
+  putIn(faults: readonly string[], time_s: number): void;
   close(): void;
 }
 
@@ -30,9 +33,11 @@ export class DrivePanel {
   readonly #changes = html('ol', 'drive-changes');
   readonly #next: HTMLButtonElement;
   readonly #seekTime: (time_s: number) => void;
+  readonly #supervisor: SupervisorPanel;
+  #past: RecordedPast | undefined;
   #listed = 0;
 
-  constructor(name: string, scene: RecordedScene, actions: DriveActions) {
+  constructor(name: string, scene: RecordedScene, supervisor: SupervisorInfo, actions: DriveActions) {
     this.#scene = scene;
     this.#seekTime = actions.seekTime;
     this.#bar.append(html('span', 'drive-name', [name]), button('filled', 'Close the recording', actions.close));
@@ -62,16 +67,19 @@ export class DrivePanel {
     const [back, on] = this.#section.querySelectorAll('button');
     back?.setAttribute('aria-label', 'To the scan before');
     on?.setAttribute('aria-label', 'To the next scan');
-    document.querySelector('.panel .status')?.after(this.#section);
+    this.#supervisor = new SupervisorPanel(supervisor, actions.putIn);
+    document.querySelector('.panel .status')?.after(this.#section, this.#supervisor.section);
   }
 
   remove(): void {
     this.#bar.remove();
     this.#section.remove();
+    this.#supervisor.section.remove();
   }
 
   show(recorded: RecordedFrame): void {
     const { command, scan_age_s, activity, differences } = recorded;
+    this.#supervisor.show(recorded);
     setText(this.#state, stateWords(recorded));
     const turn = `${degrees(command.omega_rad_s, 1)}/s`;
     setText(this.#command, `${fixed(command.v_m_s, 2)} m/s, ${turn}`);
@@ -87,6 +95,10 @@ export class DrivePanel {
   news(past: RecordedPast): void {
     const { decided } = past;
     if (!decided) return;
+    if (past !== this.#past) {
+      [this.#past, this.#listed] = [past, 0];
+      this.#changes.replaceChildren();
+    }
     const share = decided.end_s > 0 ? Math.min(decided.until_s / decided.end_s, 1) : 1;
     const differ = decided.different_answers + decided.different_ticks;
     const judged = this.#scene.has_decisions

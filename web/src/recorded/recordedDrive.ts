@@ -12,6 +12,7 @@ import type {
   FromRecording,
   RecordedFrame,
   RecordedScene,
+  SupervisorInfo,
   TopicChoice,
   Topics,
   ToRecording,
@@ -40,7 +41,8 @@ export interface DriveViews {
 export class RecordedDrive {
   readonly name: string;
   readonly scene: RecordedScene;
-  readonly past = new RecordedPast();
+  readonly supervisor: SupervisorInfo;
+  past = new RecordedPast();
   readonly #worker: Worker;
   readonly #views: DriveViews;
   #info: SessionInfo | undefined;
@@ -60,8 +62,14 @@ export class RecordedDrive {
   #asked: { jumps: boolean } | undefined;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  private constructor(name: string, scene: RecordedScene, worker: Worker, views: DriveViews) {
-    [this.name, this.scene, this.#worker, this.#views] = [name, scene, worker, views];
+  private constructor(
+    name: string,
+    { scene, supervisor }: Extract<FromRecording, { type: 'opened' }>,
+    worker: Worker,
+    views: DriveViews,
+  ) {
+    [this.name, this.scene, this.supervisor] = [name, scene, supervisor];
+    [this.#worker, this.#views] = [worker, views];
     worker.onmessage = ({ data }: MessageEvent<FromRecording>) => this.#receive(data);
     worker.onerror = (event) => {
       event.preventDefault();
@@ -97,7 +105,7 @@ export class RecordedDrive {
       };
       worker.onmessage = ({ data }: MessageEvent<FromRecording>) => {
         if (data.type === 'asks') ask(data.choices).then(asked, (error) => refuse(messageOf(error)));
-        else if (data.type === 'opened') resolve(new RecordedDrive(file.name, data.scene, worker, views));
+        else if (data.type === 'opened') resolve(new RecordedDrive(file.name, data, worker, views));
         else if (data.type === 'failed') refuse(data.message);
       };
       worker.postMessage({ type: 'open', file } satisfies ToRecording);
@@ -152,6 +160,12 @@ export class RecordedDrive {
   async nextDifference(): Promise<void> {
     const next = this.past.differenceBeside(this.time_s, 1) ?? this.past.differences_s[0];
     if (next !== undefined) await this.seekTime(next);
+  }
+
+  /** Decides everything anew with faults put in, and shows a moment of that. */
+  putIn(faults: readonly string[], time_s: number): Promise<void> {
+    this.#post({ type: 'faults', faults });
+    return this.seekTime(time_s);
   }
 
   restart(): Promise<void> {
@@ -211,7 +225,10 @@ export class RecordedDrive {
   }
 
   #receive(message: FromRecording): void {
-    if (message.type === 'news') {
+    if (message.type === 'restarted') {
+      this.past = new RecordedPast();
+      this.#drawn = { behind: 0, all: 0 };
+    } else if (message.type === 'news') {
       this.past.add(message.news);
       this.#views.news(this.past);
       if (this.past.scanBeside(-1, 1) !== undefined || message.news.decided.has_ended) this.#begun.open();

@@ -18,10 +18,16 @@ let recording: Recording | undefined;
 let decided: Decided | undefined;
 let wanted: Extract<ToRecording, { type: 'show' }> | undefined;
 let pool: FrameBuffers[] = [];
-const told = { scans: 0, differences: 0, changes: 0, trail: 0, at_ms: 0 };
+let told = nothingTold();
+/** Opens the recording with faults put in. */
+let openWith: ((faults: readonly string[]) => Recording) | undefined;
 
 const wake = new MessageChannel();
 wake.port1.onmessage = guarded(work);
+
+function nothingTold() {
+  return { scans: 0, differences: 0, changes: 0, trail: 0, at_ms: 0 };
+}
 
 function post(message: FromRecording, transfer: Transferable[] = []): void {
   self.postMessage(message, { transfer });
@@ -43,13 +49,14 @@ self.onmessage = guarded(async ({ data }: MessageEvent<ToRecording>) => {
   if (data.type === 'open') await open(data.file, data.topics);
   else {
     if (data.type === 'recycle') pool.push(data.buffers);
+    else if (data.type === 'faults') restart(data.faults);
     else wanted = data;
     wake.port2.postMessage(undefined);
   }
 });
 
 async function open(file: File, topics?: Topics): Promise<void> {
-  const { Recording, topic_choices } = await loadReplay();
+  const { Recording, topic_choices, supervisor_transitions, fault_kinds } = await loadReplay();
   const reader = new FileReaderSync();
   const read = (at: number, bytes: number) => new Uint8Array(reader.readAsArrayBuffer(file.slice(at, at + bytes)));
   const source = { name: file.name, size: file.size, read };
@@ -58,11 +65,21 @@ async function open(file: File, topics?: Topics): Promise<void> {
     post({ type: 'asks', choices });
     return;
   }
-  recording = new Recording(source, topics ?? {});
+  openWith = (faults) => new Recording(source, topics ?? {}, [...faults]);
+  recording = openWith([]);
   const scene = recording.scene();
   pool = [newFrameBuffers(scene.image), newFrameBuffers(scene.image)];
-  post({ type: 'opened', scene });
+  const supervisor = { transitions: supervisor_transitions(), faultKinds: fault_kinds() };
+  post({ type: 'opened', scene, supervisor });
   wake.port2.postMessage(undefined);
+}
+
+function restart(faults: readonly string[]): void {
+  if (!recording || !openWith) return;
+  recording.free();
+  recording = openWith(faults);
+  [decided, told] = [undefined, nothingTold()];
+  post({ type: 'restarted' });
 }
 
 /** One slice: on with the drive, and what is asked for as soon as it goes so far. */

@@ -153,6 +153,11 @@ export type ChangeList = Change[];
 export type TopicChoices = TopicChoice[];
 
 /**
+ * Every transition from one state to another, in the order of the states.
+ */
+export type SupervisorTransitions = SupervisorTransition[];
+
+/**
  * Everything that a moment saw, decided and did.
  */
 export interface RecordedFrame {
@@ -214,6 +219,18 @@ export interface RecordedFrame {
 export interface Velocity {
     v_m_s: number;
     omega_rad_s: number;
+}
+
+/**
+ * From one state to another.
+ */
+export interface SupervisorTransition {
+    from: string;
+    to: string;
+    /**
+     * What leads there: `Goal`, `NoGoal`, `Pause`, `Abort`, `Latch`, `Clear` or `Reset`.
+     */
+    events: string[];
 }
 
 /**
@@ -530,12 +547,13 @@ export class Recording {
      */
     differences_s(known: number): Float64Array;
     /**
-     * Opens a recording of the node, or a robot's own with the topics that must be named.
+     * Opens a recording of the node, or a robot's own with the topics that must be named. `faults` go wrong
+     * beyond what went wrong on the robot, as `no_scan@1.5+0.4`: kind, begin and length in seconds.
      *
      * # Errors
-     * A file that is neither, with its name and what was expected.
+     * A file that is neither, with its name and what was expected; a fault that is none.
      */
-    constructor(file: RecordingFile, topics: NamedTopics);
+    constructor(file: RecordingFile, topics: NamedTopics, faults: string[]);
     /**
      * Times of the planner's answers and, while it had no goal, of scans, seconds, after the first `known`.
      */
@@ -591,6 +609,11 @@ export class Replayed {
 }
 
 /**
+ * The kinds of faults that a recording can be opened with.
+ */
+export function fault_kinds(): string[];
+
+/**
  * Replays a recording of the node.
  *
  * # Errors
@@ -602,6 +625,14 @@ export function replay_recording(file: string, bytes: Uint8Array | number[]): Re
  * Runs once when the page loads the module.
  */
 export function start(): void;
+
+/**
+ * The supervisor's states and what leads from one to another.
+ *
+ * # Errors
+ * None that is known.
+ */
+export function supervisor_transitions(): SupervisorTransitions;
 
 /**
  * The roles for which a topic must be named before the recording can be opened; mostly none.
@@ -617,10 +648,11 @@ export interface InitOutput {
     readonly memory: WebAssembly.Memory;
     readonly __wbg_recording_free: (a: number, b: number) => void;
     readonly __wbg_replayed_free: (a: number, b: number) => void;
+    readonly fault_kinds: () => [number, number];
     readonly recording_changes: (a: number, b: number) => [number, number, number];
     readonly recording_decide_on: (a: number, b: number) => [number, number, number];
     readonly recording_differences_s: (a: number, b: number) => any;
-    readonly recording_new: (a: any, b: any) => [number, number, number];
+    readonly recording_new: (a: any, b: any, c: number, d: number) => [number, number, number];
     readonly recording_scans_s: (a: number, b: number) => any;
     readonly recording_scene: (a: number) => [number, number, number];
     readonly recording_show: (a: number, b: number, c: number, d: any, e: number) => [number, number, number];
@@ -632,6 +664,7 @@ export interface InitOutput {
     readonly replayed_digest: (a: number) => [number, number];
     readonly replayed_until_s: (a: number) => number;
     readonly start: () => void;
+    readonly supervisor_transitions: () => [number, number, number];
     readonly topic_choices: (a: any) => [number, number, number];
     readonly __wbindgen_malloc: (a: number, b: number) => number;
     readonly __wbindgen_realloc: (a: number, b: number, c: number, d: number) => number;
@@ -639,6 +672,7 @@ export interface InitOutput {
     readonly __wbindgen_exn_store: (a: number) => void;
     readonly __externref_table_alloc: () => number;
     readonly __wbindgen_externrefs: WebAssembly.Table;
+    readonly __externref_drop_slice: (a: number, b: number) => void;
     readonly __externref_table_dealloc: (a: number) => void;
     readonly __wbindgen_start: () => void;
 }
