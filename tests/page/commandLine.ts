@@ -19,7 +19,7 @@ export function driven(...args: string[]): Driven {
 export function said(...args: string[]): string {
   const run = spawnSync('target/debug/mapless', args, { encoding: 'utf8' });
   if (run.error)
-    throw new Error('Build the command line first: cargo build --workspace --bin mapless', { cause: run.error });
+    throw new Error('Build the command line first: cargo build --package mapless-cli', { cause: run.error });
   if (!run.stdout) throw new Error(run.stderr);
   return run.stdout;
 }

@@ -34,6 +34,6 @@ pub use head::Head;
 pub use message::{AnswerMessage, GoalMessage, LostMessage, SpoiltMessage, TickMessage};
 pub use player::{Candidate, Choice, Found, Player, Source, choices};
 pub use reader::Reader;
-pub use replay::{Difference, FaultKind, InjectedFault, Moment, News, Options, Report, Seen, replay};
+pub use replay::{Difference, FaultKind, Faults, InjectedFault, Moment, News, Options, Report, Seen, replay};
 pub use topics::{Role, TopicNames};
 pub use writer::Writer;

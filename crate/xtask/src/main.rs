@@ -1,6 +1,6 @@
 //! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build`, and
-//! `cargo xtask profile`, `cargo xtask results`, `cargo xtask bench`, `cargo xtask physics` and `cargo xtask
-//! fuzz`, which measure.
+//! `cargo xtask profile`, `cargo xtask results`, `cargo xtask bench`, `cargo xtask physics`, `cargo xtask
+//! fuzz` and `cargo xtask soak`, which measure.
 //!
 //! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a
 //! browser), so that a fresh clone on a machine with Rust and Node needs nothing by hand.
@@ -18,6 +18,7 @@ mod python;
 mod results;
 mod robot;
 mod setup;
+mod soak;
 mod static_programs;
 mod test;
 mod work;
@@ -99,6 +100,13 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
         seconds: u32,
     },
+    /// Drive by the parts of the node for hours of simulated time, with faults of every kind: memory must not
+    /// grow, and no command may break a rule. The tests have twelve minutes of it.
+    Soak {
+        /// Simulated hours.
+        #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=1000))]
+        hours: u32,
+    },
 }
 
 fn main() -> ExitCode {
@@ -127,5 +135,6 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Physics { short, over_ros: true } => physics::over_ros::run(&sh, short),
         Command::Package { distro, arch } => package::run(&sh, distro, arch),
         Command::Fuzz { seconds } => fuzz::run(&sh, seconds),
+        Command::Soak { hours } => soak::run(&sh, hours),
     }
 }

@@ -13,7 +13,8 @@ use xshell::{Cmd, Shell, cmd};
 use crate::browser::Browser;
 use crate::count::{Count, Runner, count};
 use crate::python::Environment;
-use crate::{page, physics, robot, setup, static_programs};
+use crate::robot::Peer;
+use crate::{page, physics, setup, static_programs};
 
 /// A part of the tests that can run alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -41,6 +42,8 @@ pub(crate) enum Part {
     /// The node for robots with a robot of rclpy; only on request, as it needs Python 3.11 and installs rclpy
     /// under target/. The native tests have it over DDS without ROS.
     Robot,
+    /// The same with a robot of rclpy of Kilted, installed likewise.
+    Kilted,
     /// The node for robots with a robot of Cyclone DDS, a second vendor; only on request, as it needs Python
     /// 3.11 and installs Cyclone DDS under target/.
     Cyclone,
@@ -63,7 +66,7 @@ struct Stage {
 impl Stage {
     /// Whether it belongs to a part, or to all of them: those that need no more than Rust and Node.
     fn belongs_to(&self, part: Option<Part>) -> bool {
-        let on_request = [Part::Ray, Part::Reports, Part::Physics, Part::Robot, Part::Cyclone];
+        let on_request = [Part::Ray, Part::Reports, Part::Physics, Part::Robot, Part::Kilted, Part::Cyclone];
         part.map_or(!self.parts.iter().all(|part| on_request.contains(part)), |part| {
             self.parts.contains(&part)
         })
@@ -89,8 +92,9 @@ const STAGES: &[Stage] = &[
     Stage { title: "campaigns on Ray", parts: &[Part::Ray], run: test_ray },
     Stage { title: "physics engine", parts: &[Part::Physics], run: physics::test },
     Stage { title: "node in the physics engine", parts: &[Part::Physics], run: physics::over_ros::test },
-    Stage { title: "node with rclpy", parts: &[Part::Robot], run: robot::test },
-    Stage { title: "node with Cyclone DDS", parts: &[Part::Cyclone], run: robot::test_cyclone },
+    Stage { title: "node with rclpy", parts: &[Part::Robot], run: |sh| Peer::Jazzy.test(sh) },
+    Stage { title: "node with rclpy of Kilted", parts: &[Part::Kilted], run: |sh| Peer::Kilted.test(sh) },
+    Stage { title: "node with Cyclone DDS", parts: &[Part::Cyclone], run: |sh| Peer::Cyclone.test(sh) },
     Stage { title: "browser tests of the page", parts: &[Part::Page], run: test_page },
 ];
 
@@ -151,11 +155,12 @@ fn set_up(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
     if part == Some(Part::Physics) {
         physics::python(sh)?;
     }
-    if part == Some(Part::Robot) {
-        robot::python(sh)?;
-    }
-    if part == Some(Part::Cyclone) {
-        robot::cyclone_python(sh)?;
+    for (of, peer) in
+        [(Part::Robot, Peer::Jazzy), (Part::Kilted, Peer::Kilted), (Part::Cyclone, Peer::Cyclone)]
+    {
+        if part == Some(of) {
+            peer.set_up(sh)?;
+        }
     }
     if wants(&[Part::Lint, Part::Page]) {
         setup::npm_packages(sh)?;
@@ -263,8 +268,8 @@ fn test_page_units(sh: &Shell) -> anyhow::Result<Count> {
 }
 
 fn build_command_line(sh: &Shell) -> anyhow::Result<Count> {
-    // As the native tests have built it: optimisation changes no bits of a result.
-    check(cmd!(sh, "cargo build --workspace --bin mapless"))
+    // The very program that the native tests have built for this one. Optimisation changes no bits of a result.
+    check(cmd!(sh, "cargo test --workspace --test command_line --no-run"))
 }
 
 fn test_page(sh: &Shell) -> anyhow::Result<Count> {
@@ -336,6 +341,8 @@ mod tests {
         assert_eq!(titles(Some(Part::Physics)), ["physics engine", "node in the physics engine"]);
         assert!(!titles(None).contains(&"node with rclpy"));
         assert_eq!(titles(Some(Part::Robot)), ["node with rclpy"]);
+        assert_eq!(titles(Some(Part::Kilted)), ["node with rclpy of Kilted"]);
+        assert!(!titles(None).contains(&"node with rclpy of Kilted"));
         assert!(!titles(None).contains(&"node with Cyclone DDS"));
         assert_eq!(titles(Some(Part::Cyclone)), ["node with Cyclone DDS"]);
         assert_eq!(titles(Some(Part::Reports)), ["reports"]);

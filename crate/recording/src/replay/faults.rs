@@ -120,9 +120,9 @@ impl FromStr for InjectedFault {
     }
 }
 
-/// The faults of a replay.
+/// Faults that spoil messages on their way to the senses, and ticks of the supervisor.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Faults(pub(super) Vec<InjectedFault>);
+pub struct Faults(pub Vec<InjectedFault>);
 
 impl Faults {
     fn at(&self, at: Duration) -> impl Iterator<Item = FaultKind> {
@@ -130,7 +130,7 @@ impl Faults {
     }
 
     /// What becomes of a message; `None` if it does not come.
-    pub(super) fn message<'a>(&self, entry: &'a Entry) -> Option<Cow<'a, Entry>> {
+    pub fn message<'a>(&self, entry: &'a Entry) -> Option<Cow<'a, Entry>> {
         let mut entry = Cow::Borrowed(entry);
         for kind in self.at(entry.arrival.at) {
             match (kind, &entry.content) {
@@ -165,7 +165,7 @@ impl Faults {
     }
 
     /// What the supervisor is told at a tick, and what the planner proposed; whether the tick comes.
-    pub(super) fn tick(&self, at: Duration, inputs: &mut Inputs, proposal: &mut Option<Proposal>) -> bool {
+    pub fn tick(&self, at: Duration, inputs: &mut Inputs, proposal: &mut Option<Proposal>) -> bool {
         let mut comes = true;
         for kind in self.at(at) {
             let outcome = proposal.as_mut().map(|proposal| &mut proposal.outcome);

@@ -30,8 +30,7 @@ use crate::topics::{Role, TopicNames};
 
 use comparison::Comparison;
 pub use comparison::Difference;
-use faults::Faults;
-pub use faults::{FaultKind, InjectedFault};
+pub use faults::{FaultKind, Faults, InjectedFault};
 pub use moment::{Moment, Seen};
 pub use report::{News, Report};
 

@@ -1,12 +1,13 @@
 //! A drive over hills by the parts of the node, in the order in which its threads would call them.
 
 use core::time::Duration;
+use std::borrow::Cow;
 use std::io::{Seek, Write};
 
 use mapless::glam::{DQuat, DVec2, DVec3};
-use mapless::{PlannerConfig, Pose, RobotModel, SensorModel};
+use mapless::{Command, PlannerConfig, Pose, RobotModel, SensorModel, Status};
 use mapless_recording::{
-    AnswerMessage, Content, Entry, GoalMessage, Head, Role, SpoiltMessage, TickMessage, Writer,
+    AnswerMessage, Content, Entry, Faults, GoalMessage, Head, Role, SpoiltMessage, TickMessage, Writer,
 };
 use mapless_robot::drive_config::DriveConfig;
 use mapless_robot::messages::{
@@ -15,13 +16,13 @@ use mapless_robot::messages::{
 use mapless_robot::navigation::{Navigation, goal_of};
 use mapless_robot::pilot::Pilot;
 use mapless_robot::senses::{Arrival, Heard, Scan, Senses};
-use mapless_robot::supervisor::{Inputs, Proposal, Supervisor, SupervisorConfig};
+use mapless_robot::supervisor::{Decision, Inputs, Proposal, Supervisor, SupervisorConfig};
 use mapless_world::{Attitude, Caster, HeightField, Lidar, RobotConfig, Scene, SensorConfig, attitude_on};
 
 /// The robot's clock when the recording begins, nanoseconds.
 const BEGAN_NS: u64 = 1_700_000_000_000_000_000;
 const BASE_M: f64 = 0.165;
-const GOAL_M: DVec2 = DVec2::new(12.0, 3.0);
+const GOAL_M: DVec2 = DVec2::new(37.0, 28.0);
 
 /// What is driven.
 #[derive(Clone, Copy)]
@@ -36,7 +37,8 @@ pub(crate) struct Plan {
     pub(crate) changed_s: f64,
 }
 
-struct Drive {
+pub(crate) struct Drive {
+    plan: Plan,
     caster: Caster,
     lidar: Lidar,
     pose: Pose,
@@ -48,8 +50,15 @@ struct Drive {
     poses: Option<[Pose; 2]>,
     scan: Option<Scan>,
     proposal: Option<Proposal>,
-    config: DriveConfig,
-    entries: Vec<Entry>,
+    decision: Option<Decision>,
+    status: Option<Status>,
+    /// What goes wrong.
+    pub(crate) faults: Faults,
+    /// The next goal, in the odometry's frame.
+    pub(crate) goal_m: DVec2,
+    pub(crate) config: DriveConfig,
+    /// What took effect, until somebody takes it.
+    pub(crate) entries: Vec<Entry>,
 }
 
 fn hills() -> Caster {
@@ -71,30 +80,9 @@ fn config(plan: Plan) -> DriveConfig {
 
 /// The head and the entries of a drive.
 pub(crate) fn drive(plan: Plan) -> (Head, Vec<Entry>) {
-    let config = config(plan);
-    let sensor = SensorConfig {
-        rings: plan.rings,
-        columns: plan.columns,
-        max_range_m: 30.0,
-        ..SensorConfig::default()
-    };
-    let mut drive = Drive {
-        caster: hills(),
-        lidar: Lidar::new(sensor).unwrap(),
-        pose: Pose::from_roll_pitch_yaw(DVec3::new(25.0, 25.0, 0.0), 0.0, 0.0, 0.3),
-        senses: config.senses().unwrap(),
-        pilot: Pilot::new(config.planner.clone()).unwrap(),
-        supervisor: Supervisor::new(config.supervisor).unwrap(),
-        navigation: Navigation::new(Duration::from_secs(60)),
-        inputs: Inputs::default(),
-        poses: None,
-        scan: None,
-        proposal: None,
-        config,
-        entries: Vec::new(),
-    };
+    let mut drive = Drive::new(plan);
     for tick in 0..(100.0 * plan.seconds) as u64 {
-        drive.step(tick, plan);
+        drive.step(tick);
     }
     let topic = |role: Role| (role, format!("/a200_0000/{}", role.name()));
     let topics = Role::INPUTS.into_iter().map(topic).collect();
@@ -114,41 +102,66 @@ pub(crate) fn write<W: Write + Seek>(out: W, (head, entries): &(Head, Vec<Entry>
 }
 
 impl Drive {
+    /// A robot that stands in the hills and has heard nothing.
+    pub(crate) fn new(plan: Plan) -> Self {
+        let config = config(plan);
+        let sensor = SensorConfig {
+            rings: plan.rings,
+            columns: plan.columns,
+            max_range_m: 30.0,
+            ..SensorConfig::default()
+        };
+        Self {
+            plan,
+            caster: hills(),
+            lidar: Lidar::new(sensor).unwrap(),
+            pose: Pose::from_roll_pitch_yaw(DVec3::new(25.0, 25.0, 0.0), 0.0, 0.0, 0.3),
+            senses: config.senses().unwrap(),
+            pilot: Pilot::new(config.planner.clone()).unwrap(),
+            supervisor: Supervisor::new(config.supervisor).unwrap(),
+            navigation: Navigation::new(Duration::from_secs(60)),
+            inputs: Inputs::default(),
+            poses: None,
+            scan: None,
+            proposal: None,
+            decision: None,
+            status: None,
+            faults: Faults::default(),
+            goal_m: GOAL_M,
+            config,
+            entries: Vec::new(),
+        }
+    }
+
     /// Ten milliseconds.
-    fn step(&mut self, tick: u64, plan: Plan) {
+    pub(crate) fn step(&mut self, tick: u64) {
         let arrival = |micros: u64| {
             let at = Duration::from_nanos(10_000_000 * tick + 1000 * micros + 7 * (tick % 13));
             Arrival { at, clock_ns: BEGAN_NS as i64 + at.as_nanos() as i64 }
         };
         let at_s = 0.01 * tick as f64;
+        let plan = self.plan;
         self.move_on();
         if tick.is_multiple_of(5) {
-            let imu = self.imu(arrival(0), tick);
-            let heard = self.senses.take_imu(arrival(0), &imu);
-            self.hear(arrival(0), heard, Content::Imu(Box::new(imu)));
+            self.take(arrival(0), Content::Imu(Box::new(self.imu(arrival(0), tick))));
         }
         if tick % 10 == 1 {
-            let odometry = self.odometry(arrival(10));
-            let heard = self.senses.take_odometry(arrival(10), &odometry);
-            self.hear(arrival(10), heard, Content::Odometry(Box::new(odometry)));
+            self.take(arrival(10), Content::Odometry(Box::new(self.odometry(arrival(10)))));
         }
         if tick % 20 == 2 {
-            let pressed = Bool { data: (plan.pressed_s..plan.pressed_s + 0.2).contains(&at_s) };
-            self.inputs.hear_emergency_stop(pressed.data);
-            self.put(arrival(20), Content::EmergencyStop(pressed));
+            let data = (plan.pressed_s..plan.pressed_s + 0.2).contains(&at_s);
+            self.take(arrival(20), Content::EmergencyStop(Bool { data }));
         }
         // The first sweep needs poses from before it.
         if tick > 20 && tick % 10 == 3 {
-            let cloud = self.cloud(arrival(30), tick);
-            let heard = self.senses.take_scan(arrival(30), &cloud);
-            self.hear(arrival(30), heard, Content::Scan(cloud));
+            self.take(arrival(30), Content::Scan(self.cloud(arrival(30), tick)));
         }
         if tick % 10 == 4
             && let (Some(scan), Some(task)) = (self.scan.take(), self.navigation.task())
         {
             let answer = self.pilot.answer(&scan, task, false, |_, _| {});
             self.put(arrival(40), Content::Answer(AnswerMessage::new(&answer, false)));
-            self.proposal = Some(answer.proposal);
+            (self.proposal, self.status) = (Some(answer.proposal), answer.status);
         }
         if tick == (100.0 * plan.changed_s) as u64 {
             self.change(arrival(45));
@@ -159,6 +172,41 @@ impl Drive {
         if tick % 10 == 6 && self.navigation.task().is_none() && at_s < plan.pressed_s {
             self.ask(arrival(60));
         }
+    }
+
+    /// The supervisor's last decision.
+    pub(crate) fn decision(&self) -> Option<Decision> {
+        self.decision
+    }
+
+    /// Somebody takes a latched stop back.
+    pub(crate) fn reset(&mut self) {
+        self.inputs.reset = true;
+    }
+
+    /// The goal in service.
+    pub(crate) fn has_goal(&self) -> bool {
+        self.navigation.task().is_some()
+    }
+
+    /// What comes of a message that is sent.
+    fn take(&mut self, arrival: Arrival, content: Content) {
+        let sent = Entry { arrival, content };
+        let Some(came) = self.faults.message(&sent).map(Cow::into_owned) else { return };
+        let heard = match &came.content {
+            Content::Imu(imu) => Some(self.senses.take_imu(arrival, imu)),
+            Content::Odometry(odometry) => Some(self.senses.take_odometry(arrival, odometry)),
+            Content::Scan(cloud) => Some(self.senses.take_scan(arrival, cloud)),
+            Content::EmergencyStop(pressed) => {
+                self.inputs.hear_emergency_stop(pressed.data);
+                None
+            }
+            _ => None,
+        };
+        if let Some(heard) = heard {
+            self.hear(heard);
+        }
+        self.entries.push(came);
     }
 
     /// Parameters that are set while it drives, and a packet that is lost.
@@ -177,45 +225,36 @@ impl Drive {
         self.entries.push(Entry { arrival, content });
     }
 
-    fn hear(&mut self, arrival: Arrival, heard: Heard, content: Content) {
-        assert_eq!(heard.complaints, []);
+    fn hear(&mut self, heard: Heard) {
+        assert!(heard.complaints.is_empty() || !self.faults.0.is_empty(), "{:?}", heard.complaints);
         heard.tell(&mut self.inputs);
         self.poses = heard.poses.or(self.poses);
         self.scan = heard.scan.or(self.scan.take());
-        self.put(arrival, content);
     }
 
     fn tick(&mut self, arrival: Arrival) {
         self.inputs.has_peer = true;
+        self.inputs.other_publishers = 0;
+        let mut proposal = self.proposal.take();
+        if !self.faults.tick(arrival.at, &mut self.inputs, &mut proposal) {
+            return;
+        }
         let inputs = self.inputs.take();
-        let proposal = self.proposal.take();
         let decision = self.supervisor.tick(arrival.at, &inputs, proposal.as_ref());
         self.put(arrival, Content::Tick(TickMessage::new(&inputs, proposal.as_ref(), &decision)));
-        if self.navigation.check(&decision, None, arrival.at).is_some() {
+        self.decision = Some(decision);
+        if self.navigation.check(&decision, self.status, arrival.at).is_some() {
             self.serve(arrival);
         }
     }
 
     fn ask(&mut self, arrival: Arrival) {
         let mut pose = PoseStamped { header: self.header("odom", arrival), ..PoseStamped::default() };
-        pose.pose.position = Point { x: 25.0 + GOAL_M.x, y: 25.0 + GOAL_M.y, z: 0.0 };
+        pose.pose.position = Point { x: self.goal_m.x, y: self.goal_m.y, z: 0.0 };
         self.put(arrival, Content::GoalPose(pose.clone()));
-        let ticks = self.entries.iter().rev();
-        let last = ticks.filter_map(|entry| match &entry.content {
-            Content::Tick(tick) => Some(tick.takes_goals),
-            _ => None,
-        });
-        // As the node's hub would say.
-        if last.take(1).any(|takes_goals| takes_goals) {
-            let decision = mapless_robot::supervisor::Decision {
-                command: mapless::Command::STOP,
-                state: mapless_robot::supervisor::State::Standby,
-                reason: None,
-                cause: None,
-                takes_goals: true,
-            };
-            let goal = goal_of(&pose, "odom", Some(&decision), self.poses, false).unwrap();
+        if let Ok(goal) = goal_of(&pose, "odom", self.decision.as_ref(), self.poses, false) {
             self.navigation.accept(goal, None, arrival.at);
+            self.status = None;
             self.serve(arrival);
         }
     }
@@ -226,13 +265,11 @@ impl Drive {
         self.put(arrival, Content::Goal(GoalMessage::new(task.as_ref())));
     }
 
+    /// What the robot does: the last command.
     fn command(&self) -> [f64; 2] {
-        let ticks = self.entries.iter().rev();
-        let mut commands = ticks.filter_map(|entry| match &entry.content {
-            Content::Tick(tick) => Some([tick.linear_m_s, tick.angular_rad_s]),
-            _ => None,
-        });
-        commands.next().unwrap_or_default()
+        let Command { linear_m_s, angular_rad_s } =
+            self.decision.map_or(Command::STOP, |decision| decision.command);
+        [linear_m_s, angular_rad_s]
     }
 
     fn attitude(&self) -> Attitude {

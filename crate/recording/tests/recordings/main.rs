@@ -9,6 +9,7 @@ mod injected;
 mod kept;
 mod player;
 mod replaying;
+mod soak;
 
 use std::io::Cursor;
 
