@@ -268,7 +268,8 @@ fn test_page_units(sh: &Shell) -> anyhow::Result<Count> {
 }
 
 fn build_command_line(sh: &Shell) -> anyhow::Result<Count> {
-    // The very program that the native tests have built for this one. Optimisation changes no bits of a result.
+    // The very program that the native tests have built for this one. Optimisation changes no bits of a
+    // result.
     check(cmd!(sh, "cargo test --workspace --test command_line --no-run"))
 }
 
