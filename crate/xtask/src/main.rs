@@ -101,7 +101,7 @@ enum Command {
         seconds: u32,
     },
     /// Drive by the parts of the node for hours of simulated time, with faults of every kind: memory must not
-    /// grow, and no command may break a rule. The tests have twelve minutes of it.
+    /// grow, and no command may break a rule. The tests have five minutes of it.
     Soak {
         /// Simulated hours.
         #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=1000))]

@@ -1,4 +1,4 @@
-//! `cargo xtask soak`: hours of the drive that the tests have twelve minutes of.
+//! `cargo xtask soak`: hours of the drive that the tests have five minutes of.
 
 use xshell::{Shell, cmd};
 

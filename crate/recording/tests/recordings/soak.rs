@@ -18,9 +18,9 @@ use crate::SHORT;
 use crate::drive::{Drive, Plan};
 
 /// So many simulated minutes are driven, unless `cargo xtask soak` asks for more.
-const MINUTES: u64 = 12;
-/// After so many, nothing may grow.
-const WARM_UP_MINUTES: usize = 10;
+const MINUTES: u64 = 5;
+/// After three fifths of the time, but after so many minutes at the latest, nothing may grow.
+const MOST_WARM_UP_MINUTES: usize = 10;
 const GROWTH: f64 = 1.05;
 /// A fault begins every so many ticks of 10 ms.
 const FAULT_EVERY: u64 = 2_000;
@@ -173,16 +173,17 @@ fn hours_with_faults_hold_no_more_memory_and_break_no_rule() {
         }
     }
     let (driven_s, stops) = (judge.driven.as_secs_f64(), &judge.stops);
-    println!(
-        "{minutes} simulated minutes: {goals} goals, {driven_s:.0} s of driving, {faults} faults, at most {} kB held; \
-         in the first {WARM_UP_MINUTES} minutes {} kB. Stops: {stops:#?}",
-        most_held.iter().max().unwrap() / 1000,
-        most_held[..WARM_UP_MINUTES].iter().max().unwrap() / 1000,
-    );
-    let (first, rest) = most_held.split_at(WARM_UP_MINUTES);
+    let warm_up = (most_held.len() * 3 / 5).min(MOST_WARM_UP_MINUTES);
+    let (first, rest) = most_held.split_at(warm_up);
     let (first, rest) = (*first.iter().max().unwrap(), *rest.iter().max().unwrap());
+    println!(
+        "{minutes} simulated minutes: {goals} goals, {driven_s:.0} s of driving, {faults} faults; at most {} kB held in \
+         the first {warm_up} minutes, {} kB after. Stops: {stops:#?}",
+        first / 1000,
+        rest / 1000,
+    );
     assert!(first > 100_000, "{first} bytes are too few to be all");
     assert!(rest as f64 <= GROWTH * first as f64, "{most_held:?}");
     assert!(driven_s > 20.0 * minutes as f64, "it drove for {driven_s} s");
-    assert!(stops.len() >= 10, "{stops:#?}");
+    assert!(stops.len() >= 6, "{stops:#?}");
 }
