@@ -45,12 +45,13 @@ pub(crate) struct Drive {
     senses: Senses,
     pilot: Pilot,
     supervisor: Supervisor,
-    navigation: Navigation<()>,
-    inputs: Inputs,
+    pub(crate) navigation: Navigation<()>,
+    pub(crate) inputs: Inputs,
     poses: Option<[Pose; 2]>,
     scan: Option<Scan>,
     proposal: Option<Proposal>,
-    decision: Option<Decision>,
+    /// The supervisor's last one.
+    pub(crate) decision: Option<Decision>,
     status: Option<Status>,
     /// What goes wrong.
     pub(crate) faults: Faults,
@@ -172,21 +173,6 @@ impl Drive {
         if tick % 10 == 6 && self.navigation.task().is_none() && at_s < plan.pressed_s {
             self.ask(arrival(60));
         }
-    }
-
-    /// The supervisor's last decision.
-    pub(crate) fn decision(&self) -> Option<Decision> {
-        self.decision
-    }
-
-    /// Somebody takes a latched stop back.
-    pub(crate) fn reset(&mut self) {
-        self.inputs.reset = true;
-    }
-
-    /// The goal in service.
-    pub(crate) fn has_goal(&self) -> bool {
-        self.navigation.task().is_some()
     }
 
     /// What comes of a message that is sent.

@@ -155,18 +155,18 @@ fn hours_with_faults_hold_no_more_memory_and_break_no_rule() {
             drive.faults = Faults(vec![fault(faults, Duration::from_millis(10 * tick))]);
             faults += 1;
         }
-        if !drive.has_goal() {
+        if drive.navigation.task().is_none() {
             drive.goal_m = DVec2::new(15.0 + 30.0 * share(2, goals), 15.0 + 30.0 * share(3, goals));
         }
-        let had_goal = drive.has_goal();
+        let had_goal = drive.navigation.task().is_some();
         drive.step(tick);
-        goals += u64::from(!had_goal && drive.has_goal());
-        let decision = drive.decision();
+        goals += u64::from(!had_goal && drive.navigation.task().is_some());
+        let decision = drive.decision;
         drive.entries.drain(..).for_each(|entry| judge.take(&entry, decision));
         let is_latched = decision.is_some_and(|decision| decision.state == State::Latched);
         latched = if is_latched { latched + 1 } else { 0 };
         if latched == RESET_AFTER {
-            drive.reset();
+            drive.inputs.reset = true;
         }
         if let Some(most) = most_held.last_mut() {
             *most = HELD.get().max(*most);
