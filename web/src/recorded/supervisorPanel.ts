@@ -65,7 +65,7 @@ export class SupervisorPanel {
   readonly #put: HTMLButtonElement;
   readonly #list = html('ul', 'drive-faults');
   #faults: PutIn[] = [];
-  #state = '';
+  #state: string | undefined;
   #time_s = 0;
 
   constructor({ transitions, faultKinds }: SupervisorInfo, putIn: (faults: readonly string[], time_s: number) => void) {

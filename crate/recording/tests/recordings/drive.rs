@@ -48,6 +48,8 @@ pub(crate) struct Drive {
     pub(crate) navigation: Navigation<()>,
     pub(crate) inputs: Inputs,
     poses: Option<[Pose; 2]>,
+    /// The planner is to forget the ground: the localisation jumped.
+    has_jumped: bool,
     scan: Option<Scan>,
     proposal: Option<Proposal>,
     /// The supervisor's last one.
@@ -123,6 +125,7 @@ impl Drive {
             navigation: Navigation::new(Duration::from_secs(60)),
             inputs: Inputs::default(),
             poses: None,
+            has_jumped: false,
             scan: None,
             proposal: None,
             decision: None,
@@ -160,8 +163,9 @@ impl Drive {
         if tick % 10 == 4
             && let (Some(scan), Some(task)) = (self.scan.take(), self.navigation.task())
         {
-            let answer = self.pilot.answer(&scan, task, false, |_, _| {});
-            self.put(arrival(40), Content::Answer(AnswerMessage::new(&answer, false)));
+            let has_jumped = std::mem::take(&mut self.has_jumped);
+            let answer = self.pilot.answer(&scan, task, has_jumped, |_, _| {});
+            self.put(arrival(40), Content::Answer(AnswerMessage::new(&answer, has_jumped)));
             (self.proposal, self.status) = (Some(answer.proposal), answer.status);
         }
         if tick == (100.0 * plan.changed_s) as u64 {
@@ -214,6 +218,7 @@ impl Drive {
     fn hear(&mut self, heard: Heard) {
         assert!(heard.complaints.is_empty() || !self.faults.0.is_empty(), "{:?}", heard.complaints);
         heard.tell(&mut self.inputs);
+        self.has_jumped |= heard.jump.is_some();
         self.poses = heard.poses.or(self.poses);
         self.scan = heard.scan.or(self.scan.take());
     }
