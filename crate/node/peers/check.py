@@ -19,7 +19,9 @@ from rclpy.parameter_client import AsyncParameterClient  # noqa: E402
 from sensor_msgs.msg import PointCloud2, PointField  # noqa: E402
 from visualization_msgs.msg import Marker, MarkerArray  # noqa: E402
 
+import navigation  # noqa: E402
 from checks import DISCOVERY_S, drive, state, stops  # noqa: E402
+from rclpy_encodings import rclpy_encodes_messages_as_told  # noqa: E402
 from robot import BASE_HEIGHT_M, NAMESPACE, until  # noqa: E402
 from wire_rclpy import Wire  # noqa: E402
 
@@ -171,6 +173,7 @@ def surfaces_are_shown(robot, node):
 
 
 CHECKS = (
+    rclpy_encodes_messages_as_told,
     checks.no_cloud_is_lost,
     no_cloud_of_a_reliable_publisher_is_lost,
     checks.limits_hold,
@@ -184,6 +187,7 @@ CHECKS = (
     checks.the_emergency_stop_is_pressed,
     checks.a_release_moves_nothing,
     checks.it_arrives,
+    *navigation.CHECKS,
     parameters_are_told_and_set,
     checks.a_suspended_process_goes_on_standing,
     another_publisher_is_noticed,

@@ -20,10 +20,10 @@ SLACK_S = 0.15
 
 
 class Node:
-    """The node under test, with a copy of the configuration in `folder`."""
+    """The node under test, begun by the words of `command`, with a copy of the configuration in `folder`."""
 
-    def __init__(self, program, config, folder):
-        self.program, self.config = program, Path(folder) / "robot.yaml"
+    def __init__(self, command, config, folder):
+        self.command, self.config = command, Path(folder) / "robot.yaml"
         self.config.write_text(Path(config).read_text(encoding="utf-8"), encoding="utf-8")
         self.configure("domain_id: 0", f"domain_id: {DOMAIN}")
         self.start()
@@ -34,7 +34,7 @@ class Node:
         self.config.write_text(text.replace(line, instead), encoding="utf-8")
 
     def start(self):
-        self.process = subprocess.Popen([self.program, self.config])
+        self.process = subprocess.Popen([*self.command, self.config])
 
     def end(self):
         self.process.send_signal(signal.SIGTERM)
@@ -228,7 +228,7 @@ def main(wire, checks):
     robot = Robot(wire)
     robot.start()
     folder = tempfile.TemporaryDirectory()
-    node = Node(program, config, folder.name)
+    node = Node([program], config, folder.name)
     failed = passed = 0
     try:
         for check in checks:

@@ -49,6 +49,7 @@ class Robot:
         self.decisions = []  # arrival, stamp
         self.scans = []  # when sent, stamp
         self.diagnosis = None
+        self.slowest_ms = []  # when told, from a scan's arrival to its command, the longest since told before
         messages = self.messages
         self.scan = self.scan_publisher(is_reliable=False)
         self.odometry = wire.publisher(messages.Odometry, "platform/odom/filtered")
@@ -84,6 +85,9 @@ class Robot:
 
     def diagnose(self, message):
         self.diagnosis = message.status[0]
+        values = {entry.key: entry.value for entry in self.diagnosis.values}
+        if "slowest scan to command, ms" in values:
+            self.slowest_ms.append((time.monotonic(), float(values["slowest scan to command, ms"])))
 
     def publish_all(self):
         """Every 10 ms: the IMU; every second time odometry; every tenth a scan and the emergency stop."""

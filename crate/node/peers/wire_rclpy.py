@@ -11,6 +11,7 @@ import rclpy  # noqa: E402
 from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
 from geometry_msgs.msg import PoseStamped, TwistStamped  # noqa: E402
 from nav_msgs.msg import Odometry  # noqa: E402
+from rclpy.action import ActionClient  # noqa: E402
 from rclpy.executors import SingleThreadedExecutor  # noqa: E402
 from rclpy.qos import QoSProfile, ReliabilityPolicy  # noqa: E402
 from rosgraph_msgs.msg import Clock  # noqa: E402
@@ -36,12 +37,19 @@ class Wire:
     def __init__(self, namespace):
         rclpy.init()
         self.node = rclpy.create_node("robot", namespace=namespace)
+        self.clients = {}
 
     def publisher(self, kind, topic, is_reliable=True):
         return self.node.create_publisher(kind, topic, qos(is_reliable))
 
     def subscribe(self, kind, topic, hear, is_reliable=True):
         return self.node.create_subscription(kind, topic, hear, qos(is_reliable))
+
+    def action_client(self, kind, name):
+        """The client of an action; the same one for the same action."""
+        if name not in self.clients:
+            self.clients[name] = ActionClient(self.node, kind, name)
+        return self.clients[name]
 
     def remove_publisher(self, publisher):
         self.node.destroy_publisher(publisher)

@@ -33,6 +33,9 @@ pub(crate) fn diagnose(hub: &Hub, config: &NodeConfig) -> DiagnosticArray {
         add("planner", format!("{:?}", planned.status));
         add("planner step, ms", format!("{:.1}", 1e3 * planned.took.as_secs_f64()));
     }
+    if let Some(slowest) = hub.take_slowest_answer() {
+        add("slowest scan to command, ms", format!("{:.1}", 1e3 * slowest.as_secs_f64()));
+    }
     for (what, complaint) in hub.complaints() {
         add(what, complaint);
     }

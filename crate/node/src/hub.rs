@@ -68,6 +68,7 @@ pub(crate) struct Hub {
     inputs: Mutex<Inputs>,
     decision: Mutex<Option<Decision>>,
     planned: Mutex<Option<Planned>>,
+    slowest: Mutex<Option<Duration>>,
     task: Mutex<Option<Task>>,
     /// The pose that the estimator believes, and that of the last odometry.
     poses: Mutex<Option<[Pose; 2]>>,
@@ -91,6 +92,7 @@ impl Hub {
             inputs: Mutex::default(),
             decision: Mutex::default(),
             planned: Mutex::default(),
+            slowest: Mutex::default(),
             task: Mutex::default(),
             poses: Mutex::default(),
             complaints: Mutex::default(),
@@ -220,6 +222,18 @@ impl Hub {
     /// Publishes an answer of the planner to the other threads.
     pub(crate) fn plan(&self, planned: Planned) {
         *lock(&self.planned) = Some(planned);
+    }
+
+    /// A scan that arrived then was answered by a command that is published now.
+    pub(crate) fn note_answer(&self, scan_arrived: Duration) {
+        let took = self.now().saturating_sub(scan_arrived);
+        let mut slowest = lock(&self.slowest);
+        *slowest = (*slowest).max(Some(took));
+    }
+
+    /// From a scan's arrival to its command: the longest time since this was asked last.
+    pub(crate) fn take_slowest_answer(&self) -> Option<Duration> {
+        lock(&self.slowest).take()
     }
 
     /// Where the robot is, in the estimator's frame and in the odometry's; `None` until odometry and IMU

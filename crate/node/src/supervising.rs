@@ -92,7 +92,12 @@ pub(crate) fn supervise(
         }
         let decision = hub.tick(now, &mut supervisor, proposal.as_ref());
         match publisher.publish(decision.command, hub.stamp()) {
-            Ok(()) => service.fed(),
+            Ok(()) => {
+                service.fed();
+                if let Some(proposal) = proposal {
+                    hub.note_answer(proposal.scan_arrived);
+                }
+            }
             Err(error) => {
                 log::warn!("a command could not be published: {error}");
                 hub.tell(|inputs| inputs.publish_failed = true);

@@ -1,6 +1,6 @@
 //! The chores of the repository: `cargo xtask demo`, `cargo xtask test`, `cargo xtask build`, and
 //! `cargo xtask profile`, `cargo xtask results`, `cargo xtask bench`, `cargo xtask physics`, `cargo xtask
-//! fuzz` and `cargo xtask soak`, which measure.
+//! fuzz`, `cargo xtask long-drive` and `cargo xtask soak`, which measure.
 //!
 //! Each command first sets up what it needs (the wasm target, the wasm-bindgen tools, the npm packages, a
 //! browser), so that a fresh clone on a machine with Rust and Node needs nothing by hand.
@@ -100,6 +100,19 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
         seconds: u32,
     },
+    /// Have mapless-node drive beside a robot of another DDS for minutes: every cloud must be answered once.
+    ///
+    /// Half of them have best-effort clouds, half reliable ones; other peers come and go.
+    LongDrive {
+        /// What the robot speaks.
+        peer: robot::Peer,
+        /// What lies between the robot and the node.
+        #[arg(long, default_value = "loopback")]
+        link: robot::Link,
+        /// Minutes in all.
+        #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
+        minutes: u32,
+    },
     /// Drive by the parts of the node for hours of simulated time, with faults of every kind: memory must not
     /// grow, and no command may break a rule. The tests have five minutes of it.
     Soak {
@@ -135,6 +148,7 @@ fn run(args: Args) -> anyhow::Result<()> {
         Command::Physics { short, over_ros: true } => physics::over_ros::run(&sh, short),
         Command::Package { distro, arch } => package::run(&sh, distro, arch),
         Command::Fuzz { seconds } => fuzz::run(&sh, seconds),
+        Command::LongDrive { peer, link, minutes } => robot::drive_long(&sh, peer, link, minutes),
         Command::Soak { hours } => soak::run(&sh, hours),
     }
 }

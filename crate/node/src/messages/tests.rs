@@ -1,6 +1,7 @@
-use mapless_robot::navigation::Outcome;
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use std::fmt;
+
+use serde::de::{DeserializeOwned, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::*;
 
@@ -11,39 +12,6 @@ fn bytes<M: Serialize>(message: &M) -> Vec<u8> {
 
 fn read<M: DeserializeOwned>(bytes: &[u8]) -> M {
     cdr_encoding::from_bytes::<M, byteorder::LittleEndian>(bytes).unwrap().0
-}
-
-#[test]
-fn the_results_of_the_distributions_have_their_own_layouts() {
-    assert_eq!(bytes(&HumbleResult::default()), [0]);
-    let result = JazzyResult::from(Outcome { code: 0x0102, text: "no way".to_owned() });
-    let expected = [2, 1, 0, 0, 7, 0, 0, 0, b'n', b'o', b' ', b'w', b'a', b'y', 0];
-    assert_eq!(bytes(&result), expected);
-}
-
-#[test]
-fn feedback_is_aligned_as_the_wire_has_it() {
-    let feedback = Feedback { number_of_recoveries: 3, distance_remaining: 1.5, ..Feedback::default() };
-    let wire = bytes(&feedback);
-    // Header 4 + 4 + (4 + 1), then doubles from 16: 7 of them. Two durations, an i16 and, aligned, an f32.
-    assert_eq!(wire.len(), 16 + 56 + 16 + 4 + 4);
-    assert_eq!(wire[88..90], [3, 0]);
-    assert_eq!(wire[92..96], 1.5_f32.to_le_bytes());
-}
-
-#[test]
-fn odometry_has_its_covariances_in_full() {
-    let mut odometry = Odometry::default();
-    odometry.pose.covariance[5][5] = 0.25;
-    odometry.twist.twist.linear.x = 0.8;
-    let wire = bytes(&odometry);
-    // Header 8 + 5, child frame 4 + 1 aligned to 16; 7 and 36 doubles, 6 and 36.
-    let begin = 24;
-    assert_eq!(wire.len(), begin + 8 * (7 + 36 + 6 + 36));
-    let place = begin + 8 * (7 + 35);
-    assert_eq!(wire[place..place + 8], 0.25_f64.to_le_bytes());
-    assert_eq!(wire[place + 8..place + 16], 0.8_f64.to_le_bytes());
-    assert_eq!(read::<Odometry>(&wire), odometry);
 }
 
 #[test]
@@ -70,5 +38,113 @@ fn a_cloud_is_read_and_a_cut_one_refused() {
 fn times_before_and_after_the_epoch_keep_their_nanoseconds() {
     for nanoseconds in [-1, 0, 1, 1_700_000_000_123_456_789] {
         assert_eq!(Time::from_nanoseconds(nanoseconds).nanoseconds(), nanoseconds);
+    }
+}
+
+/// A message as another implementation encodes it.
+#[derive(Deserialize)]
+struct Encoding {
+    #[serde(rename = "type")]
+    kind: String,
+    distributions: String,
+    /// Its numbers, texts and switches in the order of the fields.
+    values: Vec<serde_json::Value>,
+    hex: String,
+}
+
+/// What JSON holds besides its structure, in order.
+struct Leaves(Vec<serde_json::Value>);
+
+impl<'de> Deserialize<'de> for Leaves {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(LeavesVisitor)
+    }
+}
+
+struct LeavesVisitor;
+
+impl<'de> Visitor<'de> for LeavesVisitor {
+    type Value = Leaves;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a message as JSON")
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Leaves, E> {
+        Ok(Leaves(vec![value.into()]))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Leaves, E> {
+        Ok(Leaves(vec![value.into()]))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Leaves, E> {
+        Ok(Leaves(vec![value.into()]))
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Leaves, E> {
+        Ok(Leaves(vec![value.into()]))
+    }
+
+    fn visit_str<E>(self, value: &str) -> Result<Leaves, E> {
+        Ok(Leaves(vec![value.into()]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Leaves, A::Error> {
+        let mut all = Vec::new();
+        while let Some(Leaves(leaves)) = entries.next_element()? {
+            all.extend(leaves);
+        }
+        Ok(Leaves(all))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut fields: A) -> Result<Leaves, A::Error> {
+        let mut all = Vec::new();
+        while let Some((_, Leaves(leaves))) = fields.next_entry::<String, Leaves>()? {
+            all.extend(leaves);
+        }
+        Ok(Leaves(all))
+    }
+}
+
+/// The values that are read from the bytes, and the bytes that they are written as.
+fn read_and_written<M: Serialize + DeserializeOwned>(wire: &[u8]) -> (Vec<serde_json::Value>, Vec<u8>) {
+    let message: M = read(wire);
+    let json = serde_json::to_string(&message).unwrap();
+    (serde_json::from_str::<Leaves>(&json).unwrap().0, bytes(&message))
+}
+
+/// `encodings.json` is of `rosbags`, by `crate/node/peers/encodings.py`.
+#[test]
+fn every_message_is_encoded_as_another_implementation_does() {
+    let encodings: Vec<Encoding> = serde_json::from_str(include_str!("encodings.json")).unwrap();
+    assert!(encodings.len() == 16);
+    for Encoding { kind, distributions, values, hex } in encodings {
+        let pairs = hex.as_bytes().chunks(2).map(|pair| std::str::from_utf8(pair).unwrap());
+        let wire: Vec<u8> = pairs.map(|pair| u8::from_str_radix(pair, 16).unwrap()).collect();
+        let decode = match kind.as_str() {
+            "diagnostic_msgs/msg/DiagnosticArray" => read_and_written::<DiagnosticArray>,
+            "geometry_msgs/msg/PoseStamped" => read_and_written::<PoseStamped>,
+            "geometry_msgs/msg/Twist" => read_and_written::<Twist>,
+            "geometry_msgs/msg/TwistStamped" => read_and_written::<TwistStamped>,
+            "nav_msgs/msg/Odometry" => read_and_written::<Odometry>,
+            "nav_msgs/msg/Path" => read_and_written::<Path>,
+            "nav2_msgs/msg/NavigateToPose_Feedback" => read_and_written::<Feedback>,
+            "nav2_msgs/msg/NavigateToPose_Goal" => read_and_written::<NavigateGoal>,
+            "nav2_msgs/msg/NavigateToPose_Result" if distributions == "humble" => {
+                read_and_written::<HumbleResult>
+            }
+            "nav2_msgs/msg/NavigateToPose_Result" => read_and_written::<JazzyResult>,
+            "rosgraph_msgs/msg/Clock" => read_and_written::<Clock>,
+            "sensor_msgs/msg/Imu" => read_and_written::<Imu>,
+            "sensor_msgs/msg/PointCloud2" => read_and_written::<PointCloud2>,
+            "std_msgs/msg/Bool" => read_and_written::<Bool>,
+            "tf2_msgs/msg/TFMessage" => read_and_written::<TfMessage>,
+            "visualization_msgs/msg/MarkerArray" => read_and_written::<MarkerArray>,
+            other => panic!("{other}: no message of the node's"),
+        };
+        let (got, written) = decode(&wire);
+        assert_eq!(got, values, "{kind} of {distributions}");
+        assert_eq!(written, wire, "{kind} of {distributions}");
     }
 }
