@@ -17,7 +17,10 @@ class Publisher:
     """A writer with the method that rclpy's has."""
 
     def __init__(self, writer):
-        self.publish = writer.write
+        self.writer = writer
+
+    def publish(self, message):
+        self.writer.write(message)
 
 
 class Wire:
@@ -37,6 +40,10 @@ class Wire:
 
     def publisher(self, kind, topic, is_reliable=True):
         return Publisher(DataWriter(self.participant, self.topic(kind, topic), qos(is_reliable)))
+
+    def remove_publisher(self, publisher):
+        # The library deletes a writer that nobody has any more.
+        publisher.writer = None
 
     def subscribe(self, kind, topic, hear, is_reliable=True):
         reader = DataReader(self.participant, self.topic(kind, topic), qos(is_reliable))

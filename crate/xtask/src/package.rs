@@ -47,6 +47,14 @@ impl Arch {
         }
     }
 
+    /// Its number in the header of an ELF file.
+    const fn elf_machine(self) -> u8 {
+        match self {
+            Self::Amd64 => 62,
+            Self::Arm64 => 183,
+        }
+    }
+
     const fn target(self) -> &'static str {
         match self {
             Self::Amd64 => static_programs::X86_64,
@@ -55,13 +63,14 @@ impl Arch {
     }
 }
 
-/// Builds the package and says where it is.
+/// Builds the package, installs and removes it in an empty system, and says where it is.
 pub(crate) fn run(sh: &Shell, distro: Distro, arch: Arch) -> anyhow::Result<()> {
     ensure!(
         cmd!(sh, "dpkg-deb --version").quiet().ignore_stdout().ignore_stderr().run().is_ok(),
         "dpkg-deb, which makes Debian packages, is not on PATH: install dpkg"
     );
     let package = build(sh, distro, arch)?;
+    try_out(sh, distro, arch, &package)?;
     println!("{}", package.display());
     Ok(())
 }
@@ -103,6 +112,51 @@ fn build(sh: &Shell, distro: Distro, arch: Arch) -> anyhow::Result<PathBuf> {
     let package = folder.join(format!("{name}.deb"));
     cmd!(sh, "dpkg-deb --root-owner-group --build {root} {package}").ignore_stdout().run()?;
     Ok(package)
+}
+
+/// Installs it twice, removes and purges it, with dpkg, in a system of its own that has nothing else; what is
+/// edited outlasts all but the purge.
+fn try_out(sh: &Shell, distro: Distro, arch: Arch, package: &Path) -> anyhow::Result<()> {
+    let root = setup::target_dir(sh).join("package/root");
+    sh.remove_path(&root)?;
+    for folder in ["info", "updates", "triggers"] {
+        sh.create_dir(root.join("var/lib/dpkg").join(folder))?;
+    }
+    for file in ["status", "available"] {
+        sh.write_file(root.join("var/lib/dpkg").join(file), "")?;
+    }
+    let dpkg = |words: &[&str]| {
+        // Neither the processor nor the user need be the robot's.
+        let forced = "--force-script-chrootless,not-root,architecture,confold";
+        cmd!(sh, "dpkg --root={root} --log=/dev/null {forced} {words...}").quiet().ignore_stdout().run()
+    };
+    let name = format!("mapless-node-{}", distro.name());
+    let archive = package.display().to_string();
+    let (program, unit) = ("usr/bin/mapless-node", "usr/lib/systemd/system/mapless-node.service");
+    let config = root.join("etc/mapless/robot.yaml");
+    let has = |path: &str| sh.path_exists(root.join(path));
+
+    dpkg(&["--install", &archive])?;
+    let machine = sh.read_binary_file(root.join(program))?.get(18).copied();
+    ensure!(machine == Some(arch.elf_machine()), "{program}: its ELF header names machine {machine:?}");
+    if cmd!(sh, "systemd-analyze --version").quiet().ignore_stdout().ignore_stderr().run().is_ok() {
+        // Its exit code overlooks keys that it does not know.
+        let told = cmd!(sh, "systemd-analyze verify --root={root} mapless-node.service")
+            .quiet()
+            .ignore_status()
+            .output()?;
+        ensure!(told.stderr.is_empty(), "systemd-analyze: {}", String::from_utf8_lossy(&told.stderr));
+    }
+    let edited = format!("{}# edited\n", sh.read_file(&config)?);
+    sh.write_file(&config, &edited)?;
+    dpkg(&["--install", &archive])?;
+    ensure!(sh.read_file(&config)? == edited, "an upgrade lost what was edited in robot.yaml");
+    dpkg(&["--remove", &name])?;
+    ensure!(!has(program) && !has(unit), "a removal left files behind");
+    ensure!(sh.read_file(&config)? == edited, "a removal lost robot.yaml");
+    dpkg(&["--purge", &name])?;
+    ensure!(!has("etc/mapless"), "a purge left /etc/mapless behind");
+    Ok(sh.remove_path(&root)?)
 }
 
 fn control(distro: &str, version: &str, arch: Arch) -> String {

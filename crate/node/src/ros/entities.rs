@@ -1,5 +1,7 @@
 //! What the node reads and writes.
 
+use std::time::Duration;
+
 use ros2_client::qos::{Durability, History, Reliability as RosReliability, WhenFull};
 use ros2_client::{Context, ContextOptions, MessageTypeName, Name, Node, NodeName, NodeOptions, QosProfile};
 use ros2_client::{Publisher, Subscription};
@@ -53,6 +55,12 @@ pub(crate) fn published_qos() -> QosProfile {
         .reliability(RosReliability::Reliable { when_full: WhenFull::Fail })
         .history(History::KeepLast { depth: 1 })
         .durability(Durability::Volatile)
+}
+
+/// What commands are published with. They wait for `most`: once 8192 were published, the middleware takes none
+/// from when a peer joins until that has answered for the first time.
+pub(crate) fn command_qos(most: Duration) -> QosProfile {
+    published_qos().reliability(RosReliability::Reliable { when_full: WhenFull::Wait(most) })
 }
 
 /// What is large and published for viewers alone: best effort, as sensors are. A slow viewer would ask again
@@ -169,9 +177,67 @@ impl Entities {
     }
 
     /// Waits until something came, or for `most`.
-    pub(crate) fn wait(&mut self, most: std::time::Duration) {
+    pub(crate) fn wait(&mut self, most: Duration) {
         let mut events = rustdds::mio1::Events::with_capacity(64);
         // A signal may interrupt it: then there is nothing to read.
         let _ = self.poll.poll(&mut events, Some(most));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::thread::sleep;
+    use std::time::Instant;
+
+    use mapless_peer::{join, subscription, until};
+    use ros2_client::MessageTypeName;
+
+    use super::*;
+
+    const TOPIC: &str = "/commands";
+    const KIND: &str = "std_msgs/Bool";
+
+    /// The middleware counts what a new peer has not confirmed yet since the first message, and has room for
+    /// 8192. A robot that drives for some minutes is not to stop because somebody looks at its commands.
+    #[test]
+    fn commands_go_out_while_a_peer_joins_after_minutes() {
+        let domain_id = 51 + (std::process::id() % 13) as u16;
+        let mut base = join(domain_id, "base").unwrap();
+        let heard = subscription::<Bool>(&mut base, TOPIC, KIND, 1).unwrap();
+        let mut node = join(domain_id, "node").unwrap();
+        let qos = command_qos(Duration::from_millis(20));
+        let name = Name::parse(TOPIC).unwrap();
+        let (package, kind) = KIND.split_once('/').unwrap();
+        let topic = node.create_topic(&name, MessageTypeName::new(package, kind), &qos).unwrap();
+        let publisher = node.create_publisher::<Bool>(&topic, Some(qos)).unwrap();
+        let publish = || publisher.publish(Bool { data: true }).is_ok();
+
+        until(Duration::from_secs(60), || {
+            publish();
+            heard.take().unwrap().is_some().then_some(())
+        })
+        .expect("the peers do not find each other");
+        // As many commands as two minutes have and more.
+        let mut published = 0;
+        while published < 9000 {
+            published += u32::from(publish());
+            while heard.take().unwrap().is_some() {}
+        }
+        let mut failed = 0;
+        for visit in 0..4 {
+            let mut visitor = join(domain_id, &format!("visitor_{visit}")).unwrap();
+            let seen = subscription::<Bool>(&mut visitor, TOPIC, KIND, 1).unwrap();
+            let (began, mut has_seen) = (Instant::now(), None);
+            while has_seen.is_none_or(|at: Instant| at.elapsed() < Duration::from_millis(300)) {
+                assert!(began.elapsed() < Duration::from_secs(60), "the visitor hears nothing");
+                failed += u32::from(!publish());
+                while heard.take().unwrap().is_some() {}
+                if has_seen.is_none() && seen.take().unwrap().is_some() {
+                    has_seen = Some(Instant::now());
+                }
+                sleep(Duration::from_millis(5));
+            }
+        }
+        assert_eq!(failed, 0, "commands were not published");
     }
 }
