@@ -15,7 +15,8 @@ use crate::service::Service;
 
 /// 50 Hz.
 const PERIOD: Duration = Duration::from_millis(20);
-/// The middleware may fail to take commands for so long, as when a peer joins: the base goes on with the last.
+/// The middleware may fail to take commands for so long, as when a peer joins: the base goes on with the last
+/// one.
 const PUBLISHED_WITHIN: Duration = Duration::from_millis(100);
 /// Zero commands at the end, should one get lost.
 const LAST_COMMANDS: usize = 5;

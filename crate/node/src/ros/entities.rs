@@ -57,8 +57,8 @@ pub(crate) fn published_qos() -> QosProfile {
         .durability(Durability::Volatile)
 }
 
-/// What commands are published with. They wait for `most`: once 8192 were published, the middleware takes none
-/// from when a peer joins until that has answered for the first time.
+/// What commands are published with. They wait for `most`: once 8192 were published, the middleware takes
+/// none from when a peer joins until that has answered for the first time.
 pub(crate) fn command_qos(most: Duration) -> QosProfile {
     published_qos().reliability(RosReliability::Reliable { when_full: WhenFull::Wait(most) })
 }

@@ -48,6 +48,8 @@ parameters! {
     pub struct PerceptionConfig {
         /// Radius r_oc of the occupancy surface: only returns within it count.
         surface_radius_m: f64 = 7.0, paper 7.0, unit "m", range [3.0, 9.0], check Positive;
+        /// What the skyline is read from.
+        skyline: Skyline = Skyline::VarianceSurface;
         /// Share V_th of the signal variance above which a direction counts as free.
         variance_threshold: f64 = 0.3, paper 0.7, range [0.02, 0.98], check Share;
         /// Noise variance σₙ² of the occupancy of one cell. The paper learns it.
@@ -67,6 +69,16 @@ parameters! {
         learning: LearningConfig;
     }
     relations check_learning;
+}
+
+choices! {
+    /// What the skyline is read from.
+    pub enum Skyline {
+        /// The edge of the variance surface of the Gaussian process.
+        VarianceSurface = "variance_surface",
+        /// The highest return of each column, without a Gaussian process: to see what that is worth.
+        HighestReturns = "highest_returns",
+    }
 }
 
 choices! {

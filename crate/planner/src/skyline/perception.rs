@@ -7,7 +7,7 @@
 
 use glam::DVec2;
 
-use crate::config::{InducingInputs, PerceptionConfig};
+use crate::config::{InducingInputs, PerceptionConfig, Skyline};
 use crate::gp::hyperparameters::Hyperparameters;
 use crate::gp::jitter::GpError;
 use crate::gp::learning::{Learner, LearningConfig, LearningMode};
@@ -16,7 +16,7 @@ use crate::skyline::beam_grid::BeamGrid;
 use crate::skyline::edge_tracer::EdgeTracer;
 use crate::skyline::inducing::FarthestPoints;
 use crate::skyline::occupancy::OccupancySurface;
-use crate::skyline::profile::{ElevationProfile, read_profile};
+use crate::skyline::profile::{ElevationProfile, read_highest_returns, read_profile};
 use crate::skyline::surface::{GpDiagnostics, LearnedHyperparameters, PredictedSurface};
 use crate::skyline::window_gp::WindowGp;
 
@@ -92,6 +92,11 @@ impl Perception {
         observed: &OccupancySurface,
         profile: &mut ElevationProfile,
     ) -> Result<(), GpError> {
+        if self.config.skyline == Skyline::HighestReturns {
+            read_highest_returns(observed, profile);
+            self.diagnostics = GpDiagnostics::default();
+            return Ok(());
+        }
         self.learn(observed)?;
         match &mut self.process {
             Process::Lattice(gp) => self.diagnostics = self.edge.trace(observed, gp, profile)?,
@@ -162,6 +167,7 @@ impl Perception {
 mod tests {
     use super::*;
     use crate::config::PlannerConfig;
+    use crate::skyline::beam_grid::{RING_STEP_RAD, ROWS_PER_RING};
     use crate::skyline::profile::Column;
     use crate::testing::{undulating_scan, vlp16_surface};
 
@@ -204,6 +210,31 @@ mod tests {
             assert!(first.bound[1] > first.bound[0] && second.bound[1] >= second.bound[0]);
             assert_ne!(first, second);
         }
+    }
+
+    #[test]
+    fn without_a_process_the_skyline_is_the_highest_return() {
+        let mut observed = vlp16_surface();
+        observed.project(&undulating_scan(90, 150));
+        let profile = |skyline| {
+            let config = PerceptionConfig { skyline, ..PlannerConfig::default().perception };
+            let mut profile = Vec::new();
+            Perception::new(config, observed.grid()).profile(&observed, &mut profile).unwrap();
+            profile
+        };
+        let (edge, highest) = (profile(Skyline::VarianceSurface), profile(Skyline::HighestReturns));
+        for (column, (edge, found)) in edge.iter().zip(&highest).enumerate() {
+            let Some(cell) = observed.column(column).last() else {
+                assert_eq!(*found, Column::Unknown);
+                continue;
+            };
+            let elevation_rad = observed.grid().row_elevation_rad(ROWS_PER_RING * cell.ring);
+            assert_eq!(*found, Column::Ground { elevation_rad });
+            // The edge of the variance lies within a ring or two of it.
+            let Column::Ground { elevation_rad: edge_rad } = *edge else { continue };
+            assert!((edge_rad - elevation_rad).abs() < 2.0 * RING_STEP_RAD, "{edge_rad} {elevation_rad}");
+        }
+        assert!(ground(&highest) >= 55);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The elevation profile: the border between occupied (low variance) and free (high variance) directions, one
 //! column of azimuth at a time (paper, section V-B).
 
-use crate::skyline::beam_grid::BeamGrid;
+use crate::skyline::beam_grid::{BeamGrid, ROWS_PER_RING};
 use crate::skyline::columns::COLUMNS;
 use crate::skyline::occupancy::OccupancySurface;
 use crate::skyline::surface::PredictedSurface;
@@ -45,6 +45,23 @@ pub(crate) fn read_profile(
         Some(highest) => {
             let rows = observed.grid().rows_in_view(column, highest.ring);
             read_column(&predicted.variance_column(column)[..rows], threshold, observed.grid())
+        }
+    }));
+}
+
+/// Reads the profile off the highest return of each column.
+pub(crate) fn read_highest_returns(observed: &OccupancySurface, profile: &mut ElevationProfile) {
+    let grid = observed.grid();
+    profile.clear();
+    profile.extend((0..COLUMNS).map(|column| match observed.column(column).last() {
+        None => Column::Unknown,
+        Some(highest) => {
+            let (row, rows) = (ROWS_PER_RING * highest.ring, grid.rows_in_view(column, highest.ring));
+            if row + 1 == rows {
+                Column::occupied_throughout(grid, rows)
+            } else {
+                Column::Ground { elevation_rad: grid.row_elevation_rad(row) }
+            }
         }
     }));
 }
