@@ -10,14 +10,11 @@ use ros2_client::Publisher;
 use crate::config::{CommandType, NodeConfig};
 use crate::hub::Hub;
 use crate::messages::{Header, Time, Twist, TwistStamped, Vector3};
-use crate::ros::{Entities, RosError, command_qos};
+use crate::ros::{Entities, RosError};
 use crate::service::Service;
 
 /// 50 Hz.
 const PERIOD: Duration = Duration::from_millis(20);
-/// The middleware may fail to take commands for so long, as when a peer joins: the base goes on with the last
-/// one.
-const PUBLISHED_WITHIN: Duration = Duration::from_millis(100);
 /// Zero commands at the end, should one get lost.
 const LAST_COMMANDS: usize = 5;
 
@@ -29,11 +26,11 @@ pub(crate) enum CommandPublisher {
 
 impl CommandPublisher {
     pub(crate) fn new(config: &NodeConfig, entities: &mut Entities) -> Result<Self, RosError> {
-        let (topic, qos) = (&config.topics.cmd_vel, command_qos(PERIOD));
+        let topic = &config.topics.cmd_vel;
         Ok(match config.command_type {
-            CommandType::Twist => Self::Twist(entities.publisher(topic, "geometry_msgs/Twist", qos)?),
+            CommandType::Twist => Self::Twist(entities.tireless_publisher(topic, "geometry_msgs/Twist")?),
             CommandType::TwistStamped => Self::Stamped(
-                entities.publisher(topic, "geometry_msgs/TwistStamped", qos)?,
+                entities.tireless_publisher(topic, "geometry_msgs/TwistStamped")?,
                 config.drive.frames.base.clone(),
             ),
         })
@@ -72,7 +69,6 @@ pub(crate) fn supervise(
     let mut due = hub.now();
     let mut ticked: Option<Instant> = None;
     let mut before: Option<Decision> = None;
-    let mut published = Instant::now();
     while !hub.is_ending() {
         let proposal = hub.proposal.take(hub.wait_for(due));
         let now = hub.now();
@@ -96,16 +92,13 @@ pub(crate) fn supervise(
         match publisher.publish(decision.command, hub.stamp()) {
             Ok(()) => {
                 service.fed();
-                published = Instant::now();
                 if let Some(proposal) = proposal {
                     hub.note_answer(proposal.scan_arrived);
                 }
             }
             Err(error) => {
-                hub.complain("command", &format_args!("it could not be published: {error}"));
-                if published.elapsed() > PUBLISHED_WITHIN {
-                    hub.tell(|inputs| inputs.publish_failed = true);
-                }
+                log::warn!("a command could not be published: {error}");
+                hub.tell(|inputs| inputs.publish_failed = true);
             }
         }
         tell_change(before.as_ref(), &decision);

@@ -5,8 +5,10 @@ use std::time::Duration;
 use ros2_client::qos::{Durability, History, Reliability as RosReliability, WhenFull};
 use ros2_client::{Context, ContextOptions, MessageTypeName, Name, Node, NodeName, NodeOptions, QosProfile};
 use ros2_client::{Publisher, Subscription};
-use rustdds::DomainParticipant;
 use rustdds::mio1::{Interest, Poll, Token, Waker};
+use rustdds::policy::ResourceLimits;
+use rustdds::qos::HasQoSPolicy as _;
+use rustdds::{DomainParticipant, QosPolicyBuilder, TopicDescription as _, TopicKind};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -55,12 +57,6 @@ pub(crate) fn published_qos() -> QosProfile {
         .reliability(RosReliability::Reliable { when_full: WhenFull::Fail })
         .history(History::KeepLast { depth: 1 })
         .durability(Durability::Volatile)
-}
-
-/// What commands are published with. They wait for `most`: once 8192 were published, the middleware takes
-/// none from when a peer joins until that has answered for the first time.
-pub(crate) fn command_qos(most: Duration) -> QosProfile {
-    published_qos().reliability(RosReliability::Reliable { when_full: WhenFull::Wait(most) })
 }
 
 /// What is large and published for viewers alone: best effort, as sensors are. A slow viewer would ask again
@@ -155,6 +151,32 @@ impl Entities {
         self.node.create_publisher(&told, Some(qos)).map_err(making(format!("publishing on {topic}")))
     }
 
+    /// A publisher that takes each message at once, whoever joins: of what is published for hours and must go
+    /// out.
+    ///
+    /// Until a new peer answers for the first time, the middleware counts all messages since the first as not
+    /// yet confirmed, and takes no more of them than its limit on samples, 8192 unless it is told.
+    pub(crate) fn tireless_publisher<M: Serialize>(
+        &mut self,
+        topic: &str,
+        message: &str,
+    ) -> Result<Publisher<M>, RosError> {
+        let usual = self.topic(topic, message, &published_qos())?;
+        let limits = ResourceLimits {
+            max_samples: i32::MAX,
+            max_instances: i32::MAX,
+            max_samples_per_instance: i32::MAX,
+        };
+        let qos = QosPolicyBuilder::new().resource_limits(limits).build();
+        let qos = usual.qos().modify_by(&qos);
+        let told = self
+            .participant
+            .create_topic(usual.name(), usual.get_type().name().to_owned(), &qos, TopicKind::NoKey)
+            .map_err(making(format!("topic {topic}")))?;
+        // Without a profile of its own, it has that of the topic.
+        self.node.create_publisher(&told, None).map_err(making(format!("publishing on {topic}")))
+    }
+
     fn topic(&self, topic: &str, message: &str, qos: &QosProfile) -> Result<rustdds::Topic, RosError> {
         let what = || format!("topic {topic}");
         let name = Name::parse(topic).map_err(making(what()))?;
@@ -186,13 +208,14 @@ impl Entities {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
     use std::thread::sleep;
     use std::time::Instant;
 
     use mapless_peer::{join, subscription, until};
-    use ros2_client::MessageTypeName;
 
     use super::*;
+    use crate::config::Distro;
 
     const TOPIC: &str = "/commands";
     const KIND: &str = "std_msgs/Bool";
@@ -204,12 +227,13 @@ mod tests {
         let domain_id = 51 + (std::process::id() % 13) as u16;
         let mut base = join(domain_id, "base").unwrap();
         let heard = subscription::<Bool>(&mut base, TOPIC, KIND, 1).unwrap();
-        let mut node = join(domain_id, "node").unwrap();
-        let qos = command_qos(Duration::from_millis(20));
-        let name = Name::parse(TOPIC).unwrap();
-        let (package, kind) = KIND.split_once('/').unwrap();
-        let topic = node.create_topic(&name, MessageTypeName::new(package, kind), &qos).unwrap();
-        let publisher = node.create_publisher::<Bool>(&topic, Some(qos)).unwrap();
+        let file = format!(
+            "/**:\n  ros__parameters:\n    distro: {}\n    robot_preset: husky\n    domain_id: {domain_id}\n",
+            Distro::BUILT.word()
+        );
+        let config = NodeConfig::parse(Path::new("robot.yaml"), &file).unwrap();
+        let mut node = Entities::join(&config).unwrap();
+        let publisher = node.tireless_publisher::<Bool>(TOPIC, KIND).unwrap();
         let publish = || publisher.publish(Bool { data: true }).is_ok();
 
         until(Duration::from_secs(60), || {

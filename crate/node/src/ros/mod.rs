@@ -9,7 +9,7 @@ mod spin;
 
 pub(crate) use action::ActionServer;
 pub(crate) use alive::Alive;
-pub(crate) use entities::{Entities, Incoming, command_qos, published_qos, streamed_qos};
+pub(crate) use entities::{Entities, Incoming, published_qos, streamed_qos};
 pub(crate) use parameters::ParameterServices;
 pub(crate) use presence::Presence;
 pub(crate) use spin::Spin;
