@@ -10,7 +10,7 @@ use ros2_client::Publisher;
 use crate::config::{CommandType, NodeConfig};
 use crate::hub::Hub;
 use crate::messages::{Header, Time, Twist, TwistStamped, Vector3};
-use crate::ros::{Entities, RosError};
+use crate::ros::{Entities, RosError, published_qos};
 use crate::service::Service;
 
 /// 50 Hz.
@@ -28,9 +28,11 @@ impl CommandPublisher {
     pub(crate) fn new(config: &NodeConfig, entities: &mut Entities) -> Result<Self, RosError> {
         let topic = &config.topics.cmd_vel;
         Ok(match config.command_type {
-            CommandType::Twist => Self::Twist(entities.tireless_publisher(topic, "geometry_msgs/Twist")?),
+            CommandType::Twist => {
+                Self::Twist(entities.publisher(topic, "geometry_msgs/Twist", published_qos())?)
+            }
             CommandType::TwistStamped => Self::Stamped(
-                entities.tireless_publisher(topic, "geometry_msgs/TwistStamped")?,
+                entities.publisher(topic, "geometry_msgs/TwistStamped", published_qos())?,
                 config.drive.frames.base.clone(),
             ),
         })

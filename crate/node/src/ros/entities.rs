@@ -140,38 +140,29 @@ impl Entities {
         Ok(subscription)
     }
 
-    /// A publisher of messages of the type `message`, as `package/Type`.
+    /// A publisher of messages of the type `message`, as `package/Type`. Whoever joins, it takes each at
+    /// once.
+    ///
+    /// Until a new peer answers for the first time, the middleware counts all messages since the first as
+    /// not yet confirmed. Unless it is told another limit on samples, it takes no more than 8192 of them:
+    /// two minutes of commands.
     pub(crate) fn publisher<M: Serialize>(
         &mut self,
         topic: &str,
         message: &str,
         qos: QosProfile,
     ) -> Result<Publisher<M>, RosError> {
-        let told = self.topic(topic, message, &qos)?;
-        self.node.create_publisher(&told, Some(qos)).map_err(making(format!("publishing on {topic}")))
-    }
-
-    /// A publisher that takes each message at once, whoever joins: of what is published for hours and must go
-    /// out.
-    ///
-    /// Until a new peer answers for the first time, the middleware counts all messages since the first as not
-    /// yet confirmed, and takes no more of them than its limit on samples, 8192 unless it is told.
-    pub(crate) fn tireless_publisher<M: Serialize>(
-        &mut self,
-        topic: &str,
-        message: &str,
-    ) -> Result<Publisher<M>, RosError> {
-        let usual = self.topic(topic, message, &published_qos())?;
+        let usual = self.topic(topic, message, &qos)?;
         let limits = ResourceLimits {
             max_samples: i32::MAX,
             max_instances: i32::MAX,
             max_samples_per_instance: i32::MAX,
         };
-        let qos = QosPolicyBuilder::new().resource_limits(limits).build();
-        let qos = usual.qos().modify_by(&qos);
+        let limits = QosPolicyBuilder::new().resource_limits(limits).build();
+        let (name, kind) = (usual.name(), usual.get_type().name().to_owned());
         let told = self
             .participant
-            .create_topic(usual.name(), usual.get_type().name().to_owned(), &qos, TopicKind::NoKey)
+            .create_topic(name, kind, &usual.qos().modify_by(&limits), TopicKind::NoKey)
             .map_err(making(format!("topic {topic}")))?;
         // Without a profile of its own, it has that of the topic.
         self.node.create_publisher(&told, None).map_err(making(format!("publishing on {topic}")))
@@ -233,7 +224,7 @@ mod tests {
         );
         let config = NodeConfig::parse(Path::new("robot.yaml"), &file).unwrap();
         let mut node = Entities::join(&config).unwrap();
-        let publisher = node.tireless_publisher::<Bool>(TOPIC, KIND).unwrap();
+        let publisher = node.publisher::<Bool>(TOPIC, KIND, published_qos()).unwrap();
         let publish = || publisher.publish(Bool { data: true }).is_ok();
 
         until(Duration::from_secs(60), || {
