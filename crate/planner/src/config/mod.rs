@@ -76,7 +76,8 @@ choices! {
     pub enum Skyline {
         /// The edge of the variance surface of the Gaussian process.
         VarianceSurface = "variance_surface",
-        /// The highest return of each column, without a Gaussian process: to see what that is worth.
+        /// Half a ring above the highest return of each column, where ground ends on average, without a
+        /// Gaussian process: to see what that is worth.
         HighestReturns = "highest_returns",
     }
 }

@@ -228,7 +228,8 @@ mod tests {
                 assert_eq!(*found, Column::Unknown);
                 continue;
             };
-            let elevation_rad = observed.grid().row_elevation_rad(ROWS_PER_RING * cell.ring);
+            let grid = observed.grid();
+            let elevation_rad = grid.row_elevation_rad(ROWS_PER_RING * cell.ring + ROWS_PER_RING / 2);
             assert_eq!(*found, Column::Ground { elevation_rad });
             // The edge of the variance lies within a ring or two of it.
             let Column::Ground { elevation_rad: edge_rad } = *edge else { continue };

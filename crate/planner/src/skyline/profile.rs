@@ -49,7 +49,8 @@ pub(crate) fn read_profile(
     }));
 }
 
-/// Reads the profile off the highest return of each column.
+/// Reads the profile half a ring above the highest return of each column: the next ring has none, so ground
+/// ends there on average.
 pub(crate) fn read_highest_returns(observed: &OccupancySurface, profile: &mut ElevationProfile) {
     let grid = observed.grid();
     profile.clear();
@@ -60,7 +61,7 @@ pub(crate) fn read_highest_returns(observed: &OccupancySurface, profile: &mut El
             if row + 1 == rows {
                 Column::occupied_throughout(grid, rows)
             } else {
-                Column::Ground { elevation_rad: grid.row_elevation_rad(row) }
+                Column::Ground { elevation_rad: grid.row_elevation_rad(row + ROWS_PER_RING / 2) }
             }
         }
     }));
