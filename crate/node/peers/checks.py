@@ -80,24 +80,31 @@ def stops(robot, fault, limit_s, reason):
     return ok, f"stopped after {took:.3f} s of {limit_s:.2f}: {state(robot)}, expected {reason}"
 
 
+def answers_to_clouds(robot, begin, end):
+    """How many clouds were sent in that time, how many of them were answered by one decision and how many by none,
+    and how long the answers took, in order."""
+    sent = {stamp: at for at, stamp in list(robot.scans) if begin <= at < end}
+    answers = {}
+    for at, stamp in list(robot.decisions):
+        if stamp in sent:
+            answers.setdefault(stamp, []).append(at)
+    once = sum(len(times) == 1 for times in answers.values())
+    delays_s = sorted(times[0] - sent[stamp] for stamp, times in answers.items())
+    return len(sent), once, len(sent) - len(answers), delays_s
+
+
 def no_cloud_is_lost(robot, _node):
     if not drive(robot):
         return False, f"it does not drive: {state(robot)}"
     time.sleep(1.0)
     begin = time.monotonic()
     time.sleep(10.0)
-    sent = {stamp: at for at, stamp in robot.scans if begin <= at < begin + 9.5}
-    answers = {}
-    for at, stamp in list(robot.decisions):
-        if stamp in sent:
-            answers.setdefault(stamp, []).append(at)
-    once = sum(len(times) == 1 for times in answers.values())
-    delays = sorted(times[0] - sent[stamp] for stamp, times in answers.items())
+    sent, once, _, delays_s = answers_to_clouds(robot, begin, begin + 9.5)
     rate = sum(begin <= at < begin + 9.5 for at, _, _ in robot.commands) / 9.5
-    median = 1e3 * delays[len(delays) // 2] if delays else float("nan")
-    ok = len(sent) > 80 and once == len(sent) and rate > 45.0
+    median = 1e3 * delays_s[len(delays_s) // 2] if delays_s else float("nan")
+    ok = sent > 80 and once == sent and rate > 45.0
     return ok, (
-        f"{once} of {len(sent)} clouds of 633 600 bytes were answered by one decision, "
+        f"{once} of {sent} clouds of 633 600 bytes were answered by one decision, "
         f"{median:.0f} ms after they were sent in the median; {rate:.0f} commands a second"
     )
 

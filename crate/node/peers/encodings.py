@@ -2,7 +2,7 @@
 
     pip install -r crate/recording/peers/requirements.txt, then encodings.py > crate/node/src/messages/encodings.json
 
-Each field has another value, so one that stands in the wrong place shows. Sequences have two entries.
+Values count up to a hundred and begin anew, so a field that stands in the wrong place shows. Sequences have two entries.
 """
 
 import json

@@ -83,24 +83,18 @@ def drive(robot, node, peer, seconds, is_reliable):
     deaf = sum(visitor.wait(20) != 0 for visitor in visitors)
     time.sleep(1.0)
 
-    sent = {stamp: at for at, stamp in list(robot.scans) if begin <= at < end}
-    answers = {}
-    for at, stamp in list(robot.decisions):
-        if stamp in sent:
-            answers.setdefault(stamp, []).append(at)
-    once = sum(len(times) == 1 for times in answers.values())
-    delays = sorted(times[0] - sent[stamp] for stamp, times in answers.items())
+    sent, once, never, delays_s = checks.answers_to_clouds(robot, begin, end)
     slowest = sorted(took for at, took in list(robot.slowest_ms) if begin + 1.5 <= at < end)
     commands = [command for command in list(robot.commands) if begin <= command[0] < end]
     gap_s = max(later[0] - earlier[0] for earlier, later in zip(commands, commands[1:]))
     standing = sum(v == 0.0 for _, v, _ in commands)
     share = lambda values, part: values[min(int(part * len(values)), len(values) - 1)]
-    sending = [1e3 * share(delays, part) for part in (0.5, 0.99, 1.0)]
+    sending = [1e3 * share(delays_s, part) for part in (0.5, 0.99, 1.0)]
     # Of about ten scans each, the slowest is beyond 30 ms for one in ten, where one in a hundred scans is.
     answering = [share(slowest, part) for part in (0.5, 0.9, 1.0)]
-    ok = len(sent) > 9.5 * seconds and once == len(sent) and answering[1] <= LIMIT_MS and not standing and not deaf
+    ok = sent > 9.5 * seconds and once == sent and answering[1] <= LIMIT_MS and not standing and not deaf
     return ok, (
-        f"{once} of {len(sent)} clouds answered by one decision, {len(sent) - len(answers)} by none; "
+        f"{once} of {sent} clouds answered by one decision, {never} by none; "
         f"from sending a cloud to its decision here {sending[0]:.1f} ms in the median, {sending[1]:.1f} at 99 %, {sending[2]:.1f} at most; "
         f"from its arrival to its command {answering[0]:.1f} ms as the slowest of a second in the median, {answering[1]:.1f} at 90 %, "
         f"{answering[2]:.1f} at most; "

@@ -85,7 +85,8 @@ enum Command {
         #[arg(long)]
         over_ros: bool,
     },
-    /// Build a Debian package of mapless-node, with a static program, into target/package.
+    /// Build a Debian package of mapless-node, with a static program, into target/package, and install and
+    /// purge it in an empty system.
     Package {
         /// The ROS 2 distribution that the robot runs.
         #[arg(long)]

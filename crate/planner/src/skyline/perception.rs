@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_process_the_skyline_is_the_highest_return() {
+    fn without_a_process_the_skyline_follows_the_highest_returns() {
         let mut observed = vlp16_surface();
         observed.project(&undulating_scan(90, 150));
         let profile = |skyline| {
