@@ -3,7 +3,7 @@
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import { DEVICES, faults } from './axe.ts';
-import { driveTo, expect, file, openLab, ownOf, shortCourse, state, test, until } from './page.ts';
+import { driveTo, expect, file, loaded, openLab, ownOf, shortCourse, state, test, until } from './page.ts';
 
 const tab = (page: Page) => page.getByRole('tabpanel', { name: 'Compare' });
 const card = (page: Page) => tab(page).locator('.own-planner');
@@ -83,7 +83,7 @@ for (const [device, options] of Object.entries(DEVICES)) {
 
 test('what is no planner is said, and code gets nowhere else', async ({ page, baseURL }) => {
   await page.goto('/');
-  await page.waitForFunction(() => window.mapless?.state() !== undefined);
+  await loaded(page);
   const fetched: string[] = [];
   page.on('response', (response) => fetched.push(response.url()));
   await shortCourse(page, 4);
@@ -180,7 +180,7 @@ test('links and files of the run say nothing of it; what was written is there at
   expect(await ownOf(page)).toEqual(experiment);
   expect((await state(page)).preset).toBe('default');
   await page.reload();
-  await page.waitForFunction(() => window.mapless?.state() !== undefined);
+  await loaded(page);
   await open(page);
   await expect(code(page)).toHaveValue(/grcdb$/);
 });

@@ -1,7 +1,7 @@
 /** What the page's tests share: opening it, and what is under the 3D view's pixels. */
 
 import { readFileSync } from 'node:fs';
-import { type Browser, test as base, expect, type Locator, type Page } from '@playwright/test';
+import { type Browser, test as base, errors, expect, type Locator, type Page } from '@playwright/test';
 import type { MaplessApi, MaplessState } from '../../web/src/app/windowApi.ts';
 import type { Experiment } from '../../web/src/experiment/experiment.ts';
 
@@ -43,9 +43,43 @@ export const test = base.extend<{ mapless: Page }>({
 
 export { expect };
 
-/** Waits until the first scenario is there. */
+/** A page opens within seconds, on a busy machine within a minute. */
+const OPENING_MS = 150_000;
+
+/** Waits until the first scenario is there. A browser may fail to open a page: that is told, and it is loaded once more. */
 export async function loaded(page: Page): Promise<void> {
-  await page.waitForFunction(() => window.mapless?.state() !== undefined);
+  if (await opens(page)) return;
+  process.stderr.write(`The page did not open and is loaded once more. ${await standstill(page)}\n`);
+  await page.reload();
+  if (!(await opens(page))) throw new Error(`The page does not open. ${await standstill(page)}`);
+}
+
+async function opens(page: Page): Promise<boolean> {
+  // Not by animation frames, which a browser may withhold.
+  const wait = { polling: 100, timeout: OPENING_MS };
+  return page
+    .waitForFunction(() => window.mapless?.state() !== undefined, undefined, wait)
+    .then(
+      () => true,
+      (error: unknown) => {
+        if (error instanceof errors.TimeoutError) return false;
+        throw error;
+      },
+    );
+}
+
+/** How far a page came that does not open, and what it says. */
+async function standstill(page: Page): Promise<string> {
+  const inTime = <T>(answer: Promise<T>) =>
+    Promise.race([answer, new Promise<string>((resolve) => setTimeout(resolve, 5000, 'no answer'))]).catch(String);
+  const shown = page.evaluate(() => ({
+    document: document.readyState,
+    scripts: window.mapless ? 'all run' : 'not all run',
+    said: document.getElementById('notice')?.innerText,
+    fetched: performance.getEntriesByType('resource').map(({ name }) => new URL(name).pathname),
+  }));
+  const workers = page.workers().map(async (worker) => [worker.url(), await inTime(worker.evaluate(() => self.name))]);
+  return JSON.stringify({ page: await inTime(shown), workers: await Promise.all(workers) }, undefined, 1);
 }
 
 export async function state(page: Asked): Promise<MaplessState> {

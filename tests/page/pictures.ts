@@ -1,10 +1,10 @@
 import { expect, type Page, test } from '@playwright/test';
-import { still, until } from './page.ts';
+import { loaded, still, until } from './page.ts';
 
 /** Opens the page and stops the robot on its way, for hills around it and a path behind it. */
 async function underWay(page: Page, address: string, tick: number): Promise<void> {
   await page.goto(address);
-  await page.waitForFunction(() => window.mapless?.state() !== undefined);
+  await loaded(page);
   await until(page, (now) => now.tick > tick);
   await still(page);
 }

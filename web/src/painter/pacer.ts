@@ -23,7 +23,7 @@ export class Pacer {
   constructor(software: boolean, devicePixelRatio: number) {
     this.software = software;
     this.finest = Math.min(devicePixelRatio, MOST_PIXEL_RATIO);
-    this.pixelRatio = software ? LEAST_PIXEL_RATIO : this.finest;
+    this.pixelRatio = software ? Math.min(LEAST_PIXEL_RATIO, this.finest) : this.finest;
   }
 
   /** Whether it is time to draw; `now_ms` is that of the animation frame. */
