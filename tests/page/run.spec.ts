@@ -79,3 +79,19 @@ test('another scenario, planner and seed are loaded from the bar', async ({ mapl
   await page.locator('#seed').press('Enter');
   await until(page, (now) => now.seed === 42 && now.scenario === 'ht' && now.preset === 'paper');
 });
+
+test('zoomed all the way in or out, the view comes to rest wherever it is turned', async ({ mapless: page }) => {
+  await page.locator('#view').focus();
+  await page.locator('#view').hover();
+  for (const zoom of [-240, 240]) {
+    for (let wheel = 0; wheel < 40; wheel++) await page.mouse.wheel(0, zoom);
+    for (let turn = 0; turn < 8; turn++) {
+      await page.keyboard.press('ArrowLeft');
+      const rests = await page.evaluate(() => {
+        const rests = window.mapless?.still().then(() => true);
+        return Promise.race([rests, new Promise<boolean>((resolve) => setTimeout(resolve, 60_000, false))]);
+      });
+      expect(rests).toBe(true);
+    }
+  }
+});

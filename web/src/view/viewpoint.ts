@@ -1,6 +1,6 @@
 /** The camera: behind the robot, in its eye, above it or free; moved by mouse, touch and keys, and never in the ground. */
 
-import { MathUtils, MOUSE, PerspectiveCamera, TOUCH } from 'three';
+import { MathUtils, MOUSE, PerspectiveCamera, Quaternion, TOUCH, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { wrap } from '../base/format.ts';
 import type { HeightField, Vector } from '../ground/heightField.ts';
@@ -28,6 +28,9 @@ export const OVERVIEW_ELEVATION_RAD = 0.85;
 const SWING_MS = 900;
 /** Less than this it makes at once. */
 const LEAST_SWING_RAD = 0.002;
+/** What nobody sees. */
+const LEAST_MOVE_M = 1e-6;
+const LEAST_MOVE_RAD = 1e-6;
 /** How far the camera rises with each picture while a hill hides the robot. */
 const RISE_RAD = 0.03;
 
@@ -43,6 +46,8 @@ export class Viewpoint {
   readonly #camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, DEPTH_M.near, DEPTH_M.far);
   readonly #controls: OrbitControls;
   readonly #gaze: Gaze;
+  /** Where the camera was when it last moved. */
+  readonly #before = { position: new Vector3(), quaternion: new Quaternion() };
   readonly #reduced = window.matchMedia('(prefers-reduced-motion: reduce)');
   #mode: CameraMode = 'chase';
   #dragging = false;
@@ -60,7 +65,9 @@ export class Viewpoint {
     this.#controls.maxDistance = FARTHEST_M;
     this.#controls.enableDamping = !this.#reduced.matches;
     this.#controls.dampingFactor = 0.12;
-    this.#controls.addEventListener('change', changed);
+    this.#controls.addEventListener('change', () => {
+      if (this.#hasMoved()) changed();
+    });
     this.#controls.addEventListener('start', () => {
       this.#dragging = true;
     });
@@ -234,6 +241,17 @@ export class Viewpoint {
     // What the ray meets at the robot or beyond it hides nothing.
     if (!hit || Math.hypot(hit.x - position.x, hit.y - position.y) > Math.hypot(line.x, line.y) - 0.6) return;
     this.nudge(0, RISE_RAD, 1);
+  }
+
+  /** At the nearest and the farthest, the controls tell of a zoom with every picture, which is rounding alone. */
+  #hasMoved(): boolean {
+    const { position, quaternion } = this.#camera;
+    const { position: place, quaternion: direction } = this.#before;
+    const turn_rad = quaternion.angleTo(direction);
+    if (position.distanceTo(place) < LEAST_MOVE_M && turn_rad < LEAST_MOVE_RAD) return false;
+    place.copy(position);
+    direction.copy(quaternion);
+    return true;
   }
 
   /** Places the camera around its target. */
