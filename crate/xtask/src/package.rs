@@ -114,8 +114,8 @@ fn build(sh: &Shell, distro: Distro, arch: Arch) -> anyhow::Result<PathBuf> {
     Ok(package)
 }
 
-/// Installs it twice, removes and purges it, with dpkg, in a system of its own that has nothing else; what is
-/// edited outlasts all but the purge.
+/// Installs it twice, has the program check its configuration, removes and purges it, with dpkg, in a system
+/// of its own that has nothing else; what is edited outlasts all but the purge.
 fn try_out(sh: &Shell, distro: Distro, arch: Arch, package: &Path) -> anyhow::Result<()> {
     let root = setup::target_dir(sh).join("package/root");
     sh.remove_path(&root)?;
@@ -148,6 +148,14 @@ fn try_out(sh: &Shell, distro: Distro, arch: Arch, package: &Path) -> anyhow::Re
         // Its exit code overlooks keys that it does not know.
         let told = cmd!(sh, "systemd-analyze verify {copy}").quiet().ignore_status().output()?;
         ensure!(told.stderr.is_empty(), "systemd-analyze: {}", String::from_utf8_lossy(&told.stderr));
+    }
+    match static_programs::runner(sh, arch.target()) {
+        Ok(mut words) => {
+            words.push(std::path::absolute(root.join(program))?.display().to_string());
+            let (first, words) = words.split_first().context("a program")?;
+            cmd!(sh, "{first} {words...} --check {config}").run()?;
+        }
+        Err(why) => println!("The program was not run: {why:#}"),
     }
     let edited = format!("{}# edited\n", sh.read_file(&config)?);
     sh.write_file(&config, &edited)?;

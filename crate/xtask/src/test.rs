@@ -23,7 +23,7 @@ pub(crate) enum Part {
     Lint,
     /// Rust tests on this machine.
     Native,
-    /// Two routes as static programs for x86-64, and for AArch64 where qemu-aarch64 is on PATH.
+    /// Two routes as static programs for x86-64.
     Static,
     /// Rust tests as wasm in a headless browser.
     Wasm,
@@ -32,6 +32,10 @@ pub(crate) enum Part {
     /// The answers to inputs that people have, from the data that `MAPLESS_DATA` names or ../shared; the
     /// native tests have them, too.
     Reports,
+    /// Two routes and a recording as static programs for AArch64, by qemu-aarch64 or by an emulator; only on
+    /// request, as it takes long, and without qemu needs Python and installs Unicorn and Qiling under
+    /// target/.
+    Aarch64,
     /// Campaigns on a local Ray cluster; only on request, as it needs Python 3.10 or newer and installs Ray
     /// under target/.
     Ray,
@@ -66,7 +70,15 @@ struct Stage {
 impl Stage {
     /// Whether it belongs to a part, or to all of them: those that need no more than Rust and Node.
     fn belongs_to(&self, part: Option<Part>) -> bool {
-        let on_request = [Part::Ray, Part::Reports, Part::Physics, Part::Robot, Part::Kilted, Part::Cyclone];
+        let on_request = [
+            Part::Aarch64,
+            Part::Ray,
+            Part::Reports,
+            Part::Physics,
+            Part::Robot,
+            Part::Kilted,
+            Part::Cyclone,
+        ];
         part.map_or(!self.parts.iter().all(|part| on_request.contains(part)), |part| {
             self.parts.contains(&part)
         })
@@ -84,6 +96,7 @@ const STAGES: &[Stage] = &[
     Stage { title: "lint and types of the page", parts: &[Part::Lint], run: check_page },
     Stage { title: "native tests", parts: &[Part::Native], run: test_native },
     Stage { title: "static programs", parts: &[Part::Static], run: static_programs::test },
+    Stage { title: "programs for AArch64", parts: &[Part::Aarch64], run: static_programs::test_aarch64 },
     Stage { title: "reports", parts: &[Part::Reports], run: test_reports },
     Stage { title: "wasm tests", parts: &[Part::Wasm], run: test_wasm },
     Stage { title: "unit tests of the page", parts: &[Part::Page], run: test_page_units },
