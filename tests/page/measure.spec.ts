@@ -199,51 +199,55 @@ test('the MCAP file is valid, complete and in the schemas of Foxglove', async ({
   expect(Object.fromEntries(metadata)).toMatchObject({ seed: String(seed), digest, outcome: 'running' });
 });
 
-test('pictures, plots and a film of the view', async ({ mapless: page }) => {
-  const view = await page.locator('#view').boundingBox();
-  const [width, height] = [Math.floor(view?.width ?? 0), Math.floor(view?.height ?? 0)];
-  for (const act of ['drives', 'stands']) {
-    if (act === 'stands') await driveTo(page, 30);
-    const picture = await download(page, 'save-picture');
-    expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');
-    expect(picture.bytes.length).toBeGreaterThan(20_000);
-    // Every pixel of the screen, also where a processor draws coarsely what moves.
-    expect([picture.bytes.readUInt32BE(16), picture.bytes.readUInt32BE(20)]).toEqual([width, height]);
-  }
-  const plots = (await download(page, 'save-plots')).bytes.toString();
-  const faults = await page.evaluate(
-    (text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('parsererror').length,
-    plots,
-  );
-  expect(faults).toBe(0);
-  expect(plots).not.toMatch(/class=|var\(/);
-  await page.locator('#save-film').click();
-  const { tick } = await state(page);
-  // As fast as it goes, it might be over before the recorder has a picture.
-  await page.evaluate(() => window.mapless?.setSpeed(1));
-  await page.evaluate(() => window.mapless?.play());
-  await expect(page.locator('#save-film')).toHaveText('Stop the film');
-  await until(page, (now) => now.tick > tick + 25);
-  const film = await download(page, 'save-film');
-  expect(film.name).toMatch(/film\.webm$/);
-  expect(film.bytes.readUInt32BE(0)).toBe(0x1a45dfa3);
-  expect(film.bytes.length).toBeGreaterThan(5_000);
-  await expect(page.locator('#save-film')).toHaveText('Film (WebM)');
-});
+test.describe('in full resolution', () => {
+  test.use({ deviceScaleFactor: 1 });
 
-test('the view is sharp once it stands, and coarser at most while something moves', async ({ mapless: page }) => {
-  const width = () =>
-    page.locator('#view').evaluate(async (view: HTMLCanvasElement) => {
-      const picture = await createImageBitmap(view);
-      return picture.width / view.clientWidth;
-    });
-  await until(page, ({ tick }) => tick > 5);
-  expect(await width()).toBeLessThanOrEqual(1);
-  await page.evaluate(() => window.mapless?.still());
-  expect(await width()).toBeCloseTo(1, 2);
-  await page.evaluate(() => window.mapless?.play());
-  await page.evaluate(() => window.mapless?.pause());
-  await expect.poll(width).toBeCloseTo(1, 2);
+  test('pictures, plots and a film of the view', async ({ mapless: page }) => {
+    const view = await page.locator('#view').boundingBox();
+    const [width, height] = [Math.floor(view?.width ?? 0), Math.floor(view?.height ?? 0)];
+    for (const act of ['drives', 'stands']) {
+      if (act === 'stands') await driveTo(page, 30);
+      const picture = await download(page, 'save-picture');
+      expect(picture.bytes.subarray(1, 4).toString()).toBe('PNG');
+      expect(picture.bytes.length).toBeGreaterThan(20_000);
+      // Every pixel of the screen, also where a processor draws coarsely what moves.
+      expect([picture.bytes.readUInt32BE(16), picture.bytes.readUInt32BE(20)]).toEqual([width, height]);
+    }
+    const plots = (await download(page, 'save-plots')).bytes.toString();
+    const faults = await page.evaluate(
+      (text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('parsererror').length,
+      plots,
+    );
+    expect(faults).toBe(0);
+    expect(plots).not.toMatch(/class=|var\(/);
+    await page.locator('#save-film').click();
+    const { tick } = await state(page);
+    // As fast as it goes, it might be over before the recorder has a picture.
+    await page.evaluate(() => window.mapless?.setSpeed(1));
+    await page.evaluate(() => window.mapless?.play());
+    await expect(page.locator('#save-film')).toHaveText('Stop the film');
+    await until(page, (now) => now.tick > tick + 25);
+    const film = await download(page, 'save-film');
+    expect(film.name).toMatch(/film\.webm$/);
+    expect(film.bytes.readUInt32BE(0)).toBe(0x1a45dfa3);
+    expect(film.bytes.length).toBeGreaterThan(5_000);
+    await expect(page.locator('#save-film')).toHaveText('Film (WebM)');
+  });
+
+  test('the view is sharp once it stands, and coarser at most while something moves', async ({ mapless: page }) => {
+    const width = () =>
+      page.locator('#view').evaluate(async (view: HTMLCanvasElement) => {
+        const picture = await createImageBitmap(view);
+        return picture.width / view.clientWidth;
+      });
+    await until(page, ({ tick }) => tick > 5);
+    expect(await width()).toBeLessThanOrEqual(1);
+    await page.evaluate(() => window.mapless?.still());
+    expect(await width()).toBeCloseTo(1, 2);
+    await page.evaluate(() => window.mapless?.play());
+    await page.evaluate(() => window.mapless?.pause());
+    await expect.poll(width).toBeCloseTo(1, 2);
+  });
 });
 
 test('the digest goes to the clipboard, the paper’s numbers stand beside the run’s', async ({ mapless: page }) => {
