@@ -213,7 +213,8 @@ test('six metrics stand beside the paper’s; the trajectory and pictures are sa
   expect(csv).toHaveLength((await state(page)).tick + 2);
   const { name, bytes } = await download(page, 'save-picture', 'tap');
   expect(name).toMatch(/\.png$/);
-  expect(bytes.readUInt32BE(16)).toBe(390);
+  // Every pixel of the screen.
+  expect(bytes.readUInt32BE(16)).toBe(await page.evaluate(() => window.innerWidth * window.devicePixelRatio));
   expect(bytes.length).toBeGreaterThan(20_000);
   expect((await download(page, 'save-plots', 'tap')).bytes.toString()).toContain('Curvature');
 });
