@@ -22,7 +22,7 @@ export default defineConfig({
     actionTimeout: 300_000,
     baseURL: `http://127.0.0.1:${port}`,
     viewport: { width: 1440, height: 900 },
-    // The processor draws the 3D view: at half the resolution the tests take three quarters of the time.
+    // The processor draws the 3D view, and at half the resolution has less to do. Tests of the resolution set their own.
     deviceScaleFactor: 0.5,
     screenshot: 'only-on-failure',
     launchOptions: {

@@ -16,12 +16,8 @@ from unicorn import UC_ARCH_ARM64, UC_MODE_ARM, Uc
 from unicorn.arm64_const import UC_CPU_ARM64_MAX
 
 
-# As Linux has it; below it is room up to the libraries that a static program has not.
-STACK_BYTES = 8 << 20
-
-
 def processor(_) -> Uc:
-    """One with atomic instructions: Qiling says that there are some, and its own choice has none."""
+    """One with atomic instructions: Qiling tells programs that there are some, and chooses one without."""
     emulator = Uc(UC_ARCH_ARM64, UC_MODE_ARM)
     emulator.ctl_set_cpu_model(UC_CPU_ARM64_MAX)
     return emulator
@@ -36,11 +32,11 @@ def main() -> int:
         sys.argv[1:],
         rootfs="/",
         env=dict(os.environ),
-        profile={"OS64": {"stack_size": str(STACK_BYTES)}, "MISC": {"current_path": os.getcwd()}},
+        profile={"MISC": {"current_path": os.getcwd()}},
         multithread=True,
         verbose=QL_VERBOSE.DISABLED,
     )
-    # Without a handler it would be told to have moved the memory to address 0. As it is, memory is copied instead.
+    # Qiling has no mremap and answers 0, which the C library takes for an address; refused, it copies instead.
     emulated.os.set_syscall("mremap", lambda *_: -errno.ENOSYS)
     emulated.run()
     return emulated.os.exit_code

@@ -24,11 +24,11 @@ const QEMU: [&str; 2] = ["qemu-aarch64", "qemu-aarch64-static"];
 
 /// `command`, which builds for `target`, with the linker for it.
 pub(crate) fn linked<'a>(command: Cmd<'a>, target: &str) -> Cmd<'a> {
-    command.args(["--target", target]).env(variable(target, "LINKER"), "rust-lld")
+    command.args(["--target", target]).env(linker_variable(target), "rust-lld")
 }
 
-fn variable(target: &str, what: &str) -> String {
-    format!("CARGO_TARGET_{}_{what}", target.to_uppercase().replace('-', "_"))
+fn linker_variable(target: &str) -> String {
+    format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"))
 }
 
 /// Drives two routes as static programs for x86-64: their digests are those of every other target.
@@ -88,7 +88,7 @@ fn emulator(sh: &Shell) -> anyhow::Result<Vec<String>> {
     let environment = Environment {
         folder: &setup::target_dir(sh).join("aarch64-venv"),
         requirements: "tests/aarch64/requirements.txt",
-        pythons: &["python3.12", "python3.11", "python3", "python"],
+        pythons: &["python3", "python3.12", "python3.11", "python"],
         fits: |version| version >= (3, 8),
         missing: "Programs for AArch64 need qemu-aarch64, or Python 3.8 or newer with pip for an emulator, and neither is on \
             PATH. Install one, for example with `sudo apt-get install qemu-user`.",
@@ -104,6 +104,6 @@ mod tests {
 
     #[test]
     fn cargo_reads_the_linker_by_the_target_s_name() {
-        assert_eq!(variable(X86_64, "LINKER"), "CARGO_TARGET_X86_64_UNKNOWN_LINUX_MUSL_LINKER");
+        assert_eq!(linker_variable(X86_64), "CARGO_TARGET_X86_64_UNKNOWN_LINUX_MUSL_LINKER");
     }
 }

@@ -28,7 +28,7 @@ export const OVERVIEW_ELEVATION_RAD = 0.85;
 const SWING_MS = 900;
 /** Less than this it makes at once. */
 const LEAST_SWING_RAD = 0.002;
-/** What nobody sees. */
+/** Smaller moves nobody sees. */
 const LEAST_MOVE_M = 1e-6;
 const LEAST_MOVE_RAD = 1e-6;
 /** How far the camera rises with each picture while a hill hides the robot. */
@@ -243,7 +243,10 @@ export class Viewpoint {
     this.nudge(0, RISE_RAD, 1);
   }
 
-  /** At the nearest and the farthest, the controls tell of a zoom with every picture, which is rounding alone. */
+  /**
+   * Whether the camera has moved since it was asked last: at the nearest and the farthest, rounding has the controls tell of a zoom
+   * with every picture.
+   */
   #hasMoved(): boolean {
     const { position, quaternion } = this.#camera;
     const { position: place, quaternion: direction } = this.#before;
