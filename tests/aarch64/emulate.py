@@ -1,7 +1,7 @@
 """Runs a static Linux program for AArch64 on any processor: `emulate.py PROGRAM [ARGUMENT...]`.
 
-Unicorn, which is the translator of QEMU, carries out the instructions, and Qiling the system calls. The exit
-status is that of the program.
+Unicorn, which is the translator of QEMU, carries out the instructions, and Qiling the system calls. The
+program may have one thread; the exit status is its own.
 """
 
 import errno
@@ -33,7 +33,6 @@ def main() -> int:
         rootfs="/",
         env=dict(os.environ),
         profile={"MISC": {"current_path": os.getcwd()}},
-        multithread=True,
         verbose=QL_VERBOSE.DISABLED,
     )
     # Qiling has no mremap and answers 0, which the C library takes for an address; refused, it copies instead.

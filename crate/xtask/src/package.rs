@@ -139,9 +139,10 @@ fn try_out(sh: &Shell, distro: Distro, arch: Arch, package: &Path) -> anyhow::Re
     dpkg(&["--install", &archive])?;
     let machine = sh.read_binary_file(root.join(program))?.get(18).copied();
     ensure!(machine == Some(arch.elf_machine()), "{program}: its ELF header names machine {machine:?}");
+    let installed = std::path::absolute(root.join(program))?;
     if cmd!(sh, "systemd-analyze --version").quiet().ignore_stdout().ignore_stderr().run().is_ok() {
         // Beside this system's own units, with the program where it lies here.
-        let place = std::path::absolute(root.join(program))?.display().to_string();
+        let place = installed.display().to_string();
         let copy = root.join("mapless-node.service");
         let text = sh.read_file(root.join(unit))?;
         sh.write_file(&copy, text.replace("/usr/bin/mapless-node", &place))?;
@@ -149,12 +150,8 @@ fn try_out(sh: &Shell, distro: Distro, arch: Arch, package: &Path) -> anyhow::Re
         let told = cmd!(sh, "systemd-analyze verify {copy}").quiet().ignore_status().output()?;
         ensure!(told.stderr.is_empty(), "systemd-analyze: {}", String::from_utf8_lossy(&told.stderr));
     }
-    match static_programs::runner(sh, arch.target()) {
-        Ok(mut words) => {
-            words.push(std::path::absolute(root.join(program))?.display().to_string());
-            let (first, words) = words.split_first().context("a program")?;
-            cmd!(sh, "{first} {words...} --check {config}").run()?;
-        }
+    match static_programs::command(sh, arch.target(), &installed) {
+        Ok(checked) => checked.arg("--check").arg(&config).run()?,
         Err(why) => println!("The program was not run: {why:#}"),
     }
     let edited = format!("{}# edited\n", sh.read_file(&config)?);

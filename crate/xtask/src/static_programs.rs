@@ -1,7 +1,9 @@
 //! Static programs for Linux, built without a C toolchain: what they need of musl comes with Rust, and so
 //! does their linker.
 
-use anyhow::ensure;
+use std::path::Path;
+
+use anyhow::{Context as _, ensure};
 use xshell::{Cmd, Shell, cmd};
 
 use crate::count::{Count, Runner, count};
@@ -22,6 +24,9 @@ const OWN: Option<&str> = if cfg!(all(target_os = "linux", target_arch = "x86_64
 /// Run programs for AArch64 on other processors.
 const QEMU: [&str; 2] = ["qemu-aarch64", "qemu-aarch64-static"];
 
+/// The recording that the tests keep, and its digest.
+const KEPT: &str = "crate/recording/tests/kept";
+
 /// `command`, which builds for `target`, with the linker for it.
 pub(crate) fn linked<'a>(command: Cmd<'a>, target: &str) -> Cmd<'a> {
     command.args(["--target", target]).env(linker_variable(target), "rust-lld")
@@ -31,60 +36,59 @@ fn linker_variable(target: &str) -> String {
     format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"))
 }
 
-/// Drives two routes as static programs for x86-64: their digests are those of every other target.
+/// Drives two routes in the field as static programs for x86-64: their digests are those of every other
+/// target.
 pub(crate) fn test(sh: &Shell) -> anyhow::Result<Count> {
     if OWN != Some(X86_64) {
         println!("{X86_64}: skipped, as its programs cannot run here");
         return Ok(Count { skipped: 1, ..Count::default() });
     }
-    routes(sh, X86_64, &[])
+    setup::target(sh, X86_64)?;
+    let test = cmd!(sh, "cargo test --package mapless-tests --test digests in_the_field");
+    count(linked(test, X86_64), Runner::Cargo)
 }
 
-/// The same for AArch64, with the kept recording decided again.
+/// Replays the kept recording and drives two routes with the command line for AArch64, and compares the
+/// digests. It has no threads, which Cargo's test programs have: with them the emulator is many times slower.
 pub(crate) fn test_aarch64(sh: &Shell) -> anyhow::Result<Count> {
-    let runner = runner(sh, AARCH64)?;
-    let recording = cmd!(sh, "cargo test --package mapless-recording --test recordings the_kept_recording");
-    let mut sum = tested(sh, recording, AARCH64, &runner)?;
-    sum += routes(sh, AARCH64, &runner)?;
+    setup::target(sh, AARCH64)?;
+    linked(cmd!(sh, "cargo build --release --package mapless-cli"), AARCH64).run()?;
+    let program = std::path::absolute(setup::target_dir(sh).join(AARCH64).join("release/mapless"))?;
+    let digests = sh.read_file("tests/digests.toml")?;
+    let mut cases =
+        vec![("replay", format!("{KEPT}/drive.mcap"), sh.read_file(format!("{KEPT}/drive.digest"))?)];
+    for route in ["gsb", "ht"] {
+        let digest = digests.lines().find_map(|line| line.strip_prefix(&format!("{route} = ")));
+        let digest = digest.with_context(|| format!("tests/digests.toml has no {route}"))?;
+        cases.push(("run", format!("terrains/scenarios/{route}.toml"), digest.replace('"', "")));
+    }
+    let mut sum = Count::default();
+    for (what, file, digest) in &cases {
+        let digest = digest.trim();
+        let printed = command(sh, AARCH64, &program)?.args([what, file.as_str()]).read()?;
+        ensure!(
+            printed.lines().any(|line| line.starts_with("digest") && line.ends_with(digest)),
+            "{what} {file} for AArch64: expected the digest {digest}, and it printed\n{printed}"
+        );
+        println!("{what} {file}: the digest is that of every other target");
+        sum.passed += 1;
+    }
     Ok(sum)
 }
 
-/// The words before a program for `target` that run it here: none for a program of this machine; qemu or an
-/// emulator of our own environment for AArch64.
-pub(crate) fn runner(sh: &Shell, target: &str) -> anyhow::Result<Vec<String>> {
+/// Runs a program for `target`: itself on such a machine; by qemu, or by an emulator in an environment of our
+/// own, for AArch64 elsewhere.
+pub(crate) fn command<'a>(sh: &'a Shell, target: &str, program: &Path) -> anyhow::Result<Cmd<'a>> {
     if OWN == Some(target) {
-        return Ok(Vec::new());
+        return Ok(cmd!(sh, "{program}"));
     }
-    ensure!(target == AARCH64, "programs for {target} run on Linux on x86-64 alone");
+    ensure!(target == AARCH64, "programs for {target} run on such a machine alone");
     let qemu = QEMU
         .into_iter()
         .find(|qemu| cmd!(sh, "{qemu} --version").quiet().ignore_stdout().ignore_stderr().run().is_ok());
-    match qemu {
-        Some(qemu) => Ok(vec![qemu.to_owned()]),
-        None => emulator(sh),
+    if let Some(qemu) = qemu {
+        return Ok(cmd!(sh, "{qemu} {program}"));
     }
-}
-
-/// Drives two routes in the field.
-fn routes(sh: &Shell, target: &str, runner: &[String]) -> anyhow::Result<Count> {
-    let routes = cmd!(sh, "cargo test --package mapless-tests --test digests in_the_field");
-    tested(sh, routes, target, runner)
-}
-
-/// Runs `test`, whose programs `runner` runs unless it is empty.
-fn tested(sh: &Shell, test: Cmd<'_>, target: &str, runner: &[String]) -> anyhow::Result<Count> {
-    setup::target(sh, target)?;
-    let mut test = linked(test, target);
-    if !runner.is_empty() {
-        // Not by its variable, which is divided at spaces.
-        test = test.arg("--config").arg(format!("target.{target}.runner={runner:?}"));
-    }
-    // Under an emulator threads are slow.
-    count(test.args(["--", "--test-threads", "1"]), Runner::Cargo)
-}
-
-/// The words that run a program for AArch64 without qemu.
-fn emulator(sh: &Shell) -> anyhow::Result<Vec<String>> {
     let environment = Environment {
         folder: &setup::target_dir(sh).join("aarch64-venv"),
         requirements: "tests/aarch64/requirements.txt",
@@ -93,9 +97,8 @@ fn emulator(sh: &Shell) -> anyhow::Result<Vec<String>> {
         missing: "Programs for AArch64 need qemu-aarch64, or Python 3.8 or newer with pip for an emulator, and neither is on \
             PATH. Install one, for example with `sudo apt-get install qemu-user`.",
     };
-    let python = std::path::absolute(environment.set_up(sh)?)?;
-    let script = sh.current_dir().join("tests/aarch64/emulate.py");
-    Ok([python, script].map(|path| path.display().to_string()).into())
+    let python = environment.set_up(sh)?;
+    Ok(cmd!(sh, "{python} tests/aarch64/emulate.py {program}"))
 }
 
 #[cfg(test)]

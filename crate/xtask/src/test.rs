@@ -32,8 +32,8 @@ pub(crate) enum Part {
     /// The answers to inputs that people have, from the data that `MAPLESS_DATA` names or ../shared; the
     /// native tests have them, too.
     Reports,
-    /// Two routes and a recording as static programs for AArch64, by qemu-aarch64 or by an emulator; only on
-    /// request, as it takes long, and without qemu needs Python and installs Unicorn and Qiling under
+    /// A recording and two routes with the command line for AArch64, by qemu-aarch64 or by an emulator; only
+    /// on request, as it takes long, and without qemu needs Python and installs Unicorn and Qiling under
     /// target/.
     Aarch64,
     /// Campaigns on a local Ray cluster; only on request, as it needs Python 3.10 or newer and installs Ray
