@@ -18,6 +18,7 @@ mod diagnostics;
 mod elevation;
 mod hub;
 mod lidar;
+mod memory;
 pub mod messages;
 mod mount;
 pub mod navigation;

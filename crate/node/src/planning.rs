@@ -56,36 +56,40 @@ impl Planning {
             let Some(task) = hub.task() else { continue };
             let has_jumped = hub.take_jump();
             let began = Instant::now();
-            let (picture, base_height_m) = (&self.picture, self.base_height_m);
-            let answer = self.pilot.answer(&scan, task, has_jumped, |step, recoveries| {
-                let took = began.elapsed();
-                hub.plan(Planned { goal: task.number, status: step.status, recoveries, took });
-                if let Some(poses) = hub.poses() {
-                    picture.publish(step, on_ground(poses, base_height_m), scan.stamp);
+            let answer = self.pilot.answer(&scan, task, has_jumped);
+            let took = began.elapsed();
+            match answer.status {
+                Some(status) => {
+                    let recoveries = self.pilot.recoveries();
+                    hub.plan(Planned { goal: task.number, status, recoveries, took });
                 }
-            });
-            let has_panicked = answer.proposal.outcome == Outcome::Panicked;
-            if has_panicked {
-                log::error!("the planner panicked");
+                None => log::error!("the planner panicked"),
             }
             // Before it is put: the supervisor's tick that takes it is recorded later.
             hub.record(|| Content::Answer(AnswerMessage::new(&answer, has_jumped)));
+            // Before it is shown: a command waits for it.
             hub.proposal.put(answer.proposal);
             self.publish(&scan, answer.proposal.outcome);
-            if !has_panicked {
+            if answer.status.is_some() {
                 self.show(hub, &scan);
             }
         }
     }
 
-    /// Publishes what the planner perceived, if that is asked for.
+    /// Publishes what the planner decided, and what it perceived if that is asked for.
     fn show(&mut self, hub: &Hub, scan: &Scan) {
-        let (Some(surfaces), Some(poses)) = (&mut self.surfaces, hub.poses()) else { return };
+        let Some(poses) = hub.poses() else { return };
         let poses = on_ground(poses, self.base_height_m);
-        let show = |planner: &mut Planner| surfaces.publish(planner, &scan.pose, poses, scan.stamp);
+        let (picture, surfaces) = (&self.picture, &mut self.surfaces);
+        let show = |planner: &mut Planner| {
+            picture.publish(&planner.last_step(), poses, scan.stamp);
+            if let Some(surfaces) = surfaces {
+                surfaces.publish(planner, &scan.pose, poses, scan.stamp);
+            }
+        };
         if self.pilot.ask(show).is_none() {
             log::error!("the planner panicked");
-            // A replay asks no surfaces: it hears that the planner was made anew.
+            // A replay shows nothing: it hears that the planner was made anew.
             hub.record(|| Content::Planner(Box::new(self.pilot.config().clone())));
         }
     }

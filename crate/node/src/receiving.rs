@@ -14,7 +14,7 @@ use crate::hub::Hub;
 use crate::messages::{DiagnosticArray, Feedback, Header, PoseStamped, Quaternion};
 use crate::navigation::{Ended, Navigation};
 use crate::parameters::Parameters;
-use crate::ros::{ActionServer, Entities, Incoming, ParameterServices, Presence};
+use crate::ros::{ActionServer, Entities, Heartbeat, Incoming, ParameterServices, Presence};
 use crate::senses::Senses;
 
 /// The longest wait for a message: goals end and peers come without one.
@@ -33,6 +33,7 @@ pub(crate) struct Receiving<'a> {
     pub(crate) parameter_services: ParameterServices,
     pub(crate) diagnostics: Publisher<DiagnosticArray>,
     pub(crate) presence: Presence,
+    pub(crate) heartbeat: Heartbeat,
     pub(crate) senses: Senses,
     pub(crate) navigation: Navigation,
     pub(crate) diagnosed: Duration,
@@ -73,6 +74,12 @@ impl Receiving<'_> {
         }
         if let Some(revolution) = hub.revolution.take(Duration::ZERO) {
             senses.take_revolution(hub, revolution);
+        }
+        if self.heartbeat.beat() {
+            hub.beat();
+        }
+        if self.heartbeat.is_silent() {
+            hub.complain("heartbeat", "the node does not hear itself: what it publishes may not leave");
         }
         self.presence.look(&self.entities.participant);
         let (readers, writers) = (self.presence.readers, self.presence.writers);

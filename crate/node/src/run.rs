@@ -12,6 +12,7 @@ use ros2_client::NodeName;
 use crate::config::{MountSource, NodeConfig};
 use crate::hub::Hub;
 use crate::lidar::{Lidar, LidarError};
+use crate::memory;
 use crate::mount::{self, MountError};
 use crate::navigation::Navigation;
 use crate::parameters::Parameters;
@@ -21,7 +22,8 @@ use crate::receiving::Receiving;
 use crate::recorder::Recorder;
 use crate::recording::record;
 use crate::ros::{
-    ActionServer, Alive, Entities, ParameterServices, Presence, RosError, Spin, making, published_qos,
+    ActionServer, Alive, Entities, Heartbeat, ParameterServices, Presence, RosError, Spin, making,
+    published_qos,
 };
 use crate::senses::Senses;
 use crate::service::Service;
@@ -71,6 +73,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
     for number in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGINT] {
         signal_hook::flag::register_usize(number, Arc::clone(&signal), 1)?;
     }
+    memory::limit();
     let mut entities = Entities::join(config)?;
     let mounted;
     let config = match config.sensor_mount.source {
@@ -124,6 +127,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             published_qos(),
         )?,
         presence: Presence::on(&config.topics.cmd_vel, &name, commands.gid())?,
+        heartbeat: Heartbeat::new(&mut entities)?,
         senses,
         navigation: Navigation::new(Duration::from_secs_f64(config.drive.navigation.timeout_s)),
         diagnosed: Duration::ZERO,

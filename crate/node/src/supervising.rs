@@ -93,7 +93,7 @@ pub(crate) fn supervise(
         let decision = hub.tick(now, &mut supervisor, proposal.as_ref());
         match publisher.publish(decision.command, hub.stamp()) {
             Ok(()) => {
-                service.fed();
+                service.published(hub.heartbeats());
                 if let Some(proposal) = proposal {
                     hub.note_answer(proposal.scan_arrived);
                 }

@@ -91,27 +91,15 @@ impl Pilot {
     }
 
     /// Answers a scan. `has_jumped`: the localisation jumped since the last one, so the ground is forgotten.
-    /// `look` sees the step. After a panic the planner is made anew.
-    pub fn answer(
-        &mut self,
-        scan: &Scan,
-        task: Task,
-        has_jumped: bool,
-        look: impl FnOnce(&Step<'_>, i16),
-    ) -> Answer {
-        let step = self.guarded(|this| this.step(scan, task, has_jumped, look));
+    /// After a panic the planner is made anew.
+    pub fn answer(&mut self, scan: &Scan, task: Task, has_jumped: bool) -> Answer {
+        let step = self.guarded(|this| this.step(scan, task, has_jumped));
         let (outcome, status, digest) = step.unwrap_or((Outcome::Panicked, None, String::new()));
         let proposal = Proposal { goal: task.number, scan_arrived: scan.arrived, outcome };
         Answer { proposal, status, digest }
     }
 
-    fn step(
-        &mut self,
-        scan: &Scan,
-        task: Task,
-        has_jumped: bool,
-        look: impl FnOnce(&Step<'_>, i16),
-    ) -> (Outcome, Option<Status>, String) {
+    fn step(&mut self, scan: &Scan, task: Task, has_jumped: bool) -> (Outcome, Option<Status>, String) {
         if has_jumped {
             self.planner.reset();
             self.goal = None;
@@ -128,7 +116,6 @@ impl Pilot {
             self.recoveries = self.recoveries.saturating_add(1);
         }
         self.status = Some(step.status);
-        look(&step, self.recoveries);
         (Outcome::from(&step), Some(step.status), digest(&step))
     }
 }

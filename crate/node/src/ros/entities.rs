@@ -43,7 +43,7 @@ pub(crate) struct Incoming {
 }
 
 /// What a subscriber of sensors asks for.
-fn sensor_qos(reliability: Reliability, depth: usize) -> QosProfile {
+pub(super) fn sensor_qos(reliability: Reliability, depth: usize) -> QosProfile {
     let qos = QosProfile::subscription_default().history(History::KeepLast { depth });
     match reliability {
         Reliability::BestEffort => qos,
@@ -125,7 +125,7 @@ impl Entities {
         ))
     }
 
-    fn subscription<M: DeserializeOwned + 'static>(
+    pub(super) fn subscription<M: DeserializeOwned + 'static>(
         &mut self,
         topic: &str,
         message: &str,

@@ -3,6 +3,7 @@
 mod action;
 mod alive;
 mod entities;
+mod heartbeat;
 mod parameters;
 mod presence;
 mod spin;
@@ -10,6 +11,7 @@ mod spin;
 pub(crate) use action::ActionServer;
 pub(crate) use alive::Alive;
 pub(crate) use entities::{Entities, Incoming, published_qos, streamed_qos};
+pub(crate) use heartbeat::Heartbeat;
 pub(crate) use parameters::ParameterServices;
 pub(crate) use presence::Presence;
 pub(crate) use spin::Spin;

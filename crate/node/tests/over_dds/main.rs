@@ -3,14 +3,17 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![cfg(all(unix, not(feature = "humble")))]
 
+mod flood;
 mod packets;
 mod parameters;
 mod robot;
+mod rtps;
 mod simulated;
 mod surfaces;
 mod tf;
 mod velodyne;
 
+use std::path::Path;
 use std::process::{Child, Command};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -40,6 +43,7 @@ static ALONE: Mutex<()> = Mutex::new(());
 /// The process under test; it is killed when a test fails.
 struct Process {
     child: Child,
+    command: Command,
     folder: tempfile::TempDir,
     _alone: MutexGuard<'static, ()>,
 }
@@ -47,6 +51,11 @@ struct Process {
 impl Process {
     /// The node in a domain of its own, by the sample file with `more` at its end.
     fn start(domain_id: u16, more: &str) -> Self {
+        Self::start_as(domain_id, more, &[])
+    }
+
+    /// The same with variables of its environment.
+    fn start_as(domain_id: u16, more: &str, variables: &[(&str, &Path)]) -> Self {
         let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let sample = concat!(env!("CARGO_MANIFEST_DIR"), "/config/husky-jazzy.yaml");
         let text = std::fs::read_to_string(sample).unwrap();
@@ -64,8 +73,14 @@ impl Process {
         NodeConfig::open(&file).unwrap();
         let log = std::fs::File::create(folder.path().join("log")).unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_mapless-node"));
-        let child = command.arg(&file).stderr(log).spawn().unwrap();
-        Self { child, folder, _alone: alone }
+        command.arg(&file).envs(variables.iter().copied()).stderr(log);
+        let child = command.spawn().unwrap();
+        Self { child, command, folder, _alone: alone }
+    }
+
+    /// Starts it again once it has ended, as systemd does.
+    fn restart(&mut self) {
+        self.child = self.command.spawn().unwrap();
     }
 }
 

@@ -41,7 +41,7 @@ impl Replay {
         let (Some(task), Some(scan)) = (self.task, self.scans.pop_back()) else { return };
         self.scans.clear();
         let has_jumped = std::mem::take(&mut self.has_jumped);
-        let answer = self.pilot.answer(&scan, task, has_jumped, |_, _| {});
+        let answer = self.pilot.answer(&scan, task, has_jumped);
         self.status = answer.status;
         self.proposals = VecDeque::from([answer.proposal]);
         self.report.answers += 1;

@@ -282,7 +282,7 @@ impl Replay {
         let scan = if is_there { self.scans.pop_front() } else { None };
         let task = self.tasks.iter().find(|task| task.number == recorded.goal).copied();
         let replayed = scan.zip(task).map(|(scan, task)| {
-            let answer = self.pilot.answer(&scan, task, recorded.has_jumped, |_, _| {});
+            let answer = self.pilot.answer(&scan, task, recorded.has_jumped);
             keep(&mut self.proposals, Some(answer.proposal));
             self.looked(&answer, scan, at);
             AnswerMessage::new(&answer, recorded.has_jumped)

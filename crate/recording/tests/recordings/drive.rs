@@ -164,7 +164,7 @@ impl Drive {
             && let (Some(scan), Some(task)) = (self.scan.take(), self.navigation.task())
         {
             let has_jumped = std::mem::take(&mut self.has_jumped);
-            let answer = self.pilot.answer(&scan, task, has_jumped, |_, _| {});
+            let answer = self.pilot.answer(&scan, task, has_jumped);
             self.put(arrival(40), Content::Answer(AnswerMessage::new(&answer, has_jumped)));
             (self.proposal, self.status) = (Some(answer.proposal), answer.status);
         }
