@@ -212,15 +212,13 @@ test('a link, the next visit and files keep it, and the command line drives the 
   expect((await state(page)).overrides).toEqual({ reality });
 });
 
-for (const [, scenario = '', digest = ''] of readFileSync('tests/field_digests.toml', 'utf8').matchAll(
-  /^(\w+) = "(\w+)"$/gm,
-)) {
-  test(`${scenario} in the field gives the recorded digest`, async ({ mapless: page }) => {
-    await page.evaluate((name) => window.mapless?.loadScenario(name), scenario);
-    await page.evaluate(() => window.mapless?.setOverrides({ reality: { preset: 'field' } }));
-    expect((await runToEnd(page)).digest).toBe(digest);
-  });
-}
+// The other route in the field is driven in Chromium by the wasm tests, as this one is.
+test('ht in the field gives the recorded digest', async ({ mapless: page }) => {
+  const [, digest] = /^ht = "(\w+)"$/m.exec(readFileSync('tests/field_digests.toml', 'utf8')) ?? [];
+  await page.evaluate(() => window.mapless?.loadScenario('ht'));
+  await page.evaluate(() => window.mapless?.setOverrides({ reality: { preset: 'field' } }));
+  expect((await runToEnd(page)).digest).toBe(digest);
+});
 
 test('terrains of each family come with their objects, and a link keeps them', async ({ mapless: page }) => {
   const families = await page.locator('#family option').allTextContents();

@@ -13,6 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use rayon::prelude::*;
 use serde_json::Value;
 
 /// Reports whose answer is still wrong, and why.
@@ -76,18 +77,18 @@ fn expect(holds: bool, answer: &Answer) -> Result<(), String> {
 fn every_report_gets_its_right_answer() {
     let reports = Path::new(&std::env::var_os("MAPLESS_DATA").unwrap()).join("data/reports");
     let table = fs::read_to_string(reports.join("reports.tsv")).unwrap();
-    let names = table.lines().skip(1).filter_map(|line| line.split('\t').next());
+    let names: Vec<&str> = table.lines().skip(1).filter_map(|line| line.split('\t').next()).collect();
     let checks: BTreeMap<&str, Check> =
         [captures::CHECKS, clouds::CHECKS, scans::CHECKS, terrains::CHECKS].concat().into_iter().collect();
-    let mut wrong = Vec::new();
-    for name in names {
+    let wrong = |name: &&str| {
         let report = Report { folder: reports.join(name) };
         let answer = checks.get(name).map_or(Err("no check".to_owned()), |check| check(&report));
-        match (answer, KNOWN_WRONG.iter().any(|(known, _)| *known == name)) {
-            (Err(found), false) => wrong.push(format!("{name}: {found}")),
-            (Ok(()), true) => wrong.push(format!("{name}: is right now; it stands among the wrong ones")),
-            _ => {}
+        match (answer, KNOWN_WRONG.iter().any(|(known, _)| known == name)) {
+            (Err(found), false) => Some(format!("{name}: {found}")),
+            (Ok(()), true) => Some(format!("{name}: is right now; it stands among the wrong ones")),
+            _ => None,
         }
-    }
+    };
+    let wrong: Vec<String> = names.par_iter().filter_map(wrong).collect();
     assert!(wrong.is_empty(), "{} wrong answers:\n{}", wrong.len(), wrong.join("\n"));
 }
