@@ -22,6 +22,9 @@ from robot import NAMESPACE, Robot, until  # noqa: E402
 LIMIT_MS = 30.0
 # A peer comes this often, and stays for five seconds.
 VISITS_EVERY_S = 20.0
+# A robot that says nothing for so long is stopped, as an IMU must not be older than 0.1 s; it goes on within this time.
+SILENCE_S = 0.08
+PAUSE_S = 2.0
 
 
 def wire_of(peer):
@@ -87,7 +90,11 @@ def drive(robot, node, peer, seconds, is_reliable):
     slowest = sorted(took for at, took in list(robot.slowest_ms) if begin + 1.5 <= at < end)
     commands = [command for command in list(robot.commands) if begin <= command[0] < end]
     gap_s = max(later[0] - earlier[0] for earlier, later in zip(commands, commands[1:]))
-    standing = sum(v == 0.0 for _, v, _ in commands)
+    ticks = [at for at in list(robot.ticks) if begin - PAUSE_S <= at <= end]
+    silences = [(earlier, later) for earlier, later in zip(ticks, ticks[1:]) if later - earlier > SILENCE_S]
+    is_excused = lambda at: any(earlier <= at <= later + PAUSE_S for earlier, later in silences)
+    stopped = [at for at, v, _ in commands if v == 0.0]
+    standing = sum(not is_excused(at) for at in stopped)
     share = lambda values, part: values[min(int(part * len(values)), len(values) - 1)]
     sending = [1e3 * share(delays_s, part) for part in (0.5, 0.99, 1.0)]
     # Of about ten scans each, the slowest is beyond 30 ms for one in ten, where one in a hundred scans is.
@@ -98,7 +105,8 @@ def drive(robot, node, peer, seconds, is_reliable):
         f"from sending a cloud to its decision here {sending[0]:.1f} ms in the median, {sending[1]:.1f} at 99 %, {sending[2]:.1f} at most; "
         f"from its arrival to its command {answering[0]:.1f} ms as the slowest of a second in the median, {answering[1]:.1f} at 90 %, "
         f"{answering[2]:.1f} at most; "
-        f"{len(commands) / (end - begin):.1f} commands a second, the longest gap {1e3 * gap_s:.0f} ms, {standing} of them zero; "
+        f"{len(commands) / (end - begin):.1f} commands a second, the longest gap {1e3 * gap_s:.0f} ms, {len(stopped)} of them zero, "
+        f"{standing} without a silence of the robot's ({len(silences)} of more than {1e3 * SILENCE_S:.0f} ms); "
         f"{len(visitors)} peers came and went, {deaf} heard nothing; "
         f"{100.0 * cpu_s / (end - begin):.1f} % of a core, {memory_mb[0]:.0f} to {memory_mb[1]:.0f} MB; load {load:.1f}"
     )

@@ -48,6 +48,7 @@ class Robot:
         self.commands = []  # arrival, speed, turn rate
         self.decisions = []  # arrival, stamp
         self.scans = []  # when sent, stamp
+        self.ticks = []  # when it published anything
         self.diagnosis = None
         self.slowest_ms = []  # when told, from a scan's arrival to its command, the longest since told before
         messages = self.messages
@@ -93,6 +94,7 @@ class Robot:
         """Every 10 ms: the IMU; every second time odometry; every tenth a scan and the emergency stop."""
         tick, due = 0, time.monotonic()
         while True:
+            self.ticks.append(time.monotonic())
             self.move(0.01)
             if self.is_simulated:
                 self.clock.publish(self.messages.Clock(clock=self.wire.now()))
