@@ -127,7 +127,7 @@ pub fn run(config: &NodeConfig) -> Result<(), RunError> {
             published_qos(),
         )?,
         presence: Presence::on(&config.topics.cmd_vel, &name, commands.gid())?,
-        heartbeat: Heartbeat::new(&mut entities)?,
+        heartbeat: Heartbeat::new(&config.topics.heartbeat, &mut entities)?,
         senses,
         navigation: Navigation::new(Duration::from_secs_f64(config.drive.navigation.timeout_s)),
         diagnosed: Duration::ZERO,

@@ -69,8 +69,8 @@ impl Peer {
     /// Runs the node beside a robot of it.
     pub(crate) fn test(self, sh: &Shell) -> anyhow::Result<Count> {
         let (python, [_, _, checks]) = (self.set_up(sh)?, self.files());
-        // As the tests build it: without a second build of all it depends on.
-        cmd!(sh, "cargo build --package mapless-node").run()?;
+        // The very program that the native tests have built for this one.
+        cmd!(sh, "cargo test --workspace --test over_dds --no-run").run()?;
         let program = setup::target_dir(sh).join("debug/mapless-node");
         count(cmd!(sh, "{python} crate/node/peers/{checks} {program} {CONFIG}"), Runner::Playwright)
     }

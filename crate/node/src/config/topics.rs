@@ -67,6 +67,8 @@ pub struct Topics {
     pub variance: String,
     /// `sensor_msgs/PointCloud2`, written with `visualise`: the ground that the planner remembers.
     pub elevation: String,
+    /// `builtin_interfaces/Time`, written and read by the node itself: whether messages leave.
+    pub heartbeat: String,
     /// `std_msgs/Bool`, read: true resets a latched stop.
     pub reset: String,
     /// `diagnostic_msgs/DiagnosticArray`, written.
@@ -96,6 +98,7 @@ impl Default for Topics {
             skyline: "mapless/skyline".to_owned(),
             variance: "mapless/variance".to_owned(),
             elevation: "mapless/elevation".to_owned(),
+            heartbeat: "mapless/heartbeat".to_owned(),
             reset: "mapless/reset".to_owned(),
             diagnostics: "diagnostics".to_owned(),
             navigate_to_pose: "navigate_to_pose".to_owned(),
@@ -108,7 +111,7 @@ impl Default for Topics {
 
 impl Topics {
     /// Every name with its key.
-    pub(super) fn entries(&self) -> [(&'static str, &str); 18] {
+    pub(super) fn entries(&self) -> [(&'static str, &str); 19] {
         [
             ("scan", &self.scan),
             ("odometry", &self.odometry),
@@ -122,6 +125,7 @@ impl Topics {
             ("skyline", &self.skyline),
             ("variance", &self.variance),
             ("elevation", &self.elevation),
+            ("heartbeat", &self.heartbeat),
             ("reset", &self.reset),
             ("diagnostics", &self.diagnostics),
             ("navigate_to_pose", &self.navigate_to_pose),

@@ -9,7 +9,6 @@ use super::{Entities, RosError, published_qos};
 use crate::config::Reliability;
 use crate::messages::{Time, now};
 
-const TOPIC: &str = "mapless/heartbeat";
 const KIND: &str = "builtin_interfaces/Time";
 /// It beats no faster.
 const EVERY: Duration = Duration::from_millis(50);
@@ -28,10 +27,10 @@ pub(crate) struct Heartbeat {
 }
 
 impl Heartbeat {
-    pub(crate) fn new(entities: &mut Entities) -> Result<Self, RosError> {
+    pub(crate) fn new(topic: &str, entities: &mut Entities) -> Result<Self, RosError> {
         Ok(Self {
-            subscription: entities.subscription(TOPIC, KIND, sensor_qos(Reliability::Reliable, 1))?,
-            publisher: entities.publisher(TOPIC, KIND, published_qos())?,
+            subscription: entities.subscription(topic, KIND, sensor_qos(Reliability::Reliable, 1))?,
+            publisher: entities.publisher(topic, KIND, published_qos())?,
             sent: None,
             came: Instant::now(),
         })
