@@ -82,7 +82,7 @@ impl Index {
         let (mut sections, mut until_ns) = (vec![0], 0);
         let (mut block, mut begin) = (Vec::new(), 0);
         let mut at = MAGIC.len() as u64;
-        while at + RECORD_HEAD <= end {
+        while at <= end.saturating_sub(RECORD_HEAD) {
             let within = at - begin;
             if block.is_empty() || within + TIMES + RECORD_HEAD > block.len() as u64 {
                 begin = at;

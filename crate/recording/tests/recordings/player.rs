@@ -153,3 +153,11 @@ fn decisions_that_differ_are_found_with_their_times() {
     assert!(differences.iter().all(|difference| difference.whose == "supervisor"));
     assert!(differences.windows(2).all(|pair| pair[0].at <= pair[1].at));
 }
+
+#[test]
+fn a_record_that_claims_more_bytes_than_there_are_numbers_ends_the_file() {
+    // No opcode that means anything, so that its head alone is looked at.
+    let bytes = [b"\x89MCAP0\r\n".as_slice(), &[0x80], &[0xff; 8], &[0; 32]].concat();
+    let error = Player::open(bytes, Options::default()).unwrap_err().to_string();
+    assert!(error.contains("expected"), "{error}");
+}
