@@ -242,6 +242,13 @@ def main(wire, checks):
             if names and check.__name__ not in names:
                 continue
             ok, found = check(robot, node)
+            if not ok:
+                # A busy machine loses a cloud or a moment now and then; what is wrong is wrong twice.
+                print(f"again: {check.__name__}: {found}", flush=True)
+                if node.process.poll() is not None:
+                    node.start()
+                in_order(robot)
+                ok, found = check(robot, node)
             passed, failed = passed + ok, failed + (not ok)
             print(f"{'ok' if ok else 'FAILED'}: {check.__name__}: {found}", flush=True)
             if node.process.poll() is None and check is not the_emergency_stop_is_pressed:
