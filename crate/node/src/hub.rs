@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use mapless::{PlannerConfig, Pose, Status};
@@ -56,7 +56,7 @@ pub(crate) struct Hub {
     clock: NodeClock,
     is_ending: AtomicBool,
     has_jumped: AtomicBool,
-    heartbeats: AtomicU64,
+    has_beaten: AtomicBool,
     /// From the LiDAR, if it sends packets, to the middleware.
     pub(crate) revolution: Slot<Revolution>,
     /// From the middleware to the planner.
@@ -85,7 +85,7 @@ impl Hub {
             clock: NodeClock::new(use_sim_time),
             is_ending: AtomicBool::new(false),
             has_jumped: AtomicBool::new(false),
-            heartbeats: AtomicU64::new(0),
+            has_beaten: AtomicBool::new(false),
             revolution: Slot::default(),
             scan: Slot::default(),
             proposal: Slot::default(),
@@ -145,14 +145,14 @@ impl Hub {
         self.has_jumped.swap(false, Ordering::Relaxed)
     }
 
-    /// The middleware has sent and received something.
+    /// The node heard itself: what it publishes leaves.
     pub(crate) fn beat(&self) {
-        self.heartbeats.fetch_add(1, Ordering::Relaxed);
+        self.has_beaten.store(true, Ordering::Relaxed);
     }
 
-    /// How often it has.
-    pub(crate) fn heartbeats(&self) -> u64 {
-        self.heartbeats.load(Ordering::Relaxed)
+    /// Whether the node heard itself since this was last asked.
+    pub(crate) fn take_beat(&self) -> bool {
+        self.has_beaten.swap(false, Ordering::Relaxed)
     }
 
     /// Asks every thread to end.

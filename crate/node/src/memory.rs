@@ -9,9 +9,9 @@ const MOST_BYTES: u64 = 512 << 20;
 #[cfg(target_os = "linux")]
 pub(crate) fn limit() {
     use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
-    let maximum = getrlimit(Resource::Data).maximum;
-    let current = maximum.map_or(MOST_BYTES, |maximum| maximum.min(MOST_BYTES));
-    if let Err(error) = setrlimit(Resource::Data, Rlimit { current: Some(current), maximum }) {
+    let before = getrlimit(Resource::Data);
+    let current = before.current.map_or(MOST_BYTES, |current| current.min(MOST_BYTES));
+    if let Err(error) = setrlimit(Resource::Data, Rlimit { current: Some(current), ..before }) {
         log::warn!("memory is not limited: {error}");
     }
 }
@@ -19,3 +19,15 @@ pub(crate) fn limit() {
 /// Other systems limit it by their own means.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn limit() {}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_systemd_unit_has_the_same_limit() {
+        let unit = include_str!("../package/mapless-node.service");
+        let limit = format!("\nMemoryMax={}M\n", MOST_BYTES >> 20);
+        assert!(unit.contains(&limit), "{unit}");
+    }
+}

@@ -1,21 +1,17 @@
 //! What systemd is told: `Type=notify` with `WatchdogSec=1`.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The service that this process is, if systemd runs it.
 #[derive(Debug, Default)]
 pub(crate) struct Service {
     is_ready: AtomicBool,
-    heartbeats: AtomicU64,
 }
 
 impl Service {
-    /// Called after a command was published, and never else. Feeds the watchdog if the middleware has sent
-    /// anything since, as so many `heartbeats` tell; the first time, the service is ready.
-    pub(crate) fn published(&self, heartbeats: u64) {
-        if self.heartbeats.swap(heartbeats, Ordering::Relaxed) == heartbeats {
-            return;
-        }
+    /// Feeds the watchdog; called after a command was published and the node heard itself, and never else.
+    /// The first time, the service is ready.
+    pub(crate) fn fed(&self) {
         if !self.is_ready.swap(true, Ordering::Relaxed) {
             tell(Told::Ready);
         }

@@ -93,7 +93,9 @@ pub(crate) fn supervise(
         let decision = hub.tick(now, &mut supervisor, proposal.as_ref());
         match publisher.publish(decision.command, hub.stamp()) {
             Ok(()) => {
-                service.published(hub.heartbeats());
+                if hub.take_beat() {
+                    service.fed();
+                }
                 if let Some(proposal) = proposal {
                     hub.note_answer(proposal.scan_arrived);
                 }

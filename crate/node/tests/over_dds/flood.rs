@@ -13,6 +13,7 @@ use ros2_client::{Node, Publisher, Subscription};
 
 use crate::robot::Robot;
 use crate::rtps::{Datagrams, fragment};
+use crate::sockets::bound;
 use crate::{DISCOVERY, Process, client, drive, peer, until};
 
 /// `WatchdogSec` and `RestartSec` of the unit.
@@ -35,14 +36,8 @@ fn flood() -> Duration {
 
 /// Ports of UDP at which the process alone receives; those of multicast are shared with its peers (9.6.1).
 fn ports(process: u32, domain_id: u16) -> Vec<u16> {
-    let links = std::fs::read_dir(format!("/proc/{process}/fd")).unwrap();
-    let links = links.filter_map(|link| std::fs::read_link(link.ok()?.path()).ok());
-    let sockets: Vec<String> = links.map(|link| link.display().to_string()).collect();
-    let table = std::fs::read_to_string(format!("/proc/{process}/net/udp")).unwrap();
-    let rows = table.lines().skip(1).map(|row| row.split_whitespace().collect::<Vec<_>>());
-    let own = rows.filter(|row| sockets.contains(&format!("socket:[{}]", row[9])));
-    let all = own.map(|row| u16::from_str_radix(row[1].rsplit_once(':').unwrap().1, 16).unwrap());
     let multicast = 7400 + 250 * domain_id;
+    let all = bound(process, "udp").into_iter().map(|(_, port)| port);
     all.filter(|port| !(multicast..multicast + 10).contains(port)).collect()
 }
 

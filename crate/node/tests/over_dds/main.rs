@@ -9,6 +9,7 @@ mod parameters;
 mod robot;
 mod rtps;
 mod simulated;
+mod sockets;
 mod surfaces;
 mod tf;
 mod velodyne;

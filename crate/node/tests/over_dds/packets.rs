@@ -4,26 +4,22 @@ use std::net::{Ipv4Addr, UdpSocket};
 use std::time::{Duration, Instant};
 
 use crate::robot::Robot;
+use crate::sockets::bound;
 use crate::velodyne::{SENSOR, Velodyne};
 use crate::{DISCOVERY, Process, SLACK, client, drive, peer, until};
 
 /// Ports of TCP and UDP at which a process listens, without those of the DDS domain and of senders.
 fn listens_at(process: u32, domain_id: u16) -> Vec<String> {
-    let links = std::fs::read_dir(format!("/proc/{process}/fd")).unwrap();
-    let links = links.filter_map(|link| std::fs::read_link(link.ok()?.path()).ok());
-    let sockets: Vec<String> = links.map(|link| link.display().to_string()).collect();
     let dds = 7400 + 250 * domain_id;
     let ephemeral = std::fs::read_to_string("/proc/sys/net/ipv4/ip_local_port_range").unwrap();
     let ephemeral: u16 = ephemeral.split_whitespace().next().unwrap().parse().unwrap();
     let mut found = Vec::new();
     for table in ["tcp", "tcp6", "udp", "udp6"] {
-        let rows = std::fs::read_to_string(format!("/proc/{process}/net/{table}")).unwrap();
-        for row in rows.lines().skip(1).map(|row| row.split_whitespace().collect::<Vec<_>>()) {
-            let port = u16::from_str_radix(row[1].rsplit_once(':').unwrap().1, 16).unwrap();
+        for (address, port) in bound(process, table) {
             let is_dds = table == "udp" && (dds..dds + 250).contains(&port);
             let is_sender = table == "udp" && port >= ephemeral;
-            if sockets.contains(&format!("socket:[{}]", row[9])) && !is_dds && !is_sender {
-                found.push(format!("{table} {}", row[1]));
+            if !is_dds && !is_sender {
+                found.push(format!("{table} {address}"));
             }
         }
     }

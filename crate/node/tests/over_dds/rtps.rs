@@ -1,5 +1,7 @@
 //! Datagrams that look like RTPS (DDSI-RTPS 2.3, section 9) and are damaged.
 
+use mapless_world::random::key;
+
 /// Submessages, and entities that each participant has (9.3.1.2, 9.4.5.1).
 const KINDS: [u8; 16] =
     [0x01, 0x06, 0x07, 0x08, 0x09, 0x0c, 0x0d, 0x0e, 0x0f, 0x12, 0x13, 0x15, 0x16, 0x30, 0x32, 0x80];
@@ -17,6 +19,9 @@ const ENTITIES: [[u8; 4]; 12] = [
     [0, 0, 1, 0x04],
     [0, 0, 2, 0x04],
 ];
+/// Flags of a submessage: the order of its bytes, and that it has a payload.
+const LITTLE_ENDIAN: u8 = 0x01;
+const WITH_DATA: u8 = 0x04;
 /// The longest that it makes.
 const MOST_BYTES: usize = 1400;
 
@@ -28,7 +33,7 @@ fn header(prefix: [u8; 12]) -> Vec<u8> {
 /// A fragment of a sample of this writer that claims to be so large (8.3.7.3, 9.4.5.5).
 pub(crate) fn fragment(writer: [u8; 16], sample_bytes: u32) -> Vec<u8> {
     let (prefix, entity) = writer.split_at(12);
-    let mut message = header(prefix.try_into().unwrap_or_default());
+    let mut message = header(prefix.try_into().unwrap());
     let mut body = vec![0, 0, 28, 0, 0, 0, 0, 0];
     body.extend(entity);
     // Number of the sample, high half first; first fragment, one of 1024 bytes.
@@ -40,15 +45,20 @@ pub(crate) fn fragment(writer: [u8; 16], sample_bytes: u32) -> Vec<u8> {
     }
     body.extend(sample_bytes.to_le_bytes());
     body.extend([0; 1024]);
-    message.extend([0x16, 0x01]);
-    message.extend((body.len() as u16).to_le_bytes());
-    message.extend(body);
+    append(&mut message, [0x16, LITTLE_ENDIAN], body.len() as u16, &body);
     message
+}
+
+/// A submessage of this kind, with these flags and the length that it claims (9.4.5.1).
+fn append(message: &mut Vec<u8>, kind_and_flags: [u8; 2], length: u16, body: &[u8]) {
+    message.extend(kind_and_flags);
+    message.extend(length.to_le_bytes());
+    message.extend(body);
 }
 
 /// An endless row of them, the same every time.
 pub(crate) struct Datagrams {
-    state: u64,
+    drawn: u64,
     /// That of a participant whom the node knows.
     known: [u8; 12],
     bytes: Vec<u8>,
@@ -56,19 +66,16 @@ pub(crate) struct Datagrams {
 
 impl Datagrams {
     pub(crate) fn new(known: [u8; 12]) -> Self {
-        Self { state: 0x9e37_79b9_7f4a_7c15, known, bytes: Vec::new() }
+        Self { drawn: 0, known, bytes: Vec::new() }
     }
 
-    /// xorshift64*.
     fn random(&mut self) -> u64 {
-        self.state ^= self.state >> 12;
-        self.state ^= self.state << 25;
-        self.state ^= self.state >> 27;
-        self.state.wrapping_mul(0x2545_f491_4f6c_dd1d)
+        self.drawn += 1;
+        key(1, self.drawn)
     }
 
     fn below(&mut self, bound: usize) -> usize {
-        (self.random() >> 33) as usize % bound
+        (self.random() % bound as u64) as usize
     }
 
     fn is_one_in(&mut self, count: usize) -> bool {
@@ -134,11 +141,9 @@ impl Datagrams {
     }
 
     fn append(&mut self, kind: u8, body: &[u8]) {
-        let flags = if self.is_one_in(4) { self.random() as u8 } else { 0x05 };
+        let flags = if self.is_one_in(4) { self.random() as u8 } else { LITTLE_ENDIAN | WITH_DATA };
         let length = if self.is_one_in(8) { self.random() as u16 } else { body.len() as u16 };
-        self.bytes.extend([kind, flags]);
-        self.bytes.extend(length.to_le_bytes());
-        self.bytes.extend(body);
+        append(&mut self.bytes, [kind, flags], length, body);
     }
 
     /// A participant's announcement of itself (8.5.3, 9.6.2.2).
