@@ -26,11 +26,16 @@ enum Body {
     Bytes(Vec<u8>),
     /// What most messages are made of.
     Numbers(Vec<f64>),
-    Cloud { width: u16, point_step: u8, data: Vec<f32> },
+    Cloud {
+        width: u16,
+        point_step: u8,
+        data: Vec<f32>,
+    },
 }
 
 fn cloud(stamp: Time, width: u16, point_step: u8, data: &[f32]) -> PointCloud2 {
-    let field = |(name, offset): (&str, u32)| PointField { name: name.to_owned(), offset, datatype: 7, count: 1 };
+    let field =
+        |(name, offset): (&str, u32)| PointField { name: name.to_owned(), offset, datatype: 7, count: 1 };
     PointCloud2 {
         header: Header { stamp, frame_id: "lidar".to_owned() },
         height: 1,
