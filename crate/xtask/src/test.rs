@@ -183,7 +183,9 @@ fn set_up(sh: &Shell, part: Option<Part>) -> anyhow::Result<()> {
 }
 
 fn format(sh: &Shell) -> anyhow::Result<Count> {
-    check(cmd!(sh, "cargo fmt --all --check"))
+    check(cmd!(sh, "cargo fmt --all --check"))?;
+    // A workspace of its own.
+    check(cmd!(sh, "cargo fmt --manifest-path tests/fuzz/Cargo.toml --check"))
 }
 
 fn clippy(sh: &Shell) -> anyhow::Result<Count> {

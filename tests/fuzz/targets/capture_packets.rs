@@ -38,12 +38,34 @@ fn ip(packet: &Packet, number: u16) -> Vec<u8> {
     let part = packet.fragment.map_or([0, 0], |fragment| [fragment & 0x3f, fragment.rotate_left(3)]);
     let [a, b] = (payload.len() as u16 + 20).to_be_bytes();
     let [c, d] = number.to_be_bytes();
-    let head = [0x45, 0, a, b, c, d, part[0], part[1], 64, 17, 0, 0, 10, 0, 0, packet.sender.into(), 255, 255, 255, 255];
+    let head = [
+        0x45,
+        0,
+        a,
+        b,
+        c,
+        d,
+        part[0],
+        part[1],
+        64,
+        17,
+        0,
+        0,
+        10,
+        0,
+        0,
+        packet.sender.into(),
+        255,
+        255,
+        255,
+        255,
+    ];
     [&head[..], &payload].concat()
 }
 
 fuzz_target!(|packets: Vec<Packet>| {
-    let mut capture = vec![0xd4, 0xc3, 0xb2, 0xa1, 2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 101, 0, 0, 0];
+    let mut capture =
+        vec![0xd4, 0xc3, 0xb2, 0xa1, 2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 101, 0, 0, 0];
     for (number, packet) in packets.iter().enumerate() {
         let mut packet = Packet { damage: packet.damage.clone(), ..*packet };
         // Turns on, as a sensor does.

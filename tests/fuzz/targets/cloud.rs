@@ -24,7 +24,9 @@ struct Cloud {
 }
 
 fuzz_target!(|cloud: Cloud| {
-    let Cloud { mut height, mut width, mut point_step, mut row_step, stamp_ns, is_big_endian, ref data, .. } = cloud;
+    let Cloud {
+        mut height, mut width, mut point_step, mut row_step, stamp_ns, is_big_endian, ref data, ..
+    } = cloud;
     let mut fields: Vec<Field> = Vec::new();
     for &(name, offset, datatype) in &cloud.fields {
         let name = NAMES[usize::from(name) % NAMES.len()].to_owned();
@@ -42,7 +44,8 @@ fuzz_target!(|cloud: Cloud| {
             fields.push(Field { name: name.to_owned(), offset: 4 * index as u32, datatype: 7 });
         }
     }
-    let cloud = PointCloud { height, width, fields: &fields, is_big_endian, point_step, row_step, data, stamp_ns };
+    let cloud =
+        PointCloud { height, width, fields: &fields, is_big_endian, point_step, row_step, data, stamp_ns };
     if let Ok(returns) = read(&cloud) {
         assert!(returns.points_m.len() <= data.len());
         assert!(returns.points_m.iter().all(|point| point.is_finite()));

@@ -9,11 +9,25 @@ use mapless_scans::PacketReceiver;
 #[derive(Arbitrary, Debug)]
 enum Datagram {
     /// A sensor that turns on.
-    Packets { azimuth: u16, advance: i8, stamp_us: u32, mode: u8, product: u8, damage: Vec<(u16, u8)>, repeats: u8 },
+    Packets {
+        azimuth: u16,
+        advance: i8,
+        stamp_us: u32,
+        mode: u8,
+        product: u8,
+        damage: Vec<(u16, u8)>,
+        repeats: u8,
+    },
     Other(Vec<u8>),
 }
 
-fn packet(azimuth: u16, advance: i8, stamp_us: u32, [mode, product]: [u8; 2], damage: &[(u16, u8)]) -> Vec<u8> {
+fn packet(
+    azimuth: u16,
+    advance: i8,
+    stamp_us: u32,
+    [mode, product]: [u8; 2],
+    damage: &[(u16, u8)],
+) -> Vec<u8> {
     let mut payload = Vec::with_capacity(1206);
     for block in 0..12 {
         payload.extend([0xff, 0xee]);
