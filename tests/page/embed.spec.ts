@@ -1,10 +1,9 @@
 /** The npm package: packed, installed into an empty folder, and used from there, in Node and in a page of somebody else. */
 
 import { execFileSync, spawnSync } from 'node:child_process';
-import { createReadStream, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { createReadStream, readFileSync, writeFileSync } from 'node:fs';
 import { createServer, type Server } from 'node:http';
 import type { AddressInfo } from 'node:net';
-import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 import { type Page, test } from '@playwright/test';
 import { DEVICES } from './axe.ts';
@@ -41,7 +40,7 @@ async function serve(): Promise<void> {
 }
 
 test.beforeAll(async () => {
-  folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  folder = test.info().outputPath();
   run('npm', ['run', 'embed', '--silent'], '.');
   const [packed] = JSON.parse(run('npm', ['pack', '--json', '--pack-destination', folder], 'target/embed'));
   writeFileSync(join(folder, 'package.json'), '{ "type": "module", "private": true }');

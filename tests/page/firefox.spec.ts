@@ -1,5 +1,4 @@
-import { mkdtempSync, readFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test as base, expect } from '@playwright/test';
 import { preview } from 'vite';
@@ -40,7 +39,7 @@ test.describe('in Firefox', () => {
     await firefox.evaluate(() => window.mapless?.play());
     await until(firefox, (now) => now.outcome !== 'running');
     const { outcome, digest } = await state(firefox);
-    const out = mkdtempSync(join(tmpdir(), 'mapless-'));
+    const out = test.info().outputPath();
     const run = driven('terrains/scenarios/ht.toml', '--seed', '3', '--out', out);
     expect({ outcome, digest }).toEqual({ outcome: run.outcome, digest: run.digest });
     await firefox.click('#save-csv');

@@ -1,6 +1,5 @@
-import { mkdtempSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { writeFileSync } from 'node:fs';
+import { resolve } from 'node:path';
 import type { Page } from '@playwright/test';
 import { driven } from './commandLine.ts';
 import { changeFirstCore, driveTo, expect, loaded, openLab, shortCourse, state, test, until } from './page.ts';
@@ -110,7 +109,7 @@ cost_model = "paper"
 [planner.perception.kernel]
 length_scales_rad = [0.12, 0.05]
 `;
-  const file = join(mkdtempSync(join(tmpdir(), 'mapless-')), 'scenario.toml');
+  const file = test.info().outputPath('scenario.toml');
   writeFileSync(file, scenario);
   expect(driven(file)).toMatchObject({ digest, ticks: tick });
 });

@@ -1,7 +1,6 @@
 /** The table of a campaign, as the command line writes it: standings, and each trial to be driven in the view. */
 
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import type { Page } from '@playwright/test';
 import { rowsOf } from '../../web/src/files/csv.ts';
@@ -11,7 +10,7 @@ import { expect, file, state, test, until } from './page.ts';
 
 /** The tables of a campaign of two planners on a short scenario. */
 function campaign(): { csv: string; parquet: Buffer } {
-  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  const folder = test.info().outputPath();
   const scenario = resolve('terrains/scenarios/ht.toml');
   const text = `planners = ["default", "direct"]\nroutes = ["${scenario}"]\nseeds = [3, 4]\n`;
   writeFileSync(join(folder, 'small.toml'), text);

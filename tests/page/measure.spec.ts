@@ -1,5 +1,4 @@
-import { mkdtempSync, readFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { McapIndexedReader } from '@mcap/core';
 import type { Download, Page } from '@playwright/test';
@@ -92,7 +91,7 @@ test('trajectory and result are those of the command line', async ({ mapless: pa
   await page.evaluate(() => window.mapless?.loadScenario('ht', { seed: 5 }));
   await page.evaluate(() => window.mapless?.play());
   await until(page, (now) => now.outcome !== 'running');
-  const out = mkdtempSync(join(tmpdir(), 'mapless-'));
+  const out = test.info().outputPath();
   driven('terrains/scenarios/ht.toml', '--seed', '5', '--out', out);
   const csv = await download(page, 'save-csv');
   expect(csv.name).toBe('mapless-ht-seed5-trajectory.csv');

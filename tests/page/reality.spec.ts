@@ -1,7 +1,6 @@
 /** Reality: presets and single effects by mouse, finger and keyboard; the believed pose; the ghost of an ideal world; links and files keep it. */
 
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { type Page, test as plain } from '@playwright/test';
 import { unzipSync } from 'fflate';
@@ -195,7 +194,7 @@ test('a link, the next visit and files keep it, and the command line drives the 
 
   await page.locator('#share').click();
   const { bytes } = await download(page, 'save-scenario');
-  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  const folder = test.info().outputPath();
   for (const [name, content] of Object.entries(unzipSync(bytes))) writeFileSync(join(folder, name), content);
   expect(readFileSync(join(folder, 'scenario.toml'), 'utf8')).toContain('[reality]\npreset = "field"');
   const { outcome, ticks, digest } = driven(join(folder, 'scenario.toml'));

@@ -1,5 +1,4 @@
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { deflateRawSync } from 'node:zlib';
 import { type Page, test as plain } from '@playwright/test';
@@ -38,7 +37,7 @@ test('a link drives the same run in another profile, and so does the command lin
   const [zipped] = await Promise.all([page.waitForEvent('download'), page.locator('#save-scenario').click()]);
   expect(zipped.suggestedFilename()).toBe('ht.zip');
 
-  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  const folder = test.info().outputPath();
   const files = unzipSync(readFileSync(await zipped.path()));
   for (const [name, bytes] of Object.entries(files)) writeFileSync(join(folder, name), bytes);
   const { outcome, ticks, digest } = driven(join(folder, 'scenario.toml'));
@@ -144,7 +143,7 @@ plain('the way out of a frame leads to what is shown in it', async ({ page, cont
 });
 
 plain('a generated task by name is driven as by the command line', async ({ page }) => {
-  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  const folder = test.info().outputPath();
   said('generate', '--seed', '6', '--difficulty', 'easy', '--count', '2', '--out', folder);
   await page.goto('/?scenario=easy-6-0002&seed=5');
   await loaded(page);

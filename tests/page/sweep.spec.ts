@@ -1,7 +1,6 @@
 /** One parameter over values and seeds: a plot, a table to replay from, and files that the command line drives the same way. */
 
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page } from '@playwright/test';
 import { unzipSync } from 'fflate';
@@ -62,7 +61,7 @@ test('its campaign gives the same digests on the command line as its table says'
   await tab(page).getByRole('button', { name: 'Run' }).click();
   await expect(tab(page).getByRole('status')).toHaveText(/^4 trials/);
   const table = rows((await saved(page, 'Save as CSV')).toString());
-  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  const folder = test.info().outputPath();
   for (const [name, bytes] of Object.entries(unzipSync(await saved(page, 'Save as campaign')))) {
     writeFileSync(join(folder, name), bytes);
   }
@@ -138,7 +137,7 @@ test('many seeds are saved as a table and as a campaign that gives the same dige
   const table = rows((await saved(page, 'Save as CSV', seeds)).toString());
   expect(table.map(({ seed }) => seed)).toEqual(['1', '2', '3']);
   expect(table[0]).toMatchObject({ planner: 'paper', parameters: 'sensor.range_noise_m=0.03' });
-  const folder = mkdtempSync(join(tmpdir(), 'mapless-'));
+  const folder = test.info().outputPath();
   for (const [name, bytes] of Object.entries(unzipSync(await saved(page, 'Save as campaign', seeds)))) {
     writeFileSync(join(folder, name), bytes);
   }
