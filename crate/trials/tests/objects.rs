@@ -36,6 +36,19 @@ fn a_wall_is_driven_through_where_it_is_open() {
 }
 
 #[test]
+fn two_walls_are_passed_though_their_openings_do_not_lie_opposite() {
+    // Ground between and behind the walls is hidden. It is no cliff, or the openings would be closed.
+    let objects = [
+        wall([20.0, 5.0], [20.0, 19.0]),
+        wall([20.0, 21.0], [20.0, 38.0]),
+        wall([21.1, 5.0], [21.1, 18.2]),
+        wall([21.1, 20.2], [21.1, 38.0]),
+    ];
+    let mut trial = trial(&objects.concat());
+    assert_eq!(outcome_within(&mut trial, 45), Some(Outcome::Reached), "{:?}", trial.end_reason());
+}
+
+#[test]
 fn a_collision_has_a_place_and_a_cause() {
     // Too thin to be seen in time: the planner sees no wire.
     let wire =

@@ -37,8 +37,6 @@ const PARTS: usize = 4;
 const FEWEST_FACES: u32 = 3;
 /// Parts of a cell's side: where in the cell the faces stand.
 const FACE_PARTS: i32 = 4;
-/// The body keeps this far from what is upright.
-const UPRIGHT_MARGIN_M: f64 = 0.1;
 /// Radii of the ground around a place that carries the robot, as multiples of the footprint's radius. A wider
 /// plane replaces a narrower one if the rings of a scan lie farther apart.
 const FOOTPRINT_RADII: [f64; 3] = [1.0, 1.6, 2.4];
@@ -56,9 +54,9 @@ pub(crate) trait TerrainQuery {
     /// side of `here_m`, or a drop. It stays one, `was_negative_obstacle`, while no returns come from it.
     fn is_negative_obstacle(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool;
 
-    /// Whether the body at a place would touch something upright, a wall, a post or a step, for each axis of
-    /// travel.
-    fn touches_upright(&self, place_m: DVec2) -> [bool; AXES];
+    /// The distance of the body at a place from what is upright, a wall, a post or a step, for each axis of
+    /// travel; at most `most_m`.
+    fn room_m(&self, place_m: DVec2, most_m: f64) -> [f64; AXES];
 
     /// Whether the robot at a place with this plane, or just before or behind it, would be beyond its tilt
     /// limits with a wheel in a hole, or would set its underside down, for each axis of travel.
@@ -82,8 +80,8 @@ impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
         false
     }
 
-    fn touches_upright(&self, _: DVec2) -> [bool; AXES] {
-        [false; AXES]
+    fn room_m(&self, _: DVec2, most_m: f64) -> [f64; AXES] {
+        [most_m; AXES]
     }
 
     fn sets_down(&self, _: DVec2, _: &Plane) -> [bool; AXES] {
@@ -374,15 +372,14 @@ impl TerrainQuery for ElevationWindow {
         self.is_cliff(place_m, here_m, was_negative_obstacle)
     }
 
-    fn touches_upright(&self, place_m: DVec2) -> [bool; AXES] {
-        let mut touches = [false; AXES];
-        let half_m = self.half_body_m + UPRIGHT_MARGIN_M;
-        self.each_upright(place_m, half_m.length(), &mut |thing_m| {
-            for (touches, direction) in touches.iter_mut().zip(DIRECTIONS) {
-                *touches |= distance_from_body_m(half_m, thing_m - place_m, direction) < 0.0;
+    fn room_m(&self, place_m: DVec2, most_m: f64) -> [f64; AXES] {
+        let mut room_m = [most_m; AXES];
+        self.each_upright(place_m, (self.half_body_m + most_m).length(), &mut |thing_m| {
+            for (room_m, direction) in room_m.iter_mut().zip(DIRECTIONS) {
+                *room_m = room_m.min(distance_from_body_m(self.half_body_m, thing_m - place_m, direction));
             }
         });
-        touches
+        room_m
     }
 
     fn sets_down(&self, place_m: DVec2, plane: &Plane) -> [bool; AXES] {
@@ -443,6 +440,17 @@ mod tests {
             ground.add_face(place_m);
         }
         ground
+    }
+
+    #[test]
+    fn the_room_beside_a_post_is_that_of_the_body_along_each_axis_of_travel() {
+        // A Husky is 0.99 m long and 0.67 m wide.
+        let room_m = post(DVec2::new(0.0, 0.7)).room_m(DVec2::ZERO, 0.5);
+        let along = DIRECTIONS.iter().position(|direction| direction.abs_diff_eq(DVec2::X, 1e-9)).unwrap();
+        let across = DIRECTIONS.iter().position(|direction| direction.abs_diff_eq(DVec2::Y, 1e-9)).unwrap();
+        assert!((room_m[along] - 0.265).abs() < 0.05 && (room_m[across] - 0.105).abs() < 0.05, "{room_m:?}");
+        let alone_m = post(DVec2::new(0.0, 1.5)).room_m(DVec2::ZERO, 0.5);
+        assert!(alone_m.iter().all(|room_m| (room_m - 0.5).abs() < 1e-12), "{alone_m:?}");
     }
 
     proptest! {

@@ -13,6 +13,9 @@ use crate::terrain::slopes::Slopes;
 /// A place is queried again after this many scans: the ground is static, and the robot drives about a step
 /// meanwhile.
 const LOOKS: i32 = 4;
+/// The body keeps this far from what is upright, and shuns it up to a larger distance.
+const LEAST_ROOM_M: f64 = 0.1;
+const SOUGHT_ROOM_M: f64 = 0.5;
 
 /// The last query's result at a place.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +27,8 @@ pub(crate) struct Known {
     pub(crate) is_negative_obstacle: bool,
     /// Whether the body would touch something upright or set its underside down, for each axis of travel.
     pub(crate) is_blocked: [bool; AXES],
+    /// The share of the sought room beside what is upright that the body lacks, for each axis of travel.
+    pub(crate) lacks_room: [f32; AXES],
 }
 
 /// Places by their offset from the one nearest to the robot.
@@ -105,13 +110,18 @@ impl PlaceLattice {
         let footprint_slopes = plane.map_or([None; AXES], |plane| {
             DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
         });
+        let room_m = ground.room_m(place_m, SOUGHT_ROOM_M);
+        let touches_upright = room_m.map(|room_m| room_m < LEAST_ROOM_M);
+        let lacks_room =
+            room_m.map(|room_m| ((SOUGHT_ROOM_M - room_m) / (SOUGHT_ROOM_M - LEAST_ROOM_M)) as f32);
+        // What stands hides the ground behind it, and drops off at its side.
         let is_negative_obstacle = self.avoids_negative_obstacles
+            && touches_upright.contains(&false)
             && footprint_slopes.iter().any(Option::is_none)
             && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
-        let touches_upright = ground.touches_upright(place_m);
         let sets_down = plane.map_or([false; AXES], |plane| ground.sets_down(place_m, &plane));
         let is_blocked = core::array::from_fn(|axis| touches_upright[axis] || sets_down[axis]);
-        Known { plane, footprint_slopes, is_negative_obstacle, is_blocked }
+        Known { plane, footprint_slopes, is_negative_obstacle, is_blocked, lacks_room }
     }
 
     /// What the last query found at a place.
@@ -183,4 +193,49 @@ impl PlaceLattice {
 /// A cell and those beside it.
 pub(crate) fn around(cell: IVec2) -> impl Iterator<Item = IVec2> {
     (-1..=1).flat_map(move |y| (-1..=1).map(move |x| cell + IVec2::new(x, y)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::PlannerConfig;
+
+    /// Level ground that would be a negative obstacle everywhere, with something upright at the origin.
+    struct Standing;
+
+    impl TerrainQuery for Standing {
+        fn plane_at(&self, _: DVec2) -> Option<Plane> {
+            Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 })
+        }
+
+        fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
+            None
+        }
+
+        fn is_negative_obstacle(&self, _: DVec2, _: DVec2, _: bool) -> bool {
+            true
+        }
+
+        fn room_m(&self, place_m: DVec2, most_m: f64) -> [f64; AXES] {
+            [(place_m.length() - 0.5).min(most_m); AXES]
+        }
+
+        fn sets_down(&self, _: DVec2, _: &Plane) -> [bool; AXES] {
+            [false; AXES]
+        }
+
+        fn each_upright(&self, _: DVec2, _: f64, _: &mut dyn FnMut(DVec2)) {}
+    }
+
+    #[test]
+    fn what_stands_blocks_and_is_no_negative_obstacle_and_room_lacks_beside_it() {
+        let mut places = PlaceLattice::new(&PlannerConfig::default().state_lattice, 3.0);
+        places.look(&Standing, DVec2::ZERO);
+        let known = |x| places.known(IVec2::new(x, 0)).unwrap();
+        assert_eq!(places.position_m(IVec2::new(2, 0)), DVec2::X);
+        assert!(known(0).is_blocked[0] && !known(0).is_negative_obstacle);
+        assert!(known(1).is_blocked[0] && !known(1).is_negative_obstacle, "0 m from the body");
+        assert!(!known(2).is_blocked[0] && known(2).is_negative_obstacle, "beside it");
+        assert!((0..=3).all(|x| (known(x).lacks_room[0] > 0.0) == (x < 2)));
+    }
 }

@@ -69,6 +69,8 @@ const MOST_MARKED: usize = 128;
 const PENALTY_RADIUS_M: f64 = 0.6;
 const PENALTY_RISK: f32 = 2.0;
 const MOST_TIMES: usize = 3;
+/// Risk where the body has the least room beside what is upright; it falls with the square of what lacks.
+const ROOM_RISK: f32 = 1.0;
 /// Inflation at a place, radius (standard deviation of a Gaussian) of it, and bound on the sum; the distance
 /// driven over which it decays to e⁻¹, and the least that counts.
 const INFLATION: f64 = 1.0;
@@ -184,7 +186,8 @@ impl TraversabilityMap {
                     let risk = self.risk_of(&plane, &known.footprint_slopes, caution, away_m, deviations);
                     let risk = core::array::from_fn(|axis| {
                         let is_blocked = is_at_cliff || known.is_blocked[axis];
-                        if is_blocked { f32::INFINITY } else { risk[axis] + penalty }
+                        let near = ROOM_RISK * known.lacks_room[axis] * known.lacks_room[axis];
+                        if is_blocked { f32::INFINITY } else { risk[axis] + penalty + near }
                     });
                     Place { plane: Some(plane), risk, is_at_cliff }
                 }
