@@ -75,8 +75,9 @@ fn report(seconds: u32, rows: &[(String, u64)], flood: &str) -> String {
     }
     let _ = writeln!(
         text,
-        "\n`mapless-node` in a flood of damaged RTPS for as long, started anew whenever it ends or its watchdog is not fed, as systemd does: {flood}. It \
-         never panicked, moved, or went on without commands that arrive (`crate/node/tests/over_dds/flood.rs`)."
+        "\n`mapless-node` in a flood of damaged RTPS for as long, started anew whenever it ends or its watchdog is not fed, as systemd does: {flood}. Its \
+         code never panicked, and it never moved, or went on without commands that arrive. Where RustDDS panicked, the node ended \
+         (`crate/node/tests/over_dds/flood.rs`)."
     );
     text
 }
