@@ -1,9 +1,10 @@
 /** The npm package: packed, installed into an empty folder, and used from there, in Node and in a page of somebody else. */
 
 import { execFileSync, spawnSync } from 'node:child_process';
-import { createReadStream, readFileSync, writeFileSync } from 'node:fs';
+import { createReadStream, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createServer, type Server } from 'node:http';
 import type { AddressInfo } from 'node:net';
+import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 import { type Page, test } from '@playwright/test';
 import { DEVICES } from './axe.ts';
@@ -40,7 +41,8 @@ async function serve(): Promise<void> {
 }
 
 test.beforeAll(async () => {
-  folder = test.info().outputPath();
+  // Outside the repository, whose own settings would hold for it.
+  folder = mkdtempSync(join(tmpdir(), 'mapless-'));
   run('npm', ['run', 'embed', '--silent'], '.');
   const [packed] = JSON.parse(run('npm', ['pack', '--json', '--pack-destination', folder], 'target/embed'));
   writeFileSync(join(folder, 'package.json'), '{ "type": "module", "private": true }');
@@ -48,7 +50,10 @@ test.beforeAll(async () => {
   await serve();
 });
 
-test.afterAll(() => server?.close());
+test.afterAll(() => {
+  server?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
 
 /** A page of somebody else with this in its body. */
 async function open(page: Page, name: string, body: string): Promise<void> {
