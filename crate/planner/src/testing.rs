@@ -8,7 +8,10 @@ use crate::config::PlannerConfig;
 use crate::sensor_model::SensorModel;
 use crate::skyline::beam_grid::BeamGrid;
 use crate::skyline::occupancy::OccupancySurface;
-use crate::terrain::elevation_window::ElevationWindow;
+use crate::terrain::elevation_window::{ElevationWindow, TerrainQuery};
+use crate::terrain::headings::AXES;
+use crate::terrain::plane::Plane;
+use crate::terrain::slopes::Slopes;
 
 /// Time between two scans.
 pub(crate) const STEP: Duration = Duration::from_millis(100);
@@ -26,6 +29,38 @@ pub(crate) fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> ElevationWindow
         }
     }
     ground
+}
+
+/// Level ground on which something upright stands, for a body that is a point. All of it may be a negative
+/// obstacle.
+pub(crate) struct Standing {
+    pub(crate) at_m: DVec2,
+    pub(crate) radius_m: f64,
+    pub(crate) is_void: bool,
+}
+
+impl TerrainQuery for Standing {
+    fn plane_at(&self, _: DVec2) -> Option<Plane> {
+        Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 })
+    }
+
+    fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
+        None
+    }
+
+    fn is_negative_obstacle(&self, _: DVec2, _: DVec2, _: bool) -> bool {
+        self.is_void
+    }
+
+    fn room_m(&self, place_m: DVec2, most_m: f64) -> [f64; AXES] {
+        [(place_m.distance(self.at_m) - self.radius_m).min(most_m); AXES]
+    }
+
+    fn sets_down(&self, _: DVec2, _: &Plane) -> [bool; AXES] {
+        [false; AXES]
+    }
+
+    fn each_upright(&self, _: DVec2, _: f64, _: &mut dyn FnMut(DVec2)) {}
 }
 
 /// An empty surface of a VLP-16 within 7 m.

@@ -199,38 +199,12 @@ pub(crate) fn around(cell: IVec2) -> impl Iterator<Item = IVec2> {
 mod tests {
     use super::*;
     use crate::config::PlannerConfig;
-
-    /// Level ground that would be a negative obstacle everywhere, with something upright at the origin.
-    struct Standing;
-
-    impl TerrainQuery for Standing {
-        fn plane_at(&self, _: DVec2) -> Option<Plane> {
-            Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 })
-        }
-
-        fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
-            None
-        }
-
-        fn is_negative_obstacle(&self, _: DVec2, _: DVec2, _: bool) -> bool {
-            true
-        }
-
-        fn room_m(&self, place_m: DVec2, most_m: f64) -> [f64; AXES] {
-            [(place_m.length() - 0.5).min(most_m); AXES]
-        }
-
-        fn sets_down(&self, _: DVec2, _: &Plane) -> [bool; AXES] {
-            [false; AXES]
-        }
-
-        fn each_upright(&self, _: DVec2, _: f64, _: &mut dyn FnMut(DVec2)) {}
-    }
+    use crate::testing::Standing;
 
     #[test]
     fn what_stands_blocks_and_is_no_negative_obstacle_and_room_lacks_beside_it() {
         let mut places = PlaceLattice::new(&PlannerConfig::default().state_lattice, 3.0);
-        places.look(&Standing, DVec2::ZERO);
+        places.look(&Standing { at_m: DVec2::ZERO, radius_m: 0.5, is_void: true }, DVec2::ZERO);
         let known = |x| places.known(IVec2::new(x, 0)).unwrap();
         assert_eq!(places.position_m(IVec2::new(2, 0)), DVec2::X);
         assert!(known(0).is_blocked[0] && !known(0).is_negative_obstacle);

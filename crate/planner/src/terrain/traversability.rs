@@ -23,9 +23,9 @@ pub(crate) enum Caution {
 /// The risk at a pose between places: the mean of those around it that are safe, weighted by nearness.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RiskBetween {
-    /// (slope / limit)², the worse of roll and pitch, with the penalties of the places.
+    /// (slope / limit)², the worse of roll and pitch, with what penalties and the lack of room add.
     pub(crate) price: f64,
-    /// Utilisation of the tilt limits, in slope.
+    /// The root of the price: on free ground the utilisation of the tilt limits, in slope.
     pub(crate) utilisation: f64,
 }
 
@@ -33,7 +33,8 @@ pub(crate) struct RiskBetween {
 #[derive(Clone, Copy, Debug)]
 struct Place {
     plane: Option<Plane>,
-    /// (slope / limit)² for each axis of travel, the worse of roll and pitch; infinite if that is not safe.
+    /// (slope / limit)² for each axis of travel, the worse of roll and pitch, and what penalties and lacking
+    /// room add; infinite if that is not safe.
     risk: [f32; AXES],
     is_at_cliff: bool,
 }

@@ -7,6 +7,7 @@ use super::*;
 use crate::config::PlannerConfig;
 use crate::route::forecast::ReachEnd;
 use crate::terrain::plane::Plane;
+use crate::testing::Standing;
 
 const STEP: Duration = Duration::from_millis(100);
 
@@ -70,6 +71,18 @@ fn a_path_leads_around_a_bank_that_is_too_steep() {
     // The straight line through the bank is refused too.
     assert!(lattice.lookahead(&path).position_m.y.abs() > 1.0);
     assert!(lattice.to(DVec2::new(2.5, 0.0)).is_none());
+}
+
+#[test]
+fn a_path_leaves_more_room_beside_what_stands_than_it_must() {
+    let mut lattice = lattice();
+    // 0.25 m of room would do.
+    let post = Standing { at_m: DVec2::new(3.0, -0.5), radius_m: 0.25, is_void: false };
+    lattice.search(&post, &pose(0.0, 0.0), STEP);
+    let mut path = Vec::new();
+    lattice.follow(lattice.to(DVec2::new(6.0, 0.0)).unwrap(), &mut path);
+    let room_m = path.iter().map(|point| point.position_m.distance(post.at_m) - 0.25).fold(9.0, f64::min);
+    assert!(room_m > 0.45, "{room_m}");
 }
 
 #[test]
