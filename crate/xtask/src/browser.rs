@@ -1,6 +1,7 @@
 //! The Chromium in which the wasm and page tests run, and the driver of the same version.
 
 use std::env;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail, ensure};
@@ -14,6 +15,9 @@ const BROWSERS: &[&str] = &[
     "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
 ];
 const DRIVERS: &[&str] = &["chromedriver", "chromium.chromedriver"];
+
+/// What the version that a driver prints begins with; no browser's does.
+const DRIVER: &str = "ChromeDriver";
 
 /// The environment variables that name the browser and the driver, in place of those on PATH.
 const NAMED_BY: [&str; 2] = ["CHROME", "CHROMEDRIVER"];
@@ -50,8 +54,8 @@ impl Browser {
     }
 
     fn find(sh: &Shell) -> anyhow::Result<Self> {
-        let browsers = versions(sh, NAMED_BY[0], BROWSERS)?;
-        let drivers = versions(sh, NAMED_BY[1], DRIVERS)?;
+        let browsers = versions(sh, NAMED_BY[0], BROWSERS, |printed| !printed.starts_with(DRIVER))?;
+        let drivers = versions(sh, NAMED_BY[1], DRIVERS, |printed| printed.starts_with(DRIVER))?;
         ensure!(!browsers.is_empty(), "No Chromium was found");
         ensure!(!drivers.is_empty(), "No chromedriver was found");
         match same_major(&browsers, &drivers) {
@@ -79,26 +83,35 @@ impl Browser {
 }
 
 /// The programs found, each with its major version: the one named by `variable`, or else those of `names`.
-fn versions(sh: &Shell, variable: &str, names: &[&str]) -> anyhow::Result<Vec<(PathBuf, u32)>> {
-    let version = |path: PathBuf| {
-        let printed = cmd!(sh, "{path} --version").quiet().ignore_stderr().read().ok()?;
-        Some((path, major_version(&printed)?))
-    };
+/// `is_one` tells by the version printed whether a program is one of those sought.
+fn versions(
+    sh: &Shell,
+    variable: &str,
+    names: &[&str],
+    is_one: impl Fn(&str) -> bool,
+) -> anyhow::Result<Vec<(PathBuf, u32)>> {
+    let printed = |path: &Path| cmd!(sh, "{path} --version").quiet().ignore_stderr().read().ok();
     if let Some(named) = env::var_os(variable).map(PathBuf::from) {
-        let found = version(named.clone());
-        return Ok(vec![
-            found.with_context(|| format!("{variable} names {named:?}, which tells no version"))?,
-        ]);
+        let printed =
+            printed(&named).with_context(|| format!("{variable} names {named:?}, which tells no version"))?;
+        let version = major_version(&printed).filter(|_| is_one(&printed)).with_context(|| {
+            format!("{variable} names {named:?}, which is something else: its version reads {printed:?}")
+        })?;
+        return Ok(vec![(named, version)]);
     }
-    Ok(names.iter().filter_map(|name| on_path(Path::new(name))).filter_map(version).collect())
+    let folders = env::var_os("PATH").unwrap_or_default();
+    let found = names.iter().filter_map(|name| on_path(&folders, name)).filter_map(|path| {
+        let printed = printed(&path).filter(|printed| is_one(printed))?;
+        Some((path, major_version(&printed)?))
+    });
+    Ok(found.collect())
 }
 
-/// The path of `program`: itself if absolute, or else in the first folder of PATH that has it.
-fn on_path(program: &Path) -> Option<PathBuf> {
-    let folders = env::var_os("PATH").unwrap_or_default();
-    env::split_paths(&folders)
-        .map(|folder| folder.join(program).with_extension(env::consts::EXE_EXTENSION))
-        .find(|path| path.is_file())
+/// The path of `program`: itself if absolute, or else in the first of `folders`, a PATH, that has it.
+fn on_path(folders: &OsStr, program: &str) -> Option<PathBuf> {
+    // Not `with_extension`, which would cut `chromium.chromedriver` to `chromium`.
+    let file = format!("{program}{}", env::consts::EXE_SUFFIX);
+    env::split_paths(folders).map(|folder| folder.join(&file)).find(|path| path.is_file())
 }
 
 /// The first number of the version in `Chromium 156.0.8078.79 built on ...`.
@@ -144,6 +157,17 @@ mod tests {
             Some(156)
         );
         assert_eq!(major_version("command not found."), None);
+    }
+
+    #[test]
+    fn driver_of_two_words_is_not_found_in_the_browser() {
+        let sh = Shell::new().expect("a shell");
+        let folder = sh.create_temp_dir().expect("a folder");
+        let browser = folder.path().join(format!("chromium{}", env::consts::EXE_SUFFIX));
+        sh.write_file(&browser, "").expect("a file");
+        let folders = folder.path().as_os_str();
+        assert_eq!(on_path(folders, "chromium"), Some(browser));
+        assert_eq!(on_path(folders, "chromium.chromedriver"), None);
     }
 
     #[test]
