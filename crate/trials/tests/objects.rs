@@ -6,10 +6,14 @@ use mapless_world::HeightField;
 
 const SCENARIO: &str = "terrain = \"a.toml\"\nstart = [10.0, 20.0, 0.0]\ngoal = [30.0, 20.0]\nseed = 1\n";
 
-/// Level ground, 40 m square, with these objects.
 fn trial(objects: &str) -> Trial {
+    trial_of(SCENARIO, objects)
+}
+
+/// Level ground, 40 m square, with these objects.
+fn trial_of(scenario: &str, objects: &str) -> Trial {
     let field = HeightField::new(201, 201, 0.2, vec![0.0; 201 * 201]).unwrap();
-    let scenario = Scenario::parse("it", &format!("{SCENARIO}{objects}")).unwrap();
+    let scenario = Scenario::parse("it", &format!("{scenario}{objects}")).unwrap();
     Trial::new(field, &scenario, Preset::Default, 1).unwrap()
 }
 
@@ -44,8 +48,16 @@ fn two_walls_are_passed_though_their_openings_do_not_lie_opposite() {
         wall([21.1, 5.0], [21.1, 18.2]),
         wall([21.1, 20.2], [21.1, 38.0]),
     ];
-    let mut trial = trial(&objects.concat());
-    assert_eq!(outcome_within(&mut trial, 45), Some(Outcome::Reached), "{:?}", trial.end_reason());
+    // From the second start, a path turns back on the spot between the walls.
+    for start in ["[10.0, 20.0, 0.0]", "[12.0, 20.0, 0.0]"] {
+        let mut trial = trial_of(&SCENARIO.replace("[10.0, 20.0, 0.0]", start), &objects.concat());
+        assert_eq!(
+            outcome_within(&mut trial, 45),
+            Some(Outcome::Reached),
+            "{start}: {:?}",
+            trial.end_reason()
+        );
+    }
 }
 
 #[test]

@@ -155,9 +155,6 @@ parameters! {
         climb_price: f64 = 4.0, range [0.0, 20.0], check NotNegative;
         /// Cost of turning by a sixteenth of a circle, in metres driven.
         turn_cost_m: f64 = 0.15, unit "m", range [0.1, 2.0], check AtLeast(0.1);
-        /// Cost of beginning otherwise than the last path did, in metres driven; doubled with each change
-        /// nearby.
-        change_cost_m: f64 = 1.0, unit "m", range [0.0, 5.0], check NotNegative;
         /// Cost of a metre in reverse, in metres forward; the robot has no rear sight.
         reverse_price: f64 = 2.0, range [1.0, 10.0], check AtLeast(1.0);
         /// How far before steep or unseen ground a subgoal is placed.

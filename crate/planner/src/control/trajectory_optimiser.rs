@@ -176,23 +176,27 @@ impl TrajectoryOptimiser {
     pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Option<Command> {
         let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
-        let roll_out = |plan: Plan| Candidate { plan, rolled: self.roll_out(course, from, Law::Plan(&plan)) };
-        let mut best = roll_out(self.last);
-        let try_plan = |best: &mut Candidate, plan: Plan| {
+        // The path tells whether the robot drives in reverse. In two seconds it would gain more by backing
+        // along a path that leads back than by turning to it.
+        let reverse = course.path().next().is_some_and(|(_, reverse)| reverse);
+        let full_m_s = if reverse { -reverse_m_s } else { speed_m_s };
+        let roll_out = |plan: Plan| {
             let plan = Plan {
-                speed_m_s: plan.speed_m_s.clamp(-reverse_m_s, speed_m_s),
+                speed_m_s: plan.speed_m_s.clamp(full_m_s.min(0.0), full_m_s.max(0.0)),
                 early_rad_s: plan.early_rad_s.clamp(-turn_rate_rad_s, turn_rate_rad_s),
                 late_rad_s: plan.late_rad_s.clamp(-turn_rate_rad_s, turn_rate_rad_s),
             };
+            Candidate { plan, rolled: self.roll_out(course, from, Law::Plan(&plan)) }
+        };
+        let mut best = roll_out(self.last);
+        let try_plan = |best: &mut Candidate, plan: Plan| {
             let candidate = roll_out(plan);
             if candidate.rolled.cost < best.rolled.cost {
                 *best = candidate;
             }
         };
-        for speed in [speed_m_s, -reverse_m_s] {
-            for turn in [0.0, 0.25, -0.25, 0.8, -0.8] {
-                try_plan(&mut best, Plan { speed_m_s: speed, early_rad_s: turn, late_rad_s: turn });
-            }
+        for turn in [0.0, 0.25, -0.25, 0.8, -0.8] {
+            try_plan(&mut best, Plan { speed_m_s: full_m_s, early_rad_s: turn, late_rad_s: turn });
         }
         for turn in [0.8, -0.8, 0.0] {
             try_plan(&mut best, Plan { speed_m_s: 0.0, early_rad_s: turn, late_rad_s: turn });
@@ -377,6 +381,13 @@ mod tests {
                 assert!((after.angular_rad_s - before.angular_rad_s).abs() <= 1.5 * elapsed_s + 1e-9);
             }
         }
+    }
+
+    #[test]
+    fn it_turns_to_a_path_that_leads_back_and_does_not_back_along_it() {
+        let driven = drive(&Level { target_m: DVec2::new(-6.0, 0.0), closed_from_x_m: 100.0 }, 14.0);
+        assert!(driven.iter().all(|(_, command)| command.linear_m_s > -1e-9));
+        assert!(driven.iter().any(|(pose, _)| pose.position_m.distance(DVec2::new(-6.0, 0.0)) < 0.4));
     }
 
     #[test]

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use crate::config::PlannerConfig;
 use crate::control::trajectory_optimiser::{Course, Met, PlanPose};
-use crate::route::state_lattice::{PathPoint, StateLattice};
+use crate::route::state_lattice::{PathPoint, StateLattice, first_leg};
 
 /// The heading at a place of the path is that to the point of the path this far ahead.
 const AHEAD_M: f64 = 0.8;
@@ -16,7 +16,7 @@ const ON_PATH_M: f64 = 0.25;
 /// A metre of a path counts no more than this: turns on the spot, which its cost includes, are counted apart.
 const MOST_PRICE: f64 = 10.0;
 
-/// The first leg of a path: up to its first change between forward and reverse.
+/// The first leg of a path.
 pub(crate) struct PathCourse<'a> {
     lattice: &'a StateLattice,
     leg: &'a [PathPoint],
@@ -29,10 +29,9 @@ impl<'a> PathCourse<'a> {
     /// The course along a path that begins at the robot.
     pub(crate) fn new(lattice: &'a StateLattice, path: &'a [PathPoint], config: &PlannerConfig) -> Self {
         let reverse = path.get(1).is_some_and(|point| point.reverse);
-        let points = path.iter().skip(1).take_while(|point| point.reverse == reverse).count();
         Self {
             lattice,
-            leg: &path[..path.len().min(points + 1)],
+            leg: first_leg(path),
             reverse,
             turn_m_rad: config.state_lattice.turn_m_rad(),
             aside_price: config.controller.trajectory.aside_price,
@@ -141,6 +140,15 @@ mod tests {
         let path = [at(0.0, 0.0, 0.0, false), at(-1.0, 0.0, 2.0, true), at(2.0, 0.0, 5.0, false)];
         assert!((cost_to_go_m(&path, 0.0, 0.0, 0.0) - 2.0).abs() < 1e-9);
         assert!(cost_to_go_m(&path, 0.0, 0.0, PI) > 3.0);
+    }
+
+    #[test]
+    fn what_lies_behind_a_turn_on_the_spot_is_not_reached_before_it() {
+        // Forward to (1, 0), about, and back past the robot.
+        let path = [at(0.0, 0.0, 0.0, false), at(1.0, 0.0, 1.0, false), at(-2.0, 0.1, 5.0, false)];
+        assert!((cost_to_go_m(&path, 0.0, 0.0, 0.0) - 1.0).abs() < 1e-9);
+        assert!(cost_to_go_m(&path, -1.0, 0.0, 0.0) > 1.5, "in reverse along what comes after the turn");
+        assert!(cost_to_go_m(&path, 1.0, 0.0, 0.0).abs() < 1e-9);
     }
 
     #[test]

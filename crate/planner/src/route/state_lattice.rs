@@ -14,7 +14,7 @@ mod path;
 #[cfg(test)]
 mod tests;
 
-use core::f64::consts::TAU;
+use core::f64::consts::{FRAC_1_SQRT_2, TAU};
 use core::time::Duration;
 
 use glam::DVec2;
@@ -29,7 +29,7 @@ use crate::terrain::body_clearance::BodyClearance;
 use crate::terrain::elevation_window::TerrainQuery;
 use crate::terrain::headings::{HEADINGS, STEPS};
 use crate::terrain::traversability::{Caution, TraversabilityMap};
-pub(crate) use path::length_m;
+pub(crate) use path::{first_leg, length_m};
 
 /// Directions in which a path may begin.
 const FIRST_DIRECTIONS: usize = 64;
@@ -45,14 +45,12 @@ const BRAKING_TIME: Duration = Duration::from_millis(300);
 const BRAKING_UTILISATION: f64 = 0.98;
 /// Turning back on steep ground inflates the slope variance this far ahead.
 const INFLATED_AHEAD_M: f64 = 0.5;
-/// Each change of the first direction within this distance doubles the cost of the next, up to this many
-/// times: otherwise the robot would oscillate where a path is refused and allowed by turns.
-const SAME_PLACE_M: f64 = 1.0;
-const MOST_CHANGES: i32 = 5;
 /// The robot finishes a leg of this length before it changes direction; with this much left it counts as
 /// finished.
 const LEG_M: f64 = 1.0;
 const LEG_DONE_M: f64 = 0.15;
+/// Directions within an eighth of a circle of each other count as the same.
+const SAME_COSINE: f64 = FRAC_1_SQRT_2;
 /// A path begins at a place at least this far from the robot; nearer places count as its own.
 const FIRST_STEP_M: f64 = 0.3;
 /// Costs are whole millimetres of level ground.
@@ -83,9 +81,6 @@ pub(crate) struct StateLattice {
     /// First direction of the last driven path, and the target of the current leg.
     last: Option<First>,
     leg: Option<PathPoint>,
-    /// Where the first direction last changed for the first time, and how often it has changed nearby.
-    changed_at_m: DVec2,
-    changes: i32,
     /// Whether the last drive was in recovery, with the smaller margin.
     recovers: bool,
     /// Index of the direction that the robot faces, and how many directions it may turn to the left and to
@@ -169,8 +164,6 @@ impl StateLattice {
             caution: Caution::Usual,
             last: None,
             leg: None,
-            changed_at_m: DVec2::ZERO,
-            changes: 0,
             recovers: false,
             facing: 0,
             turns: [0; 2],
@@ -189,9 +182,6 @@ impl StateLattice {
         self.here_m = pose.plan_m();
         self.attitude.be_at(pose, elapsed);
         self.facing = (wrap_rad(pose.yaw_rad) / TAU * FIRST_DIRECTIONS as f64).round() as i32;
-        if (self.changed_at_m - self.here_m).length() > SAME_PLACE_M {
-            self.changes = 0;
-        }
         self.traversability.drive_on(moved_m.length());
         self.traversability.places.look(ground, self.here_m);
         let (sin, cos) = libm::sincos(pose.yaw_rad);
@@ -256,6 +246,12 @@ impl StateLattice {
         *point
     }
 
+    /// Whether a path with this first direction continues the last one.
+    fn continues(&self, first: &First) -> bool {
+        self.last
+            .is_none_or(|last| last.reverse == first.reverse && last.facing.dot(first.facing) > SAME_COSINE)
+    }
+
     /// The first direction of a path that begins straight to a point.
     fn first_to(&self, point: &PathPoint) -> First {
         let path = point.position_m - self.here_m;
@@ -267,12 +263,6 @@ impl StateLattice {
     fn commit(&mut self, point: &PathPoint) {
         let path = point.position_m - self.here_m;
         let next = self.first_to(point);
-        if !self.continues(&next) {
-            if self.changes == 0 {
-                self.changed_at_m = self.here_m;
-            }
-            self.changes = MOST_CHANGES.min(self.changes + 1);
-        }
         let turned_back = self.last.filter(|last| last.reverse != next.reverse);
         let recovers = self.caution == Caution::Recovery;
         if recovers && !self.recovers {
@@ -377,7 +367,6 @@ impl StateLattice {
     /// Moves the remembered state from one world frame to another.
     pub(crate) fn relocalise(&mut self, change: &FrameChange) {
         self.here_m = change.place_m(self.here_m);
-        self.changed_at_m = change.place_m(self.changed_at_m);
         self.traversability.relocalise(change);
         self.release();
     }

@@ -70,7 +70,7 @@ mod tests {
         [planner.ground]\ncell_m = 0.25\nradius_m = 8\nmemory_ticks = 200\ncurvature_per_m = 0.7\n\
         [planner.forecast]\nstep_m = 0.6\ntilt_margin_rad = 0.1\nescape_margin_rad = 0.07\nimpatient_margin_rad = 0.04\n\
         escape_m = 3\ndeviations = 2\nblind_radius_m = 7\navoids_edges = false\ntilt_price = 3\nclimb_price = 5\n\
-        turn_cost_m = 0.2\nchange_cost_m = 2\nreverse_price = 3\nclearance_m = 0.8\nmin_reach_m = 2\n\
+        turn_cost_m = 0.2\nreverse_price = 3\nclearance_m = 0.8\nmin_reach_m = 2\n\
         [planner.decision]\ndead_end_weight = 0.5\nlook_ticks = 60\n\
         [planner.controller]\nturn_first_rad = 0.7\nlook_turn_rate_rad_s = 0.6\nslow_from_share = 0.4\nleast_speed_share = 0.3\n";
     const NEW: &str = "[sensor]\nperiod_s = 0.2\n[planner.robot]\nwidth_m = 0.7\nwheelbase_m = 0.6\ntrack_m = 0.65\nroll_limit_rad = 0.5\n\
@@ -79,7 +79,7 @@ mod tests {
         [planner.elevation_window]\ncell_m = 0.25\nradius_m = 8\nmemory_s = 20\nslope_deviation_per_m = 0.7\n\
         [planner.state_lattice]\nstep_m = 0.6\ntilt_margin_rad = 0.1\nrecovery_margin_rad = 0.07\n\
         over_budget_margin_rad = 0.04\nrecovery_radius_m = 3\nslope_deviations = 2\nblind_radius_m = 7\n\
-        avoids_negative_obstacles = false\ntilt_price = 3\nclimb_price = 5\nturn_cost_m = 0.2\nchange_cost_m = 2\n\
+        avoids_negative_obstacles = false\ntilt_price = 3\nclimb_price = 5\nturn_cost_m = 0.2\n\
         reverse_price = 3\nclearance_m = 0.8\nmin_reach_m = 2\n\
         [planner.decision]\ncorrection_weight = 0.5\nspin_recovery_s = 6\n\
         [planner.controller]\nrotate_in_place_rad = 0.7\nspin_turn_rate_rad_s = 0.6\nregulate_from_utilisation = 0.4\n\

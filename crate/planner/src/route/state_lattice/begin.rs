@@ -1,6 +1,6 @@
 //! The first steps of paths: from the robot's pose, which lies off the lattice, to lattice states.
 
-use core::f64::consts::{FRAC_1_SQRT_2, TAU};
+use core::f64::consts::TAU;
 
 use glam::{DVec2, IVec2};
 
@@ -11,15 +11,12 @@ use crate::terrain::slopes::Slopes;
 
 /// Ground seen no farther than this from the robot may be that under its wheels alone.
 const WHEELS_M: f64 = 1.25;
-/// Directions within an eighth of a circle of each other count as the same.
-const SAME_COSINE: f64 = FRAC_1_SQRT_2;
 
 impl StateLattice {
     /// Connects the robot's pose to the first known places in each direction that it may turn to.
     pub(super) fn begin(&mut self) {
         let count = FIRST_DIRECTIONS as i32;
         let here = Slopes::facing(self.attitude.gradient, self.first_direction(self.facing));
-        let most_change_m = self.config.change_cost_m * f64::from(1 << self.changes);
         for (side, sign) in [1, -1].into_iter().enumerate() {
             self.turns[side] = count / 2;
             for turn in 0..=count / 2 {
@@ -36,11 +33,10 @@ impl StateLattice {
                 let turn_m = self.config.turn_cost_m * f64::from(turn) * HEADINGS as f64 / f64::from(count);
                 for reverse in [false, true] {
                     let first = First { facing, reverse };
-                    let change_m = if self.continues(&first) { 0.0 } else { most_change_m };
                     if !reverse {
-                        self.begin_here(self.facing + sign * turn, &first, turn_m + change_m);
+                        self.begin_here(self.facing + sign * turn, &first, turn_m);
                     }
-                    self.begin_along(self.facing + sign * turn, &first, turn_m + change_m);
+                    self.begin_along(self.facing + sign * turn, &first, turn_m);
                 }
             }
         }
@@ -52,12 +48,6 @@ impl StateLattice {
         let count = FIRST_DIRECTIONS as i32;
         let left = (index - self.facing).rem_euclid(count);
         if left <= count / 2 { left } else { left - count }
-    }
-
-    /// Whether a path with this first direction continues the last one.
-    pub(super) fn continues(&self, first: &First) -> bool {
-        self.last
-            .is_none_or(|last| last.reverse == first.reverse && last.facing.dot(first.facing) > SAME_COSINE)
     }
 
     pub(super) fn first_direction(&self, index: i32) -> DVec2 {

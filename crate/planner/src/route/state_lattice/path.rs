@@ -21,6 +21,17 @@ pub(crate) fn length_m(path: &[PathPoint]) -> f64 {
     path.windows(2).map(|leg| (leg[1].position_m - leg[0].position_m).length()).sum()
 }
 
+/// The first leg of a path: up to its first cusp, where it changes between forward and reverse or turns back
+/// on the spot.
+pub(crate) fn first_leg(path: &[PathPoint]) -> &[PathPoint] {
+    let is_cusp = |at: &[PathPoint]| {
+        let [to_m, on_m] = [at[1].position_m - at[0].position_m, at[2].position_m - at[1].position_m];
+        at[1].reverse != at[2].reverse || to_m.dot(on_m) < 0.0
+    };
+    let points = path.windows(3).position(is_cusp).map_or(path.len(), |before| before + 2);
+    &path[..points]
+}
+
 impl StateLattice {
     /// The cheapest path to the place nearest to a point; `None` if there is none.
     pub(crate) fn to(&self, point_m: DVec2) -> Option<ReachedState> {
@@ -131,15 +142,15 @@ impl StateLattice {
         self.traversability.plane(offset).map_or(self.attitude.height_m, |plane| plane.height_m)
     }
 
-    /// The lookahead point on a path: the farthest point before a change between forward and reverse to which
-    /// the straight line costs no more than the path.
+    /// The lookahead point on a path: the farthest point of its first leg to which the straight line costs no
+    /// more than the path.
     pub(crate) fn lookahead(&self, path: &[PathPoint]) -> PathPoint {
         let stay = PathPoint { position_m: self.here_m, cost_m: 0.0, reverse: false };
         let Some(&first) = path.get(1) else { return stay };
         let blind_m = (first.position_m - self.here_m).length();
-        let leg = path[1..].iter().take_while(|point| point.reverse == first.reverse);
+        let mut leg = first_leg(path)[1..].iter();
         let straight = |point: &&PathPoint| self.straight_cost_m(point, blind_m) <= point.cost_m;
-        *leg.filter(straight).last().unwrap_or(&first)
+        leg.rfind(straight).copied().unwrap_or(first)
     }
 
     /// Cost of the straight line to a point of a path, whose first `blind_m` is taken as safe; infinite if

@@ -354,35 +354,6 @@ fn the_cost_of_a_change_keeps_the_side_of_an_obstacle() {
 }
 
 #[test]
-fn each_change_of_direction_nearby_doubles_the_cost_of_the_next() {
-    let mut lattice = lattice();
-    let mut path = Vec::new();
-    let (ahead_m, behind_m) = (DVec2::X, -DVec2::X);
-    // Cost of a first step straight to a place, before the search finds a cheaper path with a short drive and
-    // a turn.
-    let mut begin_to = |place_m: DVec2, here_m: DVec3| {
-        lattice.search(&level, &Pose { position_m: here_m, ..pose(0.0, 0.0) }, STEP);
-        lattice.costs_mm.fill(UNREACHED);
-        lattice.begin();
-        let reached = lattice.to(here_m.truncate() + place_m).unwrap();
-        let cost_m = f64::from(lattice.costs_mm[reached.state as usize]) / MILLIMETRES;
-        lattice.search(&level, &Pose { position_m: here_m, ..pose(0.0, 0.0) }, STEP);
-        set_out(&mut lattice, here_m.truncate() + 4.0 * place_m, &mut path);
-        cost_m
-    };
-    let settled_m = begin_to(ahead_m, DVec3::ZERO);
-    // After each finished leg. The place behind costs twice as much, being driven to in reverse.
-    for (change, price_m) in [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 32.0].into_iter().enumerate() {
-        let (place_m, here_m, times) =
-            if change % 2 == 0 { (behind_m, DVec3::X, 2.0) } else { (ahead_m, DVec3::ZERO, 1.0) };
-        let paid_m = begin_to(place_m, here_m) - times * settled_m;
-        assert!((paid_m - price_m).abs() < 0.01, "change {change}: {paid_m} m");
-    }
-    let paid_m = begin_to(ahead_m, DVec3::new(2.5, 0.0, 0.0)) - settled_m;
-    assert!((paid_m - 1.0).abs() < 0.01, "elsewhere it begins anew: {paid_m} m");
-}
-
-#[test]
 fn it_finishes_its_leg_unless_that_is_no_longer_safe() {
     let mut lattice = lattice();
     let mut path = Vec::new();
