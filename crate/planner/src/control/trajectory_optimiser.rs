@@ -5,7 +5,7 @@
 //! line through time between them. A deterministic pattern search finds the best. Beside it stands the one
 //! that drives from point to point of the path and turns on the spot to what is aside.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec2;
 
@@ -103,6 +103,8 @@ pub(crate) trait Course {
     fn met(&self, pose: &PlanPose) -> Option<Met>;
     /// Cost of what is left of the path from a pose.
     fn cost_to_go_m(&self, pose: &PlanPose) -> f64;
+    /// How far the robot is from facing along the path, up to half a turn.
+    fn facing_off_rad(&self, pose: &PlanPose) -> f64;
     /// A path to follow, as points and whether each is driven to in reverse.
     fn path(&self) -> impl Iterator<Item = (DVec2, bool)>;
 }
@@ -176,10 +178,15 @@ impl TrajectoryOptimiser {
     pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Option<Command> {
         let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
-        // The path tells whether the robot drives in reverse. In two seconds it would gain more by backing
-        // along a path that leads back than by turning to it.
+        // The path tells whether the robot drives in reverse, and where it faces away from the path it turns
+        // first. In two seconds it would gain more by backing along a path that leads back, or by an arc off
+        // it, than by turning to it.
         let reverse = course.path().next().is_some_and(|(_, reverse)| reverse);
-        let full_m_s = if reverse { -reverse_m_s } else { speed_m_s };
+        let full_m_s = match reverse {
+            _ if course.facing_off_rad(&from.pose) > FRAC_PI_2 => 0.0,
+            true => -reverse_m_s,
+            false => speed_m_s,
+        };
         let roll_out = |plan: Plan| {
             let plan = Plan {
                 speed_m_s: plan.speed_m_s.clamp(full_m_s.min(0.0), full_m_s.max(0.0)),
@@ -328,10 +335,12 @@ mod tests {
         }
 
         fn cost_to_go_m(&self, pose: &PlanPose) -> f64 {
+            pose.position_m.distance(self.target_m) + 0.38 * self.facing_off_rad(pose)
+        }
+
+        fn facing_off_rad(&self, pose: &PlanPose) -> f64 {
             let path_m = self.target_m - pose.position_m;
-            let bearing_rad = libm::atan2(path_m.y, path_m.x) - pose.yaw_rad;
-            let turn_rad = libm::remainder(bearing_rad, core::f64::consts::TAU).abs();
-            path_m.length() + 0.38 * turn_rad
+            libm::remainder(libm::atan2(path_m.y, path_m.x) - pose.yaw_rad, TAU).abs()
         }
 
         fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
@@ -387,6 +396,7 @@ mod tests {
     fn it_turns_to_a_path_that_leads_back_and_does_not_back_along_it() {
         let driven = drive(&Level { target_m: DVec2::new(-6.0, 0.0), closed_from_x_m: 100.0 }, 14.0);
         assert!(driven.iter().all(|(_, command)| command.linear_m_s > -1e-9));
+        assert!(driven.iter().all(|(pose, _)| pose.position_m.x < 0.05), "no arc away from it");
         assert!(driven.iter().any(|(pose, _)| pose.position_m.distance(DVec2::new(-6.0, 0.0)) < 0.4));
     }
 
@@ -431,6 +441,10 @@ mod tests {
             pose.position_m.distance(BACK_M)
         }
 
+        fn facing_off_rad(&self, _: &PlanPose) -> f64 {
+            0.0
+        }
+
         fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
             core::iter::once((BACK_M, true))
         }
@@ -446,6 +460,10 @@ mod tests {
 
         fn cost_to_go_m(&self, _: &PlanPose) -> f64 {
             1.0
+        }
+
+        fn facing_off_rad(&self, _: &PlanPose) -> f64 {
+            0.0
         }
 
         fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {

@@ -73,6 +73,13 @@ impl<'a> PathCourse<'a> {
         }
         at_m + direction * left_m
     }
+
+    /// Angle between a pose's heading and that to the leg ahead of a place of it.
+    fn facing_off_from_rad(&self, segment: usize, share: f64, pose: &PlanPose) -> f64 {
+        let ahead_m = self.ahead(segment, share, AHEAD_M) - pose.position_m;
+        let bearing_rad = libm::atan2(ahead_m.y, ahead_m.x) + if self.reverse { PI } else { 0.0 };
+        libm::remainder(bearing_rad - pose.yaw_rad, TAU).abs()
+    }
 }
 
 impl Course for PathCourse<'_> {
@@ -97,10 +104,17 @@ impl Course for PathCourse<'_> {
         };
         let left_m = cost_m(&self.leg[segment..=segment + 1]) * (1.0 - share)
             + self.leg[segment + 1..].windows(2).map(cost_m).sum::<f64>();
-        let ahead_m = self.ahead(segment, share, AHEAD_M) - pose.position_m;
-        let bearing_rad = libm::atan2(ahead_m.y, ahead_m.x) + if self.reverse { PI } else { 0.0 };
-        let turn_rad = libm::remainder(bearing_rad - pose.yaw_rad, TAU).abs();
-        left_m + self.aside_price * away_m * away_m + self.turn_m_rad * turn_rad
+        left_m
+            + self.aside_price * away_m * away_m
+            + self.turn_m_rad * self.facing_off_from_rad(segment, share, pose)
+    }
+
+    fn facing_off_rad(&self, pose: &PlanPose) -> f64 {
+        if self.leg.len() < 2 {
+            return 0.0;
+        }
+        let (segment, share, _) = self.nearest(pose.position_m);
+        self.facing_off_from_rad(segment, share, pose)
     }
 
     fn path(&self) -> impl Iterator<Item = (DVec2, bool)> {
