@@ -12,8 +12,8 @@ for (const [device, options] of Object.entries(DEVICES)) {
     }) => {
       const press = device === 'phone' ? 'tap' : 'click';
       // What is learned depends on the scan: with that of other moments it arrives all the same.
-      await driveTo(page, 40);
-      await page.evaluate(() => window.mapless?.seek(40));
+      await driveTo(page, 60);
+      await page.evaluate(() => window.mapless?.seek(60));
       await still(page);
       await page.getByRole('button', { name: 'By hand' })[press]();
       await page.getByRole('button', { name: 'Learned…' })[press]();

@@ -280,7 +280,7 @@ test('the slice goes where the pointer is, and along the azimuths by keys; the k
 });
 
 test('learning without bounds climbs step by step, and its skyline runs away', async ({ mapless: page }) => {
-  await pausedAt(page, 60);
+  await pausedAt(page, 50);
   await openByHand(page);
   const own = await off_deg(page);
   await page.getByRole('button', { name: 'Learned…' }).click();
