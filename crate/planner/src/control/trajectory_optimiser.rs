@@ -25,6 +25,8 @@ const PASSED_M: f64 = 0.3;
 const ARRIVED_M: f64 = 0.05;
 const FOLLOW_GAIN: f64 = 2.0;
 const TURN_FIRST_RAD: f64 = 0.5;
+/// A robot that is farther than this from facing along the path turns before it drives.
+const FACES_AWAY_RAD: f64 = FRAC_PI_2;
 /// A trajectory that gains less than this, in metres of level ground, leaves the robot where it stands.
 const LEAST_PROGRESS_M: f64 = 0.05;
 /// Below these speeds the robot stands.
@@ -182,10 +184,12 @@ impl TrajectoryOptimiser {
         // first. In two seconds it would gain more by backing along a path that leads back, or by an arc off
         // it, than by turning to it.
         let reverse = course.path().next().is_some_and(|(_, reverse)| reverse);
-        let full_m_s = match reverse {
-            _ if course.facing_off_rad(&from.pose) > FRAC_PI_2 => 0.0,
-            true => -reverse_m_s,
-            false => speed_m_s,
+        let full_m_s = if course.facing_off_rad(&from.pose) > FACES_AWAY_RAD {
+            0.0
+        } else if reverse {
+            -reverse_m_s
+        } else {
+            speed_m_s
         };
         let roll_out = |plan: Plan| {
             let plan = Plan {

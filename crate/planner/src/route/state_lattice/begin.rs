@@ -31,12 +31,10 @@ impl StateLattice {
                     break;
                 }
                 let turn_m = self.config.turn_cost_m * f64::from(turn) * HEADINGS as f64 / f64::from(count);
+                let index = self.facing + sign * turn;
+                self.begin_here(index, facing, turn_m);
                 for reverse in [false, true] {
-                    let first = First { facing, reverse };
-                    if !reverse {
-                        self.begin_here(self.facing + sign * turn, &first, turn_m);
-                    }
-                    self.begin_along(self.facing + sign * turn, &first, turn_m);
+                    self.begin_along(index, &First { facing, reverse }, turn_m);
                 }
             }
         }
@@ -55,10 +53,10 @@ impl StateLattice {
     }
 
     /// Starts at the place nearest to the robot, if that is too near to drive to.
-    fn begin_here(&mut self, index: i32, first: &First, cost_m: f64) {
+    fn begin_here(&mut self, index: i32, facing: DVec2, cost_m: f64) {
         let Some(offset) = self.traversability.places.nearest(self.here_m) else { return };
         let away_m = (self.traversability.places.position_m(offset) - self.here_m).length();
-        let heading = nearest(first.facing);
+        let heading = nearest(facing);
         if away_m < FIRST_STEP_M && self.traversability.risk(offset, heading).is_finite() {
             self.begin_with(offset, heading, index, cost_m + away_m);
         }
