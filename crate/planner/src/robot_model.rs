@@ -25,6 +25,9 @@ parameters! {
         overhang_clearance_m: f64 = 0.18, unit "m", range [0.02, 1.0], check Positive;
         /// Highest vertical step that the wheels climb.
         max_step_m: f64 = 0.165, unit "m", range [0.0, 0.5], check NotNegative;
+        /// Height of the top of the body and its load above the ground, without mast and sensor. On a slope
+        /// the body leans over to the lower side by this times the sine of the slope.
+        deck_height_m: f64 = 0.39, unit "m", range [0.1, 2.0], check Positive;
         /// Overall height with mast and sensor: the robot passes below what is higher.
         height_m: f64 = 0.9, unit "m", range [0.2, 3.0], check Positive;
         /// Returns this near to the body's outline are the robot's own.
@@ -59,6 +62,7 @@ impl RobotModel {
             ground_clearance_m: 0.065,
             overhang_clearance_m: 0.1,
             max_step_m: 0.098,
+            deck_height_m: 0.25,
             ..Self::husky()
         }
     }
@@ -73,6 +77,7 @@ impl RobotModel {
             ground_clearance_m: 0.254,
             overhang_clearance_m: 0.35,
             max_step_m: 0.3,
+            deck_height_m: 0.83,
             ..Self::husky()
         }
     }
@@ -90,17 +95,29 @@ impl RobotModel {
         DVec2::new(0.5 * self.length_m + load_m, 0.5 * self.width_m + self.load_side_m)
     }
 
+    /// How far the top of the body lies aside of the ground that it stands on, on a plane with this gradient.
+    pub(crate) fn lean_m(&self, gradient: DVec2) -> DVec2 {
+        -gradient * (self.deck_height_m / (1.0 + gradient.length_squared()).sqrt())
+    }
+
     fn check_axles(&self, place: &str) -> Result<(), ConfigError> {
         let fits = self.wheelbase_m <= self.length_m;
         ConfigError::require(fits, place, "wheelbase_m", self.wheelbase_m, "at most length_m")
     }
 }
 
-/// The distance of a point from a body with these half sides, along and across the unit vector `facing`;
-/// negative inside. Beside a corner it is the larger of both axes' distances.
-pub(crate) fn distance_from_body_m(half_body_m: DVec2, from_middle_m: DVec2, facing: DVec2) -> f64 {
-    let along_across_m = DVec2::new(from_middle_m.dot(facing), from_middle_m.perp_dot(facing));
-    (along_across_m.abs() - half_body_m).max_element()
+/// The distance of a point from a body with these half sides, along and across the unit vector `facing`,
+/// whose top lies `lean_m` aside of its middle; negative inside. Beside a corner it is the larger of both
+/// axes' distances.
+pub(crate) fn distance_from_body_m(
+    half_body_m: DVec2,
+    lean_m: DVec2,
+    from_middle_m: DVec2,
+    facing: DVec2,
+) -> f64 {
+    let along_across = |vector: DVec2| DVec2::new(vector.dot(facing), vector.perp_dot(facing));
+    let half_lean_m = 0.5 * along_across(lean_m);
+    ((along_across(from_middle_m) - half_lean_m).abs() - half_body_m - half_lean_m.abs()).max_element()
 }
 
 #[cfg(test)]

@@ -52,7 +52,7 @@ impl TerrainQuery for Standing {
         self.is_void
     }
 
-    fn room_m(&self, place_m: DVec2, most_m: f64) -> [f64; AXES] {
+    fn room_m(&self, place_m: DVec2, _: Option<&Plane>, most_m: f64) -> [f64; AXES] {
         [(place_m.distance(self.at_m) - self.radius_m).min(most_m); AXES]
     }
 

@@ -323,6 +323,7 @@ fn robot_model(robot: &RobotConfig) -> RobotModel {
     model.track_m = robot.track_m;
     model.ground_clearance_m = robot.ground_clearance_m;
     model.overhang_clearance_m = robot.overhang_clearance_m;
+    model.deck_height_m = robot.height_m;
     model.height_m = robot.height_m;
     model.max_step_m = robot.max_step_m;
     model.roll_limit_rad = robot.roll_limit_rad;

@@ -303,6 +303,11 @@ impl StateLatticeConfig {
 }
 
 impl ControllerConfig {
+    /// Largest speed in reverse.
+    pub(crate) fn reverse_m_s(&self) -> f64 {
+        self.trajectory.reverse_share * self.max_speed_m_s
+    }
+
     /// Share of the speed that is kept at a tilt utilisation.
     pub(crate) fn speed_share(&self, utilisation: f64) -> f64 {
         ((1.0 - utilisation) / (1.0 - self.regulate_from_utilisation)).clamp(self.min_speed_share, 1.0)

@@ -320,7 +320,7 @@ mod tests {
                 BacktrackCommand::Brake => (0.0, 0.0),
                 BacktrackCommand::Turn { by_rad } => (0.0, (5.0 * by_rad).clamp(-0.5, 0.5)),
                 BacktrackCommand::Drive { turn_rad_m, reverse } => {
-                    (if reverse { -0.3 } else { 0.3 }, 0.3 * turn_rad_m)
+                    (if reverse { -0.4 } else { 0.4 }, 0.4 * turn_rad_m)
                 }
             };
             speed_m_s += f64::clamp(wanted_m_s - speed_m_s, -0.1, 0.1);

@@ -76,7 +76,7 @@ impl Controller {
     }
 
     /// Drives a distance along an arc of curvature `turn_rad_m` (anticlockwise turn per metre), in reverse if
-    /// `reverse`.
+    /// `reverse`; no faster than in reverse, as the arc follows a trail.
     pub(crate) fn drive_arc(
         &mut self,
         distance_m: f64,
@@ -86,7 +86,7 @@ impl Controller {
     ) -> Command {
         let forward = self.drive(distance_m, 0.0, elapsed).linear_m_s;
         let most_m_s = self.config.max_turn_rate_rad_s / turn_rad_m.abs();
-        let speed_m_s = forward.min(most_m_s);
+        let speed_m_s = forward.min(most_m_s).min(self.config.reverse_m_s());
         let linear_m_s = if reverse { -speed_m_s } else { speed_m_s };
         Command { linear_m_s, angular_rad_s: speed_m_s * turn_rad_m }
     }

@@ -58,10 +58,6 @@ impl Limits {
             reverse_price: config.state_lattice.reverse_price,
         }
     }
-
-    fn reverse_m_s(&self) -> f64 {
-        self.controller.trajectory.reverse_share * self.controller.max_speed_m_s
-    }
 }
 
 /// A pose in the plane.
@@ -178,7 +174,8 @@ impl TrajectoryOptimiser {
     /// would leave it standing: the body would come too near to something on the way that the search took,
     /// or the path ends here.
     pub(crate) fn drive(&mut self, course: &impl Course, from: Start) -> Option<Command> {
-        let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
+        let (speed_m_s, reverse_m_s) =
+            (self.limits.controller.max_speed_m_s, self.limits.controller.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
         // The path tells whether the robot drives in reverse, and where it faces away from the path it turns
         // first. In two seconds it would gain more by backing along a path that leads back, or by an arc off
@@ -242,7 +239,8 @@ impl TrajectoryOptimiser {
 
     /// Speed and turn rate towards a point.
     fn towards(&self, pose: &PlanPose, point_m: DVec2, reverse: bool) -> (f64, f64) {
-        let (speed_m_s, reverse_m_s) = (self.limits.controller.max_speed_m_s, self.limits.reverse_m_s());
+        let (speed_m_s, reverse_m_s) =
+            (self.limits.controller.max_speed_m_s, self.limits.controller.reverse_m_s());
         let turn_rate_rad_s = self.limits.controller.max_turn_rate_rad_s;
         let path_m = point_m - pose.position_m;
         let path_m = if reverse { -path_m } else { path_m };

@@ -167,7 +167,7 @@ impl StateLattice {
             recovers: false,
             facing: 0,
             turns: [0; 2],
-            body: BodyClearance::new(limits.half_body_m(), radius_m),
+            body: BodyClearance::new(limits, radius_m),
         }
     }
 
@@ -185,7 +185,8 @@ impl StateLattice {
         self.traversability.drive_on(moved_m.length());
         self.traversability.places.look(ground, self.here_m);
         let (sin, cos) = libm::sincos(pose.yaw_rad);
-        self.body.look(ground, self.here_m, DVec2::new(cos, sin));
+        let expected = self.traversability.places.gradient_at(self.here_m);
+        self.body.look(ground, self.here_m, DVec2::new(cos, sin), self.attitude.gradient, expected);
         self.search_with(Caution::Usual);
     }
 

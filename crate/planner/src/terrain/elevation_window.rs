@@ -54,9 +54,9 @@ pub(crate) trait TerrainQuery {
     /// side of `here_m`, or a drop. It stays one, `was_negative_obstacle`, while no returns come from it.
     fn is_negative_obstacle(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool;
 
-    /// The distance of the body at a place from what is upright, a wall, a post or a step, for each axis of
-    /// travel; at most `most_m`.
-    fn room_m(&self, place_m: DVec2, most_m: f64) -> [f64; AXES];
+    /// The distance of the body at a place with this plane from what is upright, a wall, a post or a step,
+    /// for each axis of travel; at most `most_m`.
+    fn room_m(&self, place_m: DVec2, plane: Option<&Plane>, most_m: f64) -> [f64; AXES];
 
     /// Whether the robot at a place with this plane, or just before or behind it, would be beyond its tilt
     /// limits with a wheel in a hole, or would set its underside down, for each axis of travel.
@@ -80,7 +80,7 @@ impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
         false
     }
 
-    fn room_m(&self, _: DVec2, most_m: f64) -> [f64; AXES] {
+    fn room_m(&self, _: DVec2, _: Option<&Plane>, most_m: f64) -> [f64; AXES] {
         [most_m; AXES]
     }
 
@@ -372,11 +372,15 @@ impl TerrainQuery for ElevationWindow {
         self.is_cliff(place_m, here_m, was_negative_obstacle)
     }
 
-    fn room_m(&self, place_m: DVec2, most_m: f64) -> [f64; AXES] {
+    fn room_m(&self, place_m: DVec2, plane: Option<&Plane>, most_m: f64) -> [f64; AXES] {
         let mut room_m = [most_m; AXES];
-        self.each_upright(place_m, (self.half_body_m + most_m).length(), &mut |thing_m| {
+        let lean_m = plane.map_or(DVec2::ZERO, |plane| self.robot.lean_m(plane.gradient));
+        let radius_m = (self.half_body_m + most_m).length() + lean_m.length();
+        self.each_upright(place_m, radius_m, &mut |thing_m| {
             for (room_m, direction) in room_m.iter_mut().zip(DIRECTIONS) {
-                *room_m = room_m.min(distance_from_body_m(self.half_body_m, thing_m - place_m, direction));
+                let from_middle_m = thing_m - place_m;
+                let thing_room_m = distance_from_body_m(self.half_body_m, lean_m, from_middle_m, direction);
+                *room_m = room_m.min(thing_room_m);
             }
         });
         room_m
@@ -445,11 +449,11 @@ mod tests {
     #[test]
     fn the_room_beside_a_post_is_that_of_the_body_along_each_axis_of_travel() {
         // A Husky is 0.99 m long and 0.67 m wide.
-        let room_m = post(DVec2::new(0.0, 0.7)).room_m(DVec2::ZERO, 0.5);
+        let room_m = post(DVec2::new(0.0, 0.7)).room_m(DVec2::ZERO, None, 0.5);
         let along = DIRECTIONS.iter().position(|direction| direction.abs_diff_eq(DVec2::X, 1e-9)).unwrap();
         let across = DIRECTIONS.iter().position(|direction| direction.abs_diff_eq(DVec2::Y, 1e-9)).unwrap();
         assert!((room_m[along] - 0.265).abs() < 0.05 && (room_m[across] - 0.105).abs() < 0.05, "{room_m:?}");
-        let alone_m = post(DVec2::new(0.0, 1.5)).room_m(DVec2::ZERO, 0.5);
+        let alone_m = post(DVec2::new(0.0, 1.5)).room_m(DVec2::ZERO, None, 0.5);
         assert!(alone_m.iter().all(|room_m| (room_m - 0.5).abs() < 1e-12), "{alone_m:?}");
     }
 

@@ -110,7 +110,7 @@ impl PlaceLattice {
         let footprint_slopes = plane.map_or([None; AXES], |plane| {
             DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
         });
-        let room_m = ground.room_m(place_m, SOUGHT_ROOM_M);
+        let room_m = ground.room_m(place_m, plane.as_ref(), SOUGHT_ROOM_M);
         let touches_upright = room_m.map(|room_m| room_m < LEAST_ROOM_M);
         let lacks_room =
             room_m.map(|room_m| ((SOUGHT_ROOM_M - room_m) / (SOUGHT_ROOM_M - LEAST_ROOM_M)) as f32);
@@ -127,6 +127,22 @@ impl PlaceLattice {
     /// What the last query found at a place.
     pub(crate) fn known(&self, offset: IVec2) -> Option<&Known> {
         self.known.get(self.centre + offset)
+    }
+
+    /// The ground's gradient at a point, between the places around it; zero where none is known.
+    pub(crate) fn gradient_at(&self, point_m: DVec2) -> DVec2 {
+        let steps = self.steps_from_centre(point_m);
+        let low = steps.floor();
+        let (part, low) = (steps - low, low.as_ivec2());
+        let (mut sum, mut weights) = (DVec2::ZERO, 0.0);
+        for corner in [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE] {
+            let share = DVec2::select(corner.cmpeq(IVec2::ONE), part, 1.0 - part);
+            if let Some(plane) = self.known(low + corner).and_then(|known| known.plane) {
+                sum += share.x * share.y * plane.gradient;
+                weights += share.x * share.y;
+            }
+        }
+        if weights > 0.0 { sum / weights } else { DVec2::ZERO }
     }
 
     /// Whether the robot keeps away from a place because it, or one beside it, is a negative obstacle: the

@@ -16,6 +16,7 @@ impl StateLattice {
     /// Connects the robot's pose to the first known places in each direction that it may turn to.
     pub(super) fn begin(&mut self) {
         let count = FIRST_DIRECTIONS as i32;
+        let ground = self.traversability.places.gradient_at(self.here_m);
         let here = Slopes::facing(self.attitude.gradient, self.first_direction(self.facing));
         for (side, sign) in [1, -1].into_iter().enumerate() {
             self.turns[side] = count / 2;
@@ -25,7 +26,7 @@ impl StateLattice {
                 // If the attitude already exceeds the limits, a turn may not increase the pitch further.
                 let slopes = Slopes::facing(self.attitude.gradient, facing);
                 let steeper = slopes.across > allowed.across || slopes.along > allowed.along.max(here.along);
-                let touches = self.body.is_too_near(self.here_m, facing);
+                let touches = self.body.is_too_near(self.here_m, facing, ground);
                 if turn > 0 && (steeper || touches) {
                     self.turns[side] = turn - 1;
                     break;

@@ -199,7 +199,7 @@ impl StateLattice {
     /// Whether the body at a pose near the robot is too near to something upright.
     pub(crate) fn is_too_near_upright(&self, place_m: DVec2, yaw_rad: f64) -> bool {
         let (sin, cos) = libm::sincos(yaw_rad);
-        self.body.is_too_near(place_m, DVec2::new(cos, sin))
+        self.body.is_too_near(place_m, DVec2::new(cos, sin), self.traversability.places.gradient_at(place_m))
     }
 
     /// Tilt utilisation here, in slope: the larger of the attitude's and of the attitude extrapolated at its
