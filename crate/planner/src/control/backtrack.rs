@@ -273,6 +273,7 @@ mod tests {
     use super::*;
 
     const STEP: Duration = Duration::from_millis(100);
+    use crate::config::ControllerConfig;
     use core::f64::consts::PI;
     use glam::DVec3;
 
@@ -313,6 +314,7 @@ mod tests {
     /// 1 m/s².
     fn backtrack_all(backtrack: &mut Backtrack, pose: &mut Pose, speed_m_s: f64) -> Vec<Pose> {
         assert!(backtrack.begin(pose.plan_m()).is_some());
+        let full_m_s = ControllerConfig::default().reverse_m_s();
         let mut poses = Vec::new();
         let (mut speed_m_s, mut turn_rate_rad_s) = (speed_m_s, 0.0);
         while let Some(back) = backtrack.next(pose, |turn_rad| turn_rad) {
@@ -320,7 +322,7 @@ mod tests {
                 BacktrackCommand::Brake => (0.0, 0.0),
                 BacktrackCommand::Turn { by_rad } => (0.0, (5.0 * by_rad).clamp(-0.5, 0.5)),
                 BacktrackCommand::Drive { turn_rad_m, reverse } => {
-                    (if reverse { -0.4 } else { 0.4 }, 0.4 * turn_rad_m)
+                    (if reverse { -full_m_s } else { full_m_s }, full_m_s * turn_rad_m)
                 }
             };
             speed_m_s += f64::clamp(wanted_m_s - speed_m_s, -0.1, 0.1);
