@@ -129,17 +129,24 @@ impl PlaceLattice {
         self.known.get(self.centre + offset)
     }
 
-    /// The ground's gradient at a point, between the places around it; zero where none is known.
-    pub(crate) fn gradient_at(&self, point_m: DVec2) -> DVec2 {
-        let steps = self.steps_from_centre(point_m);
+    /// The four places around a point, each with its weight in a bilinear interpolation.
+    pub(crate) fn four_around(&self, point_m: DVec2) -> [(IVec2, f64); 4] {
+        let steps = point_m / self.step_m - self.centre.as_dvec2();
         let low = steps.floor();
         let (part, low) = (steps - low, low.as_ivec2());
-        let (mut sum, mut weights) = (DVec2::ZERO, 0.0);
-        for corner in [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE] {
+        [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE].map(|corner| {
             let share = DVec2::select(corner.cmpeq(IVec2::ONE), part, 1.0 - part);
-            if let Some(plane) = self.known(low + corner).and_then(|known| known.plane) {
-                sum += share.x * share.y * plane.gradient;
-                weights += share.x * share.y;
+            (low + corner, share.x * share.y)
+        })
+    }
+
+    /// The ground's gradient at a point, between the places around it; zero where none is known.
+    pub(crate) fn gradient_at(&self, point_m: DVec2) -> DVec2 {
+        let (mut sum, mut weights) = (DVec2::ZERO, 0.0);
+        for (offset, weight) in self.four_around(point_m) {
+            if let Some(plane) = self.known(offset).and_then(|known| known.plane) {
+                sum += weight * plane.gradient;
+                weights += weight;
             }
         }
         if weights > 0.0 { sum / weights } else { DVec2::ZERO }
@@ -192,11 +199,6 @@ impl PlaceLattice {
     /// Position of a place in the world, seen from above.
     pub(crate) fn position_m(&self, offset: IVec2) -> DVec2 {
         (self.centre + offset).as_dvec2() * self.step_m
-    }
-
-    /// A point in steps from the centre.
-    pub(crate) fn steps_from_centre(&self, point_m: DVec2) -> DVec2 {
-        point_m / self.step_m - self.centre.as_dvec2()
     }
 
     /// Index of the place nearest to a point on the whole world's lattice.

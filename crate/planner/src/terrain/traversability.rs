@@ -236,19 +236,12 @@ impl TraversabilityMap {
 
     /// The risk at a pose in the plane, between the places around it.
     pub(crate) fn risk_at(&self, place_m: DVec2, yaw_rad: f64) -> RiskBetween {
-        let steps = self.places.steps_from_centre(place_m);
-        let low = steps.floor();
-        let part = steps - low;
-        let low = low.as_ivec2();
         let (heading, turn) = heading_below(yaw_rad);
         let mut risk = RiskBetween { price: 0.0, utilisation: 0.0 };
         let mut weights = 0.0;
-        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            let wx = if dx == 1 { part.x } else { 1.0 - part.x };
-            let wy = if dy == 1 { part.y } else { 1.0 - part.y };
-            let offset = low + IVec2::new(dx, dy);
-            for (heading, wh) in [(heading, 1.0 - turn), (heading + 1, turn)] {
-                let weight = wx * wy * wh;
+        for (offset, weight) in self.places.four_around(place_m) {
+            for (heading, share) in [(heading, 1.0 - turn), (heading + 1, turn)] {
+                let weight = weight * share;
                 let price =
                     if self.places.holds(offset) { self.risk(offset, heading) } else { f64::INFINITY };
                 if price.is_finite() {
