@@ -226,6 +226,7 @@ fn start_and_goal(safe_poses: &SafePoses, draw: &mut Sequence) -> Option<(PlanPo
 mod tests {
     use super::*;
     use crate::shortest_path;
+    use mapless_terrain::generate::Difficulty;
     use proptest::prelude::*;
     use rayon::prelude::{IntoParallelRefIterator as _, ParallelIterator as _};
 
@@ -263,11 +264,14 @@ mod tests {
         Family::ALL.par_iter().for_each(|&family| {
             let name = TaskName { family, seed: 3, index: 2 };
             let task = Task::generate(name).unwrap();
-            assert_eq!(task, Task::generate(name).unwrap());
             assert!((APART_M[0]..=APART_M[1]).contains(&task.straight_m()));
             let world = name.world(&task.terrain);
             let path = shortest_path(&world, task.start, task.goal_m, &OracleConfig::default());
-            assert_eq!(path, Ok(task.path));
+            assert_eq!(path.as_ref(), Ok(&task.path));
+            // All families draw from the same random numbers; generating takes long.
+            if [Family::Ground(Difficulty::Hard), Family::Mixed].contains(&family) {
+                assert_eq!(task, Task::generate(name).unwrap());
+            }
         });
     }
 
