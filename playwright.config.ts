@@ -19,6 +19,8 @@ export default defineConfig({
   expect: { timeout: 300_000 },
   reporter: [['list']],
   use: {
+    // What a page keeps for a visit without a network costs each opening a tenth; tests of that allow it.
+    serviceWorkers: 'block',
     actionTimeout: 300_000,
     baseURL: `http://127.0.0.1:${port}`,
     viewport: { width: 1440, height: 900 },

@@ -1,8 +1,8 @@
 /** Files from an address: what is fetched goes the way of files that are chosen. */
 
-import { test as base, type Page } from '@playwright/test';
+import type { Page } from '@playwright/test';
 import { DEVICES, faults } from './axe.ts';
-import { expect, fits, loaded, ownOf, press, state, still, until } from './page.ts';
+import { test as base, expect, fits, loaded, ownOf, press, state, still, until } from './page.ts';
 
 const HOST = 'https://worlds.example';
 const MAPS = 'verti_bench/main/envs/data/BenchMaps/sampled_maps';
@@ -66,7 +66,7 @@ async function serve(page: Page, host: string, files: Served): Promise<string[]>
 }
 
 /** A page whose scripts throw nothing. */
-const test = base.extend<{ mapless: Page }>({
+const test = base.extend({
   mapless: async ({ page }, use) => {
     const thrown: string[] = [];
     page.on('pageerror', (error) => thrown.push(String(error)));

@@ -4,7 +4,10 @@ import { expect, state, test } from './page.ts';
 const DOC = readFileSync('docs/API.md', 'utf8');
 
 test('the example of docs/API.md works in the console', async ({ mapless: page }) => {
-  const [, example] = /```js\n([\s\S]*?)```/.exec(DOC) ?? [];
+  const [, whole = ''] = /```js\n([\s\S]*?)```/.exec(DOC) ?? [];
+  // A part of the minute is enough.
+  const example = whole.replace('time_s < 60', 'time_s < 8');
+  expect(example).not.toBe(whole);
   const said: string[] = [];
   // The browser and libraries warn there, too, whenever the view is first drawn.
   page.on('console', (message) => {
@@ -13,7 +16,7 @@ test('the example of docs/API.md works in the console', async ({ mapless: page }
   await page.evaluate(`(async () => { ${example} })()`);
   const now = await state(page);
   expect(now).toMatchObject({ scenario: 'ht', seed: 7, playing: false, disturbed: false });
-  expect(now.outcome !== 'running' || now.time_s >= 60).toBe(true);
+  expect(now.outcome !== 'running' || now.time_s >= 8).toBe(true);
   expect(said.join()).toMatch(/^(reached|running) .*#e=/);
 });
 

@@ -4,7 +4,7 @@ import { test as base, expect } from '@playwright/test';
 import { preview } from 'vite';
 import { driven } from './commandLine.ts';
 import { FIREFOX, Firefox } from './firefox.ts';
-import { kept, shortCourse, state, until } from './page.ts';
+import { kept, runToEnd, shortCourse, state, until } from './page.ts';
 
 /** Opens an address and waits for the first scenario. */
 async function opened(address: string): Promise<Firefox> {
@@ -34,11 +34,8 @@ test.describe('in Firefox', () => {
   test.skip(!FIREFOX, 'No Firefox was found: install it, or name it in the environment variable FIREFOX.');
 
   test('a run has the digest and the trajectory of the command line', async ({ firefox }) => {
-    await firefox.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
     await firefox.evaluate(() => window.mapless?.loadScenario('ht', { seed: 3 }));
-    await firefox.evaluate(() => window.mapless?.play());
-    await until(firefox, (now) => now.outcome !== 'running');
-    const { outcome, digest } = await state(firefox);
+    const { outcome, digest } = await runToEnd(firefox);
     const out = test.info().outputPath();
     const run = driven('terrains/scenarios/ht.toml', '--seed', '3', '--out', out);
     expect({ outcome, digest }).toEqual({ outcome: run.outcome, digest: run.digest });

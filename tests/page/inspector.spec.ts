@@ -1,7 +1,6 @@
 import { createHash } from 'node:crypto';
 import type { Page } from '@playwright/test';
-import { test as plain } from '@playwright/test';
-import { drawnIn, expect, loaded, state, still, test, until } from './page.ts';
+import { drawnIn, driveTo, expect, loaded, state, still, test, until } from './page.ts';
 
 /** Drives until there is something to decide, then pauses. */
 async function pauseAt(page: Page, tick: number): Promise<void> {
@@ -117,11 +116,12 @@ test('a refused segment says which number failed', async ({ mapless: page }) => 
   const card = page.locator('#detail');
   const verdicts = new Map<string, string>();
   const refused = () => [...verdicts.keys()].filter((verdict) => verdict !== 'valid');
-  await page.evaluate(() => window.mapless?.setSpeed(4));
   // Some way along the route there is one.
   for (let tick = 10; tick < 600 && refused().length === 0; tick += 40) {
     await page.evaluate(() => window.mapless?.play());
-    await pauseAt(page, tick);
+    await driveTo(page, tick);
+    await page.evaluate((wanted) => window.mapless?.seek(wanted), tick);
+    await still(page);
     await page.locator('#variance').focus();
     const { segments } = await state(page);
     for (let step = 0; step < segments; step += 1) {
@@ -197,10 +197,10 @@ test.describe('in a low window', () => {
   });
 });
 
-plain.describe('on a phone', () => {
-  plain.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 
-  plain('surfaces are predicted only while something shows them', async ({ page }) => {
+  test('surfaces are predicted only while something shows them', async ({ page }) => {
     await page.goto('/');
     await loaded(page);
     await until(page, (now) => now.surfaces);
@@ -221,7 +221,7 @@ plain.describe('on a phone', () => {
     await until(page, (now) => now.surfaces);
   });
 
-  plain('a tap on the image explains what is there, and the tour is taken by touch', async ({ page }) => {
+  test('a tap on the image explains what is there, and the tour is taken by touch', async ({ page }) => {
     await page.goto('/');
     await loaded(page);
     await pauseAt(page, 6);

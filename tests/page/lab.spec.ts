@@ -56,14 +56,16 @@ test('a refused choice goes back to what holds, and an unusual value is called s
   await expect(field.getByText('Outside what is usual')).toBeVisible();
 });
 
-test('one press gives the paper as written, and what departs from it is said', async ({ mapless: page }) => {
+test('what departs from the paper is said, and one press gives the paper as written', async ({ mapless: page }) => {
+  await page.locator('#preset').selectOption('paper');
+  await page.locator('#learning').selectOption('fixed');
   await openLab(page, 'Parameters');
   const summary = page.getByRole('tabpanel', { name: 'Parameters' }).locator('.lab-note').first();
+  await expect(summary).toContainText('The paper has another mode.');
   await page.getByRole('button', { name: 'The paper as written' }).click();
   await until(page, (now) => now.preset === 'paper' && now.learning === 'every_scan');
+  // Nobody waits for the first scan, from which it learns for long.
   await expect(summary).toContainText('The paper as written.');
-  await page.locator('#learning').selectOption('fixed');
-  await expect(summary).toContainText('The paper has another mode.');
 });
 
 test('one trial has no deviation', async ({ mapless: page }) => {
@@ -145,7 +147,7 @@ test('ghosts drive the same course: the same planner gives the same digest, anot
 });
 
 test('a ghost that catches up is compared with the robot in view at the same tick', async ({ mapless: page }) => {
-  await driveTo(page, 200);
+  await driveTo(page, 120);
   await openLab(page, 'Compare');
   // Each difference that the same planner with the same seed is ever shown with.
   await page.evaluate(() => {
@@ -167,19 +169,19 @@ test('a ghost that catches up is compared with the robot in view at the same tic
   for (const difference of seen) expect(difference).toMatch(/^(–|\(0\.0+\))$/);
 });
 
-/** What the table and the summary of a batch of six seeds say; `most` is how many workers drove at once. */
+/** What the table and the summary of a batch of four seeds say; `most` is how many workers drove at once. */
 async function batch(page: Page): Promise<{ rows: string[]; summary: string | null; most: number }> {
   const before = page.workers().length;
   let most = 0;
   page.on('worker', () => {
     most = Math.max(most, page.workers().length - before);
   });
-  await shortCourse(page, 3);
+  await shortCourse(page, 2);
   await openLab(page, 'Seeds');
-  await page.getByLabel('How many').fill('6');
+  await page.getByLabel('How many').fill('4');
   await page.getByLabel('From seed').fill('41');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await expect(page.getByText('6 trials of Best. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
+  await expect(page.getByText('4 trials of Best. Press a seed to see it driven.')).toBeVisible({ timeout: 200_000 });
   const rows = await page.locator('.trials-table tbody tr').allInnerTexts();
   return { rows, summary: await page.locator('.seeds-summary').textContent(), most };
 }
@@ -238,31 +240,26 @@ test('one worker and several give the same table and the same summary', async ({
   await loaded(page);
   const several = await batch(page);
   expect([one.most, several.most]).toEqual([1, 3]);
-  expect(one.rows.map((row) => Number.parseInt(row, 10))).toEqual([41, 42, 43, 44, 45, 46]);
+  expect(one.rows.map((row) => Number.parseInt(row, 10))).toEqual([41, 42, 43, 44]);
   expect(several.rows).toEqual(one.rows);
   expect(several.summary).toBe(one.summary);
 });
 
-test.describe(() => {
-  // What this test replaces must come from the server.
-  test.use({ serviceWorkers: 'block' });
-
-  test('a panic is told with its seed, and all other seeds are driven', async ({ mapless: page }) => {
-    const trap = 'tick(){throw new WebAssembly.RuntimeError("unreachable");';
-    const scripts = '**/mapless_wasm_baselines*.js';
-    await changeFirstCore(page, (script) => script.replace(/\btick\(\)\s*\{/, trap), scripts);
-    await processors(page, 3);
-    await page.reload();
-    await loaded(page);
-    await shortCourse(page, 3);
-    await openLab(page, 'Seeds');
-    await page.getByLabel('How many').fill('6');
-    await page.getByRole('button', { name: 'Run', exact: true }).click();
-    await expect(page.getByRole('alert').filter({ hasText: /^Seed \d: unreachable$/ })).toBeVisible();
-    await expect(page.getByText('5 of 6 trials of Best. Press a seed to see it driven.')).toBeVisible({
-      timeout: 200_000,
-    });
-    await expect(page.locator('.trials-table tbody tr')).toHaveCount(5);
-    await expect(page.locator('.seeds-summary')).toContainText('5 of 5');
+test('a panic is told with its seed, and all other seeds are driven', async ({ mapless: page }) => {
+  const trap = 'tick(){throw new WebAssembly.RuntimeError("unreachable");';
+  const scripts = '**/mapless_wasm_baselines*.js';
+  await changeFirstCore(page, (script) => script.replace(/\btick\(\)\s*\{/, trap), scripts);
+  await processors(page, 3);
+  await page.reload();
+  await loaded(page);
+  await shortCourse(page, 3);
+  await openLab(page, 'Seeds');
+  await page.getByLabel('How many').fill('6');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await expect(page.getByRole('alert').filter({ hasText: /^Seed \d: unreachable$/ })).toBeVisible();
+  await expect(page.getByText('5 of 6 trials of Best. Press a seed to see it driven.')).toBeVisible({
+    timeout: 200_000,
   });
+  await expect(page.locator('.trials-table tbody tr')).toHaveCount(5);
+  await expect(page.locator('.seeds-summary')).toContainText('5 of 5');
 });

@@ -4,7 +4,7 @@ import { McapIndexedReader } from '@mcap/core';
 import type { Download, Page } from '@playwright/test';
 import type { Experiment } from '../../web/src/experiment/experiment.ts';
 import { driven } from './commandLine.ts';
-import { download, driveTo, expect, file, ownOf, state, test, until } from './page.ts';
+import { download, driveTo, expect, file, ownOf, runToEnd, state, test, until } from './page.ts';
 
 // A small view leaves a processor without graphics card its time.
 test.use({ viewport: { width: 720, height: 560 } });
@@ -87,10 +87,8 @@ test('the plots zoom by keys, wheel and buttons, and grow into a sheet', async (
 });
 
 test('trajectory and result are those of the command line', async ({ mapless: page }) => {
-  await page.evaluate(() => window.mapless?.setSpeed(Number.POSITIVE_INFINITY));
   await page.evaluate(() => window.mapless?.loadScenario('ht', { seed: 5 }));
-  await page.evaluate(() => window.mapless?.play());
-  await until(page, (now) => now.outcome !== 'running');
+  await runToEnd(page);
   const out = test.info().outputPath();
   driven('terrains/scenarios/ht.toml', '--seed', '5', '--out', out);
   const csv = await download(page, 'save-csv');

@@ -1,7 +1,7 @@
 /** The method by hand: thinking again where the robot stands, and the Gaussian process taken apart. */
 
-import AxeBuilder from '@axe-core/playwright';
 import type { Locator, Page } from '@playwright/test';
+import { colourFaults, faults } from './axe.ts';
 import { drag, driveTo, expect, moved, state, still, test, until, within } from './page.ts';
 
 /** Another threshold for the same planner. */
@@ -138,67 +138,6 @@ test('a stroke while paused is sensed and decided on at this very pose', async (
   await expect(what_if(page)).toBeHidden();
 });
 
-test('the process is changed by presets and sliders, and its skyline is compared with the true one', async ({
-  mapless: page,
-}) => {
-  await pausedAt(page, 60);
-  await openByHand(page);
-  const own = await off_deg(page);
-  expect(own).toBeLessThan(1.5);
-  await page.getByRole('button', { name: 'Paper’s' }).click();
-  await until(page, (now) => now.thought === 'what_if' && now.threshold === 0.7);
-  await expect(page.locator('.method-error')).toContainText('the run’s');
-  await expect.poll(() => off_deg(page)).toBeGreaterThan(own);
-  await page.getByRole('button', { name: 'Default', exact: true }).click();
-  await until(page, (now) => now.thought === 'run');
-  await expect.poll(() => off_deg(page)).toBe(own);
-
-  const scale = page.getByRole('slider', { name: 'ℓ elevation' });
-  await scale.focus();
-  for (let step = 0; step < 40; step += 1) await page.keyboard.press('ArrowRight');
-  await expect.poll(() => off_deg(page)).toBeGreaterThan(own);
-  expect((await state(page)).overrides).toHaveProperty('planner.perception.kernel.length_scales_rad');
-});
-
-test('the paper’s process is what the paper’s planner has', async ({ mapless: page }) => {
-  await pausedAt(page, 20);
-  await openByHand(page);
-  await page.getByRole('button', { name: 'Paper’s' }).click();
-  await until(page, (now) => now.threshold === 0.7);
-  const values = () => page.locator('.knob output').allTextContents();
-  const process = await values();
-  await page.evaluate(() => window.mapless?.adjust({ preset: 'paper', overrides: {} }));
-  await until(page, (now) => now.preset === 'paper' && Object.keys(now.overrides).length === 0);
-  expect(await values()).toEqual(process);
-});
-
-test('the true skyline is that of the radius which is tried', async ({ mapless: page }) => {
-  await pausedAt(page, 40);
-  await openByHand(page);
-  for (const surface_radius_m of [4, 6]) {
-    await adjust(page, { planner: { perception: { surface_radius_m } } });
-    await expect(page.locator('.method-error')).toContainText(`cm at ${surface_radius_m} m`);
-    expect(await off_deg(page)).toBeLessThan(1);
-  }
-});
-
-test('closing the process leaves the image as it was before', async ({ mapless: page }) => {
-  const image = page.locator('#app');
-  await pausedAt(page, 10);
-  await openByHand(page);
-  await expect(image).toHaveAttribute('data-image', 'large');
-  await page.keyboard.press('m');
-  await expect(method(page)).toBeHidden();
-  await expect(image).toHaveAttribute('data-image', 'small');
-  // Who enlarged it before, keeps it so.
-  await page.keyboard.press('v');
-  await page.keyboard.press('m');
-  await expect(method(page)).toBeVisible();
-  await page.keyboard.press('m');
-  await expect(method(page)).toBeHidden();
-  await expect(image).toHaveAttribute('data-image', 'large');
-});
-
 test('the threshold is a handle on the scale of the image, by mouse and by keys', async ({ mapless: page }) => {
   await pausedAt(page, 40);
   await page.keyboard.press('v');
@@ -229,54 +168,155 @@ async function inducingInputsByHand(page: Page): Promise<Locator> {
   return count;
 }
 
-test('an inducing input is taken away and put back, and strided ones are worse than the lattice', async ({
-  mapless: page,
-}) => {
+test('the process by hand: its inducing inputs, presets, sliders and threshold', async ({ mapless: page }) => {
   const count = await inducingInputsByHand(page);
-  const all = Number(await count.textContent());
-  const own = await off_deg(page);
-  const slice = page.locator('.slice-canvas');
-  await expect(slice).toHaveAttribute('aria-label', /^Slice ahead: skyline at/);
-  for (let taken = 1; taken <= 4; taken += 1) {
-    await page.getByRole('button', { name: 'Take one away' }).click();
-    await expect(count).toHaveText(`${all - taken} of ${all}`);
-  }
-  await expect.poll(() => off_deg(page)).not.toBe(own);
-  await page.getByRole('button', { name: 'Put back' }).click();
-  await expect(count).toHaveText(String(all));
-  await expect.poll(() => off_deg(page)).toBe(own);
+  await test.step('an inducing input is taken away and put back, and strided ones are worse than the lattice', async () => {
+    const all = Number(await count.textContent());
+    const own = await off_deg(page);
+    const slice = page.locator('.slice-canvas');
+    await expect(slice).toHaveAttribute('aria-label', /^Slice ahead: skyline at/);
+    for (let taken = 1; taken <= 4; taken += 1) {
+      await page.getByRole('button', { name: 'Take one away' }).click();
+      await expect(count).toHaveText(`${all - taken} of ${all}`);
+    }
+    await expect.poll(() => off_deg(page)).not.toBe(own);
+    await page.getByRole('button', { name: 'Put back' }).click();
+    await expect(count).toHaveText(String(all));
+    await expect.poll(() => off_deg(page)).toBe(own);
 
-  const placement = page.getByRole('combobox', { name: 'Inducing inputs' });
-  await placement.selectOption('farthest_points');
+    const placement = page.getByRole('combobox', { name: 'Inducing inputs' });
+    await placement.selectOption('farthest_points');
+    await expect(count).toHaveText(/^\d+$/);
+    await expect(count).not.toHaveText(String(all));
+    await placement.selectOption('strided');
+    await expect.poll(() => off_deg(page)).toBeGreaterThan(own);
+    await placement.selectOption('lattice');
+    await expect(count).toHaveText(String(all));
+    await expect.poll(() => off_deg(page)).toBe(own);
+    // Nothing of this is the run's.
+    expect(await state(page)).toMatchObject({ thought: 'run', overrides: {} });
+  });
+  await test.step('a press in the image moves the slice; with By press it takes an inducing input away', async () => {
+    const all = await count.textContent();
+    const image = page.locator('#variance');
+    /** Presses below the middle, until one meets an inducing input if any does. */
+    const press = async () => {
+      for (const across of [0.4, 0.42, 0.44, 0.46]) {
+        for (const down of [0.5, 0.55, 0.6, 0.65]) {
+          const { x, y } = await within(image, across, down);
+          await page.mouse.click(x, y);
+          if ((await count.textContent()) !== all) return;
+        }
+      }
+    };
+    await press();
+    await expect(page.locator('.slice-canvas')).toHaveAttribute('aria-label', /^Slice \d+° left: /);
+    await still(page);
+    await expect(count).toHaveText(all ?? '');
+    const byPress = page.getByRole('button', { name: 'By press' });
+    await byPress.focus();
+    await page.keyboard.press('Enter');
+    await expect(byPress).toHaveAttribute('aria-pressed', 'true');
+    await press();
+    await expect(count).toHaveText(new RegExp(`^\\d+ of ${all}$`));
+    // The next time the panel opens, a press takes nothing.
+    await page.getByRole('button', { name: 'By hand' }).click();
+    await page.getByRole('button', { name: 'By hand' }).click();
+    await expect(byPress).toHaveAttribute('aria-pressed', 'false');
+  });
   await expect(count).toHaveText(/^\d+$/);
-  await expect(count).not.toHaveText(String(all));
-  await placement.selectOption('strided');
-  await expect.poll(() => off_deg(page)).toBeGreaterThan(own);
-  await placement.selectOption('lattice');
-  await expect(count).toHaveText(String(all));
-  await expect.poll(() => off_deg(page)).toBe(own);
-  // Nothing of this is the run's.
-  expect(await state(page)).toMatchObject({ thought: 'run', overrides: {} });
+  await test.step('the process is changed by presets and sliders, and its skyline is compared with the true one', async () => {
+    const own = await off_deg(page);
+    expect(own).toBeLessThan(1.5);
+    await page.getByRole('button', { name: 'Paper’s' }).click();
+    await until(page, (now) => now.thought === 'what_if' && now.threshold === 0.7);
+    await expect(page.locator('.method-error')).toContainText('the run’s');
+    await expect.poll(() => off_deg(page)).toBeGreaterThan(own);
+    await page.getByRole('button', { name: 'Default', exact: true }).click();
+    await until(page, (now) => now.thought === 'run');
+    await expect.poll(() => off_deg(page)).toBe(own);
+
+    const scale = page.getByRole('slider', { name: 'ℓ elevation' });
+    await scale.focus();
+    for (let step = 0; step < 40; step += 1) await page.keyboard.press('ArrowRight');
+    await expect.poll(() => off_deg(page)).toBeGreaterThan(own);
+    expect((await state(page)).overrides).toHaveProperty('planner.perception.kernel.length_scales_rad');
+  });
+  await page.getByRole('button', { name: 'Default', exact: true }).click();
+  await until(page, (now) => now.thought === 'run');
+  await test.step('a threshold that nothing passes leaves no skyline, and says so', async () => {
+    await page.getByRole('slider', { name: 'V_th' }).first().focus();
+    await page.keyboard.press('Home');
+    await expect(page.locator('.method-error')).toHaveText('No skyline: nowhere does the variance cross V_th.');
+  });
 });
 
-test('the slice goes where the pointer is, and along the azimuths by keys; the kernel follows it', async ({
-  mapless: page,
-}) => {
+test('the process by hand: its skyline, slice, paper’s values, end and failure', async ({ mapless: page }) => {
   await pausedAt(page, 40);
   await openByHand(page);
-  const slice = page.locator('.slice-canvas');
-  const azimuth = page.getByRole('slider', { name: 'Azimuth of the slice' });
-  await azimuth.focus();
-  await page.keyboard.press('ArrowRight');
-  await expect(slice).toHaveAttribute('aria-label', /^Slice 1° right: /);
-  const { x, y } = await within(page.locator('#variance'), 0.3, 0.6);
-  await page.mouse.move(x, y);
-  await expect(slice).toHaveAttribute('aria-label', /^Slice \d+° left: /);
-  const image = page.locator('#variance');
-  const before = await image.screenshot();
-  await page.getByRole('checkbox', { name: /^kernel/ }).check();
-  await expect.poll(async () => (await image.screenshot()).equals(before)).toBe(false);
-  await page.getByRole('checkbox', { name: /^kernel/ }).uncheck();
+  await test.step('the true skyline is that of the radius which is tried', async () => {
+    for (const surface_radius_m of [4, 6]) {
+      await adjust(page, { planner: { perception: { surface_radius_m } } });
+      await expect(page.locator('.method-error')).toContainText(`cm at ${surface_radius_m} m`);
+      expect(await off_deg(page)).toBeLessThan(1);
+    }
+  });
+  await adjust(page, {});
+  await until(page, (now) => now.thought === 'run');
+  await test.step('the slice goes where the pointer is, and along the azimuths by keys; the kernel follows it', async () => {
+    const slice = page.locator('.slice-canvas');
+    const azimuth = page.getByRole('slider', { name: 'Azimuth of the slice' });
+    await azimuth.focus();
+    await page.keyboard.press('ArrowRight');
+    await expect(slice).toHaveAttribute('aria-label', /^Slice 1° right: /);
+    const { x, y } = await within(page.locator('#variance'), 0.3, 0.6);
+    await page.mouse.move(x, y);
+    await expect(slice).toHaveAttribute('aria-label', /^Slice \d+° left: /);
+    const image = page.locator('#variance');
+    const before = await image.screenshot();
+    await page.getByRole('checkbox', { name: /^kernel/ }).check();
+    await expect.poll(async () => (await image.screenshot()).equals(before)).toBe(false);
+    await page.getByRole('checkbox', { name: /^kernel/ }).uncheck();
+  });
+  await test.step('the paper’s process is what the paper’s planner has', async () => {
+    await page.getByRole('button', { name: 'Paper’s' }).click();
+    await until(page, (now) => now.threshold === 0.7);
+    const values = () => page.locator('.knob output').allTextContents();
+    const process = await values();
+    await page.evaluate(() => window.mapless?.adjust({ preset: 'paper', overrides: {} }));
+    await until(page, (now) => now.preset === 'paper' && Object.keys(now.overrides).length === 0);
+    expect(await values()).toEqual(process);
+  });
+  await page.evaluate(() => window.mapless?.adjust({ preset: 'default', overrides: {} }));
+  await until(page, (now) => now.thought === 'run');
+  await test.step('closing the process leaves the image as it was before', async () => {
+    const image = page.locator('#app');
+    await expect(image).toHaveAttribute('data-image', 'large');
+    await page.keyboard.press('m');
+    await expect(method(page)).toBeHidden();
+    await expect(image).toHaveAttribute('data-image', 'small');
+    // Who enlarged it before, keeps it so.
+    await page.keyboard.press('v');
+    await page.keyboard.press('m');
+    await expect(method(page)).toBeVisible();
+    await page.keyboard.press('m');
+    await expect(method(page)).toBeHidden();
+    await expect(image).toHaveAttribute('data-image', 'large');
+  });
+  await openByHand(page);
+  await test.step('a process without a solution is named as such, with what to do', async () => {
+    const kernel = { variance: 1e9, length_scales_rad: [1, 1] };
+    await adjust(page, { planner: { perception: { noise_variance_m2: 1e-9, kernel } } });
+    await expect(page.locator('.method-error')).toHaveText(
+      'No skyline: the noise is too small for this kernel. Press Default, or As it was.',
+    );
+    await expect(page.locator('#notice-text')).toHaveText(/^The Gaussian process has no solution: /);
+    await page.locator('#what-if-go-on').click();
+    await until(page, (now) => now.outcome === 'no_subgoal');
+    await expect(page.locator('#outcome')).toHaveText('Perception failed');
+    await expect(page.locator('#result-words')).toHaveText('Perception failed');
+    await expect(page.locator('#reason')).toHaveText(/^The Gaussian process has no solution for this scan: /);
+  });
 });
 
 test('learning without bounds climbs step by step, and its skyline runs away', async ({ mapless: page }) => {
@@ -298,14 +338,6 @@ test('learning without bounds climbs step by step, and its skyline runs away', a
   await page.getByRole('button', { name: 'Default', exact: true }).click();
   await expect(said).toBeHidden();
   await expect(page.getByRole('button', { name: 'Learned…' })).toHaveAttribute('aria-expanded', 'false');
-});
-
-test('a threshold that nothing passes leaves no skyline, and says so', async ({ mapless: page }) => {
-  await pausedAt(page, 60);
-  await openByHand(page);
-  await page.getByRole('slider', { name: 'V_th' }).first().focus();
-  await page.keyboard.press('Home');
-  await expect(page.locator('.method-error')).toHaveText('No skyline: nowhere does the variance cross V_th.');
 });
 
 test('weights are dragged, the candidates weighed anew and the path with them', async ({ mapless: page }) => {
@@ -429,18 +461,14 @@ test('thinking again and looking inside take no longer than a few ticks, at the 
 
 test('axe finds nothing serious in the process by hand and in what is only tried', async ({ mapless: page }) => {
   await pausedAt(page, 20);
-  for (const colorScheme of ['light', 'dark'] as const) {
-    await page.emulateMedia({ colorScheme, reducedMotion: 'reduce' });
-    if (!(await method(page).isVisible())) await openByHand(page);
-    await adjust(page, HIGHER);
-    await expect(what_if(page)).toBeVisible();
-    await page.locator('.method-equations summary').click();
-    const { violations } = await new AxeBuilder({ page })
-      .withTags(['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'])
-      .analyze();
-    const grave = violations.filter(({ impact }) => ['serious', 'critical'].includes(impact ?? ''));
-    expect(grave.map(({ id, nodes }) => [id, ...nodes.map(({ target }) => target.join(' '))])).toEqual([]);
-  }
+  await page.emulateMedia({ colorScheme: 'light', reducedMotion: 'reduce' });
+  await openByHand(page);
+  await adjust(page, HIGHER);
+  await expect(what_if(page)).toBeVisible();
+  await page.locator('.method-equations summary').click();
+  expect(await faults(page)).toEqual([]);
+  await page.emulateMedia({ colorScheme: 'dark', reducedMotion: 'reduce' });
+  expect(await colourFaults(page)).toEqual([]);
 });
 
 test.describe('on a phone', () => {
@@ -462,52 +490,4 @@ test.describe('on a phone', () => {
     await until(page, (now) => now.tick > tick || now.outcome !== 'running');
     expect((await state(page)).timeline.first).toBe(tick);
   });
-});
-
-test('a process without a solution is named as such, with what to do', async ({ mapless: page }) => {
-  await pausedAt(page, 40);
-  await openByHand(page);
-  const kernel = { variance: 1e9, length_scales_rad: [1, 1] };
-  await adjust(page, { planner: { perception: { noise_variance_m2: 1e-9, kernel } } });
-  await expect(page.locator('.method-error')).toHaveText(
-    'No skyline: the noise is too small for this kernel. Press Default, or As it was.',
-  );
-  await expect(page.locator('#notice-text')).toHaveText(/^The Gaussian process has no solution: /);
-  await page.locator('#what-if-go-on').click();
-  await until(page, (now) => now.outcome === 'no_subgoal');
-  await expect(page.locator('#outcome')).toHaveText('Perception failed');
-  await expect(page.locator('#result-words')).toHaveText('Perception failed');
-  await expect(page.locator('#reason')).toHaveText(/^The Gaussian process has no solution for this scan: /);
-});
-
-test('a press in the image moves the slice; with By press it takes an inducing input away', async ({
-  mapless: page,
-}) => {
-  const count = await inducingInputsByHand(page);
-  const all = await count.textContent();
-  const image = page.locator('#variance');
-  /** Presses below the middle, until one meets an inducing input if any does. */
-  const press = async () => {
-    for (const across of [0.4, 0.42, 0.44, 0.46]) {
-      for (const down of [0.5, 0.55, 0.6, 0.65]) {
-        const { x, y } = await within(image, across, down);
-        await page.mouse.click(x, y);
-        if ((await count.textContent()) !== all) return;
-      }
-    }
-  };
-  await press();
-  await expect(page.locator('.slice-canvas')).toHaveAttribute('aria-label', /^Slice \d+° left: /);
-  await still(page);
-  await expect(count).toHaveText(all ?? '');
-  const byPress = page.getByRole('button', { name: 'By press' });
-  await byPress.focus();
-  await page.keyboard.press('Enter');
-  await expect(byPress).toHaveAttribute('aria-pressed', 'true');
-  await press();
-  await expect(count).toHaveText(new RegExp(`^\\d+ of ${all}$`));
-  // The next time the panel opens, a press takes nothing.
-  await page.getByRole('button', { name: 'By hand' }).click();
-  await page.getByRole('button', { name: 'By hand' }).click();
-  await expect(byPress).toHaveAttribute('aria-pressed', 'false');
 });

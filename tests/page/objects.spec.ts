@@ -1,6 +1,6 @@
 /** Objects: placed, moved, turned, sized and deleted by mouse, finger and keyboard; the robot meets them; links keep them. */
 
-import { type Page, test as plain } from '@playwright/test';
+import type { Page } from '@playwright/test';
 import { unzipSync } from 'fflate';
 import type { WorldObject } from '../../web/src/experiment/objects.ts';
 import {
@@ -217,7 +217,7 @@ test('a link, the next visit and files keep them', async ({ mapless: page, brows
   expect(await objectsOf(page)).toEqual(own?.objects);
 });
 
-plain.describe('with a finger', () => {
+test.describe('with a finger', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 
   test('a rock is placed by a tap, sized, deleted, brought back and dragged', async ({ mapless: page }) => {

@@ -1,7 +1,7 @@
 import { expect, file, loaded, state, test, until } from './page.ts';
 
 // A small view leaves a processor without graphics card its time.
-test.use({ viewport: { width: 720, height: 560 } });
+test.use({ viewport: { width: 720, height: 560 }, serviceWorkers: 'allow' });
 
 test('after the first visit the page opens and drives without a network', async ({ mapless: page, context }) => {
   await page.evaluate(() => navigator.serviceWorker.ready);

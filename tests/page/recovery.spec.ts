@@ -1,10 +1,10 @@
-import { type Page, test as plain } from '@playwright/test';
+import type { Page } from '@playwright/test';
 import { changeFirstCore, expect, loaded, state, test, trapAfterStart, until } from './page.ts';
 
-// A small view leaves a processor without graphics card its time. What these tests replace must come from the server.
-for (const one of [plain, test]) one.use({ viewport: { width: 720, height: 560 }, serviceWorkers: 'block' });
+// A small view leaves a processor without graphics card its time.
+test.use({ viewport: { width: 720, height: 560 } });
 
-plain('a panic loses neither the ground, the start nor the goal', async ({ page }) => {
+test('a panic loses neither the ground, the start nor the goal', async ({ page }) => {
   const served = await trapAfterStart(page);
   await page.goto('/');
   await loaded(page);
@@ -39,7 +39,7 @@ plain('a panic loses neither the ground, the start nor the goal', async ({ page 
   await until(page, ({ tick }) => tick > 3);
 });
 
-plain('after a panic the process by hand has the true skyline again', async ({ page }) => {
+test('after a panic the process by hand has the true skyline again', async ({ page }) => {
   await trapAfterStart(page);
   await page.goto('/');
   await loaded(page);
@@ -67,7 +67,7 @@ async function slowCore(page: Page): Promise<void> {
   );
 }
 
-plain('what takes long to open can be stopped, and the last experiment comes back', async ({ page }) => {
+test('what takes long to open can be stopped, and the last experiment comes back', async ({ page }) => {
   await slowCore(page);
   await page.goto('/');
   await loaded(page);
@@ -90,7 +90,7 @@ plain('what takes long to open can be stopped, and the last experiment comes bac
   await until(page, ({ tick }) => tick > 3);
 });
 
-plain('a link that takes long to open can be stopped, and the page begins without it', async ({ page }) => {
+test('a link that takes long to open can be stopped, and the page begins without it', async ({ page }) => {
   await page.goto('/');
   await loaded(page);
   await page.evaluate(() => window.mapless?.loadScenario('ml'));
@@ -106,7 +106,7 @@ plain('a link that takes long to open can be stopped, and the page begins withou
   await until(page, ({ tick }) => tick > 3);
 });
 
-plain('a core that cannot start is no endless loop, and says so', async ({ page }) => {
+test('a core that cannot start is no endless loop, and says so', async ({ page }) => {
   await page.route('**/simulationWorker-*.js', (route) =>
     route.fulfill({ contentType: 'text/javascript', body: 'throw 1' }),
   );
@@ -154,7 +154,7 @@ test('an unexpected error is shown', async ({ page }) => {
   await expect(page.locator('#notice-text')).toContainText('a test went wrong');
 });
 
-plain('nothing on the page breaks its own policy', async ({ page }) => {
+test('nothing on the page breaks its own policy', async ({ page }) => {
   await page.addInitScript(() => {
     const broken: string[] = [];
     Object.assign(window, { broken });

@@ -1,8 +1,5 @@
-import { type Page, test as plain, type Worker } from '@playwright/test';
+import type { Page, Worker } from '@playwright/test';
 import { changeFirstCore, drawnIn, expect, loaded, state, still, test, until } from './page.ts';
-
-// What these tests replace must come from the server, not from what the page keeps.
-for (const one of [plain, test]) one.use({ serviceWorkers: 'block' });
 
 /** The name of the worker that draws the view. */
 const PAINTER = 'mapless painter';
@@ -80,7 +77,7 @@ test('while the window changes its size the view is never empty', async ({ maple
   await expect(view).not.toHaveAttribute('data-gaps');
 });
 
-plain('until its first picture the view says that it is being drawn', async ({ page }) => {
+test('until its first picture the view says that it is being drawn', async ({ page }) => {
   await beforePainting(
     page,
     'self.draw = self.requestAnimationFrame; self.requestAnimationFrame = (next) => { self.next = next; };',
@@ -98,7 +95,7 @@ plain('until its first picture the view says that it is being drawn', async ({ p
   await drawnIn(page, '#view', 500);
 });
 
-plain('drawing the view begins with few questions to a busy graphics process', async ({ page }) => {
+test('drawing the view begins with few questions to a busy graphics process', async ({ page }) => {
   const questions = ['getExtension', 'getProgramInfoLog', 'getShaderInfoLog'];
   await beforePainting(
     page,
@@ -120,7 +117,7 @@ plain('drawing the view begins with few questions to a busy graphics process', a
   expect(await painter.evaluate(() => (self as unknown as { asked: number }).asked)).toBeLessThanOrEqual(1);
 });
 
-plain('what a graphics driver refuses to draw is told, and the rest is drawn', async ({ page }) => {
+test('what a graphics driver refuses to draw is told, and the rest is drawn', async ({ page }) => {
   await beforePainting(
     page,
     `const { shaderSource } = WebGL2RenderingContext.prototype;
@@ -138,7 +135,7 @@ plain('what a graphics driver refuses to draw is told, and the rest is drawn', a
   await until(page, (now) => now.tick > tick + 3);
 });
 
-plain('without WebGL the view stays empty, and all else works', async ({ page }) => {
+test('without WebGL the view stays empty, and all else works', async ({ page }) => {
   await beforePainting(page, 'OffscreenCanvas.prototype.getContext = () => null;');
   await page.goto('/');
   await loaded(page);
@@ -150,7 +147,7 @@ plain('without WebGL the view stays empty, and all else works', async ({ page })
   await expect(page.locator('#notice-text')).toContainText('view.png could not be made: there is no 3D view');
 });
 
-plain('an error in drawing is explained, ends a film with what it has, and all else works', async ({ page }) => {
+test('an error in drawing is explained, ends a film with what it has, and all else works', async ({ page }) => {
   await page.goto('/');
   await loaded(page);
   await page.locator('#save-film').click();
@@ -178,14 +175,14 @@ test('the policy of the page allows its own origin only, and to fetch data', asy
   expect(policy?.replace('https:', '')).not.toMatch(/https?:|\*|unsafe-inline|unsafe-eval'(?<!wasm-unsafe-eval')/);
 });
 
-plain('a damaged wasm file is explained', async ({ page }) => {
+test('a damaged wasm file is explained', async ({ page }) => {
   await page.route('**/*.wasm', (route) => route.fulfill({ contentType: 'application/wasm', body: 'not wasm' }));
   await page.goto('/');
   await expect(page.locator('#notice')).toBeVisible();
   await expect(page.locator('#notice-text')).toContainText('simulation');
 });
 
-plain('after a panic in the core the simulation starts anew, and says why', async ({ page }) => {
+test('after a panic in the core the simulation starts anew, and says why', async ({ page }) => {
   // The first worker gets a core whose fifth decision traps.
   const trap =
     'if((globalThis.ticks=(globalThis.ticks??0)+1)===5){throw new WebAssembly.RuntimeError("panicked at the fifth tick")}';

@@ -32,36 +32,42 @@ const hand = (page: Page) => page.getByRole('button', { name: 'By hand' });
 const enlarge = (page: Page) => page.locator('#enlarge');
 const app = (page: Page) => page.locator('.app');
 
-for (const [width, height] of [
-  [1440, 900],
-  [1280, 720],
-  [1120, 760],
-] as const) {
-  test(`at ${width} × ${height} every tool is in sight, and the drawer stands beside the large image`, async ({
-    mapless: page,
-  }) => {
-    await page.setViewportSize({ width, height });
-    await still(page);
-    expect(await hiddenTools(page)).toEqual([]);
-    await enlarge(page).click();
-    await expect(app(page)).toHaveAttribute('data-image', 'large');
-    expect(await hiddenTools(page)).toEqual([]);
-    await openLab(page, 'Parameters');
-    expect(await overlap(page)).toBeLessThanOrEqual(0);
-    expect(await hiddenTools(page)).toEqual([]);
-    // Its own button is not under the drawer, nor the threshold's handle, which the largest images have.
-    if (width >= 1280) await page.locator('.threshold-handle').click({ trial: true });
-    await enlarge(page).click({ trial: true });
-    await hand(page).click();
-    await expect(page.locator('.method')).toBeVisible();
-    expect(await overlap(page)).toBeLessThanOrEqual(0);
-    expect(await hiddenTools(page)).toEqual([]);
-    await page.getByRole('slider', { name: 'V_th' }).last().click({ trial: true });
-    await page.locator('.lab-close').click();
-    expect(await hiddenTools(page)).toEqual([]);
-    await page.locator('.slice-canvas').first().click({ trial: true });
-  });
-}
+test('every tool is in sight in windows of three sizes, and the drawer stands beside the large image', async ({
+  mapless: page,
+}) => {
+  for (const [width, height] of [
+    [1440, 900],
+    [1280, 720],
+    [1120, 760],
+  ] as const) {
+    await test.step(`${width} × ${height}`, async () => {
+      await page.setViewportSize({ width, height });
+      await still(page);
+      expect(await hiddenTools(page)).toEqual([]);
+      await enlarge(page).click();
+      await expect(app(page)).toHaveAttribute('data-image', 'large');
+      expect(await hiddenTools(page)).toEqual([]);
+      await openLab(page, 'Parameters');
+      expect(await overlap(page)).toBeLessThanOrEqual(0);
+      expect(await hiddenTools(page)).toEqual([]);
+      // Its own button is not under the drawer, nor the threshold's handle, which the largest images have.
+      if (width >= 1280) await page.locator('.threshold-handle').click({ trial: true });
+      await enlarge(page).click({ trial: true });
+      await hand(page).click();
+      await expect(page.locator('.method')).toBeVisible();
+      expect(await overlap(page)).toBeLessThanOrEqual(0);
+      expect(await hiddenTools(page)).toEqual([]);
+      await page.getByRole('slider', { name: 'V_th' }).last().click({ trial: true });
+      await page.locator('.lab-close').click();
+      expect(await hiddenTools(page)).toEqual([]);
+      await page.locator('.slice-canvas').first().click({ trial: true });
+      // As it was before, for the next size.
+      await hand(page).click();
+      await enlarge(page).click();
+      await expect(app(page)).toHaveAttribute('data-image', 'small');
+    });
+  }
+});
 
 test.describe('on a phone', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });

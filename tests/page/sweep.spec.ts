@@ -53,7 +53,7 @@ for (const [device, options] of Object.entries(DEVICES)) {
 
 test('its campaign gives the same digests on the command line as its table says', async ({ mapless: page }) => {
   await page.evaluate(() => window.mapless?.loadScenario('ht'));
-  await shortCourse(page, 3);
+  await shortCourse(page, 2);
   await page.evaluate(() => window.mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } }));
   await openLab(page, 'Sweep');
   await tab(page).getByLabel('Values').fill('0.3, 0.5');
@@ -127,15 +127,15 @@ test('a sweep is cancelled, and an edited course takes no replay', async ({ mapl
 
 test('many seeds are saved as a table and as a campaign that gives the same digests', async ({ mapless: page }) => {
   await page.evaluate(() => window.mapless?.loadScenario('ht', { preset: 'paper' }));
-  await shortCourse(page, 3);
+  await shortCourse(page, 2);
   await page.evaluate(() => window.mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } }));
   await openLab(page, 'Seeds');
   const seeds = page.getByRole('tabpanel', { name: 'Seeds' });
-  await seeds.getByLabel('How many').fill('3');
+  await seeds.getByLabel('How many').fill('2');
   await seeds.getByRole('button', { name: 'Run', exact: true }).click();
-  await expect(seeds.getByRole('status')).toHaveText(/^3 trials/);
+  await expect(seeds.getByRole('status')).toHaveText(/^2 trials/);
   const table = rows((await saved(page, 'Save as CSV', seeds)).toString());
-  expect(table.map(({ seed }) => seed)).toEqual(['1', '2', '3']);
+  expect(table.map(({ seed }) => seed)).toEqual(['1', '2']);
   expect(table[0]).toMatchObject({ planner: 'paper', parameters: 'sensor.range_noise_m=0.03' });
   const folder = test.info().outputPath();
   for (const [name, bytes] of Object.entries(unzipSync(await saved(page, 'Save as campaign', seeds)))) {
@@ -148,7 +148,7 @@ test('many seeds are saved as a table and as a campaign that gives the same dige
 });
 
 test('another planner drives a batch, which says so; a trial of it is seen as a ghost', async ({ mapless: page }) => {
-  await shortCourse(page, 3);
+  await shortCourse(page, 2);
   await openLab(page, 'Seeds');
   const seeds = page.getByRole('tabpanel', { name: 'Seeds' });
   await expect(seeds.getByLabel('Planner').locator('option').first()).toHaveText('the one in view: Best');
@@ -170,7 +170,7 @@ test('another planner drives a batch, which says so; a trial of it is seen as a 
 });
 
 test('somebody’s own planner drives seeds and values; where it breaks off is told', async ({ mapless: page }) => {
-  await shortCourse(page, 3);
+  await shortCourse(page, 2);
   await openLab(page, 'Compare');
   await page.getByRole('heading', { name: 'Your own planner' }).click();
   await page.getByLabel('Your planner, in JavaScript').fill(`export default ({ pose, goal }) => {
@@ -207,7 +207,7 @@ test('somebody’s own planner drives seeds and values; where it breaks off is t
 });
 
 test('the table of a comparison is saved, with parameters and digests of each', async ({ mapless: page }) => {
-  await shortCourse(page, 3);
+  await shortCourse(page, 2);
   await page.evaluate(() => window.mapless?.setOverrides({ sensor: { range_noise_m: 0.03 } }));
   await openLab(page, 'Compare');
   const compare = page.getByRole('tabpanel', { name: 'Compare' });

@@ -1,9 +1,9 @@
 /** Work is never lost: not by a reload, another tab, another scenario or Back. */
 
-import { type Page, test as plain } from '@playwright/test';
-import { allKept, expect, kept, loaded, ownOf, state, until } from './page.ts';
+import type { Page } from '@playwright/test';
+import { allKept, expect, kept, loaded, ownOf, state, test, until } from './page.ts';
 
-plain.use({ viewport: { width: 720, height: 560 } });
+test.use({ viewport: { width: 720, height: 560 } });
 
 async function open(page: Page, address: string): Promise<void> {
   await page.goto(address);
@@ -23,7 +23,7 @@ async function otherGoal(page: Page, ahead_m: number): Promise<void> {
 
 const query = (page: Page) => new URL(page.url()).search;
 
-plain('an edit of a scenario that the address asked for outlives a reload', async ({ page }) => {
+test('an edit of a scenario that the address asked for outlives a reload', async ({ page }) => {
   await open(page, '/?scenario=ht');
   await otherGoal(page, 6);
   await expect.poll(() => query(page)).toBe('');
@@ -32,30 +32,27 @@ plain('an edit of a scenario that the address asked for outlives a reload', asyn
   expect(await ownOf(page)).toEqual(own);
 });
 
-plain(
-  'two tabs keep their own work, and what was begun last is where another one begins',
-  async ({ page, context }) => {
-    await open(page, '/');
-    await otherGoal(page, 6);
-    const first = await kept(page);
-    const other = await context.newPage();
-    // It begins where the first tab is, and goes on by itself.
-    await open(other, '/');
-    expect(await ownOf(other)).toEqual(first);
-    await otherGoal(other, 9);
-    const second = await kept(other);
-    expect(await allKept(page)).toEqual([first, second]);
-    await reload(page);
-    expect(await ownOf(page)).toEqual(first);
-    await reload(other);
-    expect(await ownOf(other)).toEqual(second);
-    const third = await context.newPage();
-    await open(third, '/');
-    expect(await ownOf(third)).toEqual(second);
-  },
-);
+test('two tabs keep their own work, and what was begun last is where another one begins', async ({ page, context }) => {
+  await open(page, '/');
+  await otherGoal(page, 6);
+  const first = await kept(page);
+  const other = await context.newPage();
+  // It begins where the first tab is, and goes on by itself.
+  await open(other, '/');
+  expect(await ownOf(other)).toEqual(first);
+  await otherGoal(other, 9);
+  const second = await kept(other);
+  expect(await allKept(page)).toEqual([first, second]);
+  await reload(page);
+  expect(await ownOf(page)).toEqual(first);
+  await reload(other);
+  expect(await ownOf(other)).toEqual(second);
+  const third = await context.newPage();
+  await open(third, '/');
+  expect(await ownOf(third)).toEqual(second);
+});
 
-plain('looking at scenarios takes the place of no work, and the address says which', async ({ page }) => {
+test('looking at scenarios takes the place of no work, and the address says which', async ({ page }) => {
   await open(page, '/');
   await otherGoal(page, 6);
   const own = await kept(page);
@@ -73,7 +70,7 @@ plain('looking at scenarios takes the place of no work, and the address says whi
   expect(await ownOf(page)).toEqual(own);
 });
 
-plain('the address follows, and Back goes through what was opened', async ({ page }) => {
+test('the address follows, and Back goes through what was opened', async ({ page }) => {
   await open(page, '/?scenario=ht&seed=7');
   for (const name of ['gsb', 'ml']) {
     await page.locator('#scenario').selectOption(name);
@@ -99,7 +96,7 @@ plain('the address follows, and Back goes through what was opened', async ({ pag
   await page.waitForFunction(() => window.mapless?.state()?.scenario === 'gsb');
 });
 
-plain('earlier work is listed with the terrains, and opens from there', async ({ page }) => {
+test('earlier work is listed with the terrains, and opens from there', async ({ page }) => {
   await open(page, '/');
   await otherGoal(page, 6);
   const own = await kept(page);
@@ -114,30 +111,27 @@ plain('earlier work is listed with the terrains, and opens from there', async ({
   expect(await ownOf(page)).toEqual(own);
 });
 
-plain(
-  'a link stays in the address until something is changed, and is no work of one’s own before',
-  async ({ page }) => {
-    await open(page, '/');
-    await otherGoal(page, 6);
-    const own = await kept(page);
-    const link = (await page.evaluate(() => window.mapless?.link())) ?? '';
-    await page.evaluate(() => window.mapless?.loadScenario('ht'));
-    await otherGoal(page, 4);
-    const newest = await kept(page);
-    await page.goto('about:blank');
-    await open(page, link);
-    expect(page.url()).toBe(link);
-    await reload(page);
-    expect(await ownOf(page)).toEqual(own);
-    expect(await allKept(page)).toEqual([own, newest]);
-    await otherGoal(page, 9);
-    await expect.poll(() => new URL(page.url()).hash).toBe('');
-    const changed = await kept(page);
-    expect(await allKept(page)).toEqual([own, newest, changed]);
-  },
-);
+test('a link stays in the address until something is changed, and is no work of one’s own before', async ({ page }) => {
+  await open(page, '/');
+  await otherGoal(page, 6);
+  const own = await kept(page);
+  const link = (await page.evaluate(() => window.mapless?.link())) ?? '';
+  await page.evaluate(() => window.mapless?.loadScenario('ht'));
+  await otherGoal(page, 4);
+  const newest = await kept(page);
+  await page.goto('about:blank');
+  await open(page, link);
+  expect(page.url()).toBe(link);
+  await reload(page);
+  expect(await ownOf(page)).toEqual(own);
+  expect(await allKept(page)).toEqual([own, newest]);
+  await otherGoal(page, 9);
+  await expect.poll(() => new URL(page.url()).hash).toBe('');
+  const changed = await kept(page);
+  expect(await allKept(page)).toEqual([own, newest, changed]);
+});
 
-plain('a damaged link leaves the scenario that the address asks for', async ({ page }) => {
+test('a damaged link leaves the scenario that the address asks for', async ({ page }) => {
   await open(page, '/?scenario=ht#e=AAAA');
   await expect(page.locator('#notice-text')).toContainText('damaged or was cut short');
   expect(await state(page)).toMatchObject({ scenario: 'ht' });
