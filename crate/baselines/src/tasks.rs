@@ -268,7 +268,7 @@ mod tests {
             let world = name.world(&task.terrain);
             let path = shortest_path(&world, task.start, task.goal_m, &OracleConfig::default());
             assert_eq!(path.as_ref(), Ok(&task.path));
-            // All families draw from the same random numbers; generating takes long.
+            // Generating takes long, and every family draws with the same generator: two stand for all.
             if [Family::Ground(Difficulty::Hard), Family::Mixed].contains(&family) {
                 assert_eq!(task, Task::generate(name).unwrap());
             }

@@ -209,7 +209,7 @@ fn its_path_can_be_driven() {
 
 #[test]
 fn its_path_among_obstacles_can_be_driven() {
-    // Nobody with a map knows where people will walk. `Mixed` has rocks and posts.
+    // Nobody with a map knows where people will walk. `Mixed` always has rocks and posts.
     for family in [Family::Walls, Family::Ditches, Family::Mixed] {
         let task = Task::generate(TaskName { family, seed: 9, index: 1 }).unwrap();
         let scenario = Scenario::parse("task.toml", &task.scenario("terrain.toml")).unwrap();
