@@ -3,6 +3,7 @@
 //! The robot backtracks when the attitude is too steep or no path leads on: the elevation window was wrong or
 //! incomplete. Every pose of the trajectory was safe once, so returning needs no prediction.
 
+use core::f64::consts::FRAC_PI_2;
 use core::time::Duration;
 use std::collections::VecDeque;
 
@@ -26,6 +27,8 @@ const ARRIVAL_M: f64 = 0.03;
 const ARRIVAL_RAD: f64 = 0.05;
 /// Between poses nearer than this the robot turned on the spot.
 const TURN_M: f64 = 0.08;
+/// A turn on the spot is undone in parts as large as this, so that the robot turns at its full rate.
+const MOST_TURN_RAD: f64 = FRAC_PI_2;
 /// Smaller parts of a turn are not worth commanding.
 const LEAST_TURN_RAD: f64 = 0.1;
 /// The robot turns to the recorded heading over the distance to the pose, or over this distance if that is
@@ -75,10 +78,17 @@ impl Pose2 {
         DVec2::new(cos, sin)
     }
 
-    /// Whether this pose is past `pose` on the path to `next`.
+    /// Whether this pose is past `recorded` on the path to `next`, which may be a turn on the spot.
     fn is_past(&self, recorded: &Self, next: &Self) -> bool {
-        let past_m =
-            (self.place_m - recorded.place_m).dot((next.place_m - recorded.place_m).normalize_or_zero());
+        let path_m = next.place_m - recorded.place_m;
+        let past_m = (self.place_m - recorded.place_m).dot(path_m.normalize_or_zero());
+        if path_m.length() < TURN_M {
+            let turned_rad = wrap_rad(self.yaw_rad - recorded.yaw_rad);
+            let is_there = self.place_m.distance(recorded.place_m) < ARRIVAL_M;
+            if is_there && turned_rad * wrap_rad(next.yaw_rad - recorded.yaw_rad) > 0.0 {
+                return true;
+            }
+        }
         past_m > if self.turned_rad(recorded) < SPACING_RAD { 0.0 } else { ARRIVAL_M }
     }
 }
@@ -201,7 +211,7 @@ impl Backtrack {
                 let turns =
                     before.is_some_and(|before| (before.place_m - recorded.place_m).length() < TURN_M);
                 let enough_rad = if turns { ARRIVAL_RAD } else { SPACING_RAD };
-                let back = move_to(&here, &recorded, enough_rad, &safe_turn_rad);
+                let back = move_to(&here, &recorded, self.turns_on_rad(), enough_rad, &safe_turn_rad);
                 if back.is_some() {
                     return back;
                 }
@@ -213,6 +223,22 @@ impl Backtrack {
         }
         self.end();
         None
+    }
+
+    /// How far the trajectory turns one way on the spot from its newest pose back, anticlockwise positive.
+    fn turns_on_rad(&self) -> f64 {
+        let mut turn_rad = 0.0_f64;
+        let poses = self.trajectory.iter().rev();
+        let Some(newest) = poses.clone().next() else { return 0.0 };
+        for (recorded, before) in poses.clone().zip(poses.skip(1)) {
+            let step_rad = wrap_rad(before.yaw_rad - recorded.yaw_rad);
+            let goes_on = before.place_m.distance(newest.place_m) < ARRIVAL_M && turn_rad * step_rad >= 0.0;
+            if !goes_on || turn_rad.abs() > MOST_TURN_RAD {
+                break;
+            }
+            turn_rad += step_rad;
+        }
+        turn_rad
     }
 
     /// The positions of the trajectory, the newest first.
@@ -240,11 +266,12 @@ impl Backtrack {
     }
 }
 
-/// The move from the robot's pose to a recorded one; `None` if it is there, to within `enough_rad`, or can
-/// neither drive nor turn there.
+/// The move from the robot's pose to a recorded one, from which the trajectory turns on; `None` if the robot
+/// is there, to within `enough_rad`, or can neither drive nor turn there.
 fn move_to(
     here: &Pose2,
     recorded: &Pose2,
+    turns_on_rad: f64,
     enough_rad: f64,
     safe_turn_rad: impl Fn(f64) -> f64,
 ) -> Option<BacktrackCommand> {
@@ -262,6 +289,7 @@ fn move_to(
             reverse,
         });
     }
+    let turn_rad = if turn_rad * turns_on_rad < 0.0 { turn_rad } else { turn_rad + turns_on_rad };
     // At a recorded position every recorded heading is safe, whatever the window says.
     let by_rad = if path_m.length() > ARRIVAL_M { safe_turn_rad(turn_rad) } else { turn_rad };
     (turn_rad.abs() > enough_rad && by_rad.abs() >= turn_rad.abs().min(LEAST_TURN_RAD))
@@ -274,6 +302,7 @@ mod tests {
 
     const STEP: Duration = Duration::from_millis(100);
     use crate::config::ControllerConfig;
+    use crate::control::controller::Controller;
     use core::f64::consts::PI;
     use glam::DVec3;
 
@@ -313,6 +342,16 @@ mod tests {
     /// Backtracks to the first pose, out of a drive at this speed; returns every pose. A Husky accelerates at
     /// 1 m/s².
     fn backtrack_all(backtrack: &mut Backtrack, pose: &mut Pose, speed_m_s: f64) -> Vec<Pose> {
+        backtrack_with(backtrack, pose, speed_m_s, |by_rad| (5.0 * by_rad).clamp(-0.5, 0.5))
+    }
+
+    /// As [`backtrack_all`], with a law for the rate of turns on the spot.
+    fn backtrack_with(
+        backtrack: &mut Backtrack,
+        pose: &mut Pose,
+        speed_m_s: f64,
+        mut law: impl FnMut(f64) -> f64,
+    ) -> Vec<Pose> {
         assert!(backtrack.begin(pose.plan_m()).is_some());
         let full_m_s = ControllerConfig::default().reverse_m_s();
         let mut poses = Vec::new();
@@ -320,7 +359,7 @@ mod tests {
         while let Some(back) = backtrack.next(pose, |turn_rad| turn_rad) {
             let (wanted_m_s, wanted_rad_s) = match back {
                 BacktrackCommand::Brake => (0.0, 0.0),
-                BacktrackCommand::Turn { by_rad } => (0.0, (5.0 * by_rad).clamp(-0.5, 0.5)),
+                BacktrackCommand::Turn { by_rad } => (0.0, law(by_rad)),
                 BacktrackCommand::Drive { turn_rad_m, reverse } => {
                     (if reverse { -full_m_s } else { full_m_s }, full_m_s * turn_rad_m)
                 }
@@ -434,7 +473,7 @@ mod tests {
         let turn_rad =
             |back| if let Some(BacktrackCommand::Turn { by_rad }) = back { by_rad } else { f64::NAN };
         let whole_rad = turn_rad(backtrack.clone().next(&robot, |_| 0.0));
-        assert!((-0.2..-0.05).contains(&whole_rad), "{whole_rad} where it turned");
+        assert!((-1.1..-0.8).contains(&whole_rad), "{whole_rad} where it turned");
         // To its left.
         robot.position_m += 0.07 * DVec3::new(-libm::sin(1.0), libm::cos(1.0), 0.0);
         assert!((turn_rad(backtrack.clone().next(&robot, |turn| turn)) - whole_rad).abs() < 1e-12);
@@ -444,6 +483,23 @@ mod tests {
         // Unsafe turns are left out.
         let next = backtrack.next(&robot, |_| 0.0);
         assert!(!matches!(next, Some(BacktrackCommand::Turn { .. })), "{next:?}");
+    }
+
+    #[test]
+    fn a_turn_on_the_spot_is_undone_about_as_fast_as_it_was_made() {
+        for turn_rate_rad_s in [0.5, -0.5] {
+            let (mut backtrack, mut robot) = driven(20);
+            for _ in 0..60 {
+                advance(&mut backtrack, &mut robot, 0.0, turn_rate_rad_s);
+            }
+            let mut controller = Controller::new(ControllerConfig::default());
+            let poses = backtrack_with(&mut backtrack, &mut robot, 0.0, |by_rad| {
+                controller.drive(0.0, by_rad, STEP).angular_rad_s
+            });
+            let turning = poses.iter().filter(|pose| pose.position_m.x > 0.95).count();
+            assert!(turning < 70, "{turning} tenths of a second");
+            assert!(robot.yaw_rad.abs() < 0.06 && robot.position_m.length() < 0.15, "{robot:?}");
+        }
     }
 
     #[test]
