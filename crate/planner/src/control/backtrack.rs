@@ -27,7 +27,8 @@ const ARRIVAL_M: f64 = 0.03;
 const ARRIVAL_RAD: f64 = 0.05;
 /// Between poses nearer than this the robot turned on the spot.
 const TURN_M: f64 = 0.08;
-/// A turn on the spot is undone in parts as large as this, so that the robot turns at its full rate.
+/// A turn on the spot is undone in parts of up to this, so that the robot turns at its full rate, and never
+/// by more than half a circle, which would be the other way round.
 const MOST_TURN_RAD: f64 = FRAC_PI_2;
 /// Smaller parts of a turn are not worth commanding.
 const LEAST_TURN_RAD: f64 = 0.1;
@@ -211,7 +212,8 @@ impl Backtrack {
                 let turns =
                     before.is_some_and(|before| (before.place_m - recorded.place_m).length() < TURN_M);
                 let enough_rad = if turns { ARRIVAL_RAD } else { SPACING_RAD };
-                let back = move_to(&here, &recorded, self.turns_on_rad(), enough_rad, &safe_turn_rad);
+                let whole_turn_rad = self.turn_on_the_spot_rad(&here);
+                let back = move_to(&here, &recorded, whole_turn_rad, enough_rad, &safe_turn_rad);
                 if back.is_some() {
                     return back;
                 }
@@ -225,15 +227,16 @@ impl Backtrack {
         None
     }
 
-    /// How far the trajectory turns one way on the spot from its newest pose back, anticlockwise positive.
-    fn turns_on_rad(&self) -> f64 {
-        let mut turn_rad = 0.0_f64;
+    /// The turn from a pose to the newest of the trajectory and on, as far as the trajectory turns the same
+    /// way on the spot there; anticlockwise positive.
+    fn turn_on_the_spot_rad(&self, here: &Pose2) -> f64 {
         let poses = self.trajectory.iter().rev();
         let Some(newest) = poses.clone().next() else { return 0.0 };
+        let mut turn_rad = wrap_rad(newest.yaw_rad - here.yaw_rad);
         for (recorded, before) in poses.clone().zip(poses.skip(1)) {
             let step_rad = wrap_rad(before.yaw_rad - recorded.yaw_rad);
             let goes_on = before.place_m.distance(newest.place_m) < ARRIVAL_M && turn_rad * step_rad >= 0.0;
-            if !goes_on || turn_rad.abs() > MOST_TURN_RAD {
+            if !goes_on || (turn_rad + step_rad).abs() > MOST_TURN_RAD {
                 break;
             }
             turn_rad += step_rad;
@@ -266,12 +269,12 @@ impl Backtrack {
     }
 }
 
-/// The move from the robot's pose to a recorded one, from which the trajectory turns on; `None` if the robot
-/// is there, to within `enough_rad`, or can neither drive nor turn there.
+/// The move from the robot's pose to a recorded one, or the turn there and on; `None` if the robot is there,
+/// to within `enough_rad`, or can neither drive nor turn there.
 fn move_to(
     here: &Pose2,
     recorded: &Pose2,
-    turns_on_rad: f64,
+    whole_turn_rad: f64,
     enough_rad: f64,
     safe_turn_rad: impl Fn(f64) -> f64,
 ) -> Option<BacktrackCommand> {
@@ -289,10 +292,9 @@ fn move_to(
             reverse,
         });
     }
-    let turn_rad = if turn_rad * turns_on_rad < 0.0 { turn_rad } else { turn_rad + turns_on_rad };
     // At a recorded position every recorded heading is safe, whatever the window says.
-    let by_rad = if path_m.length() > ARRIVAL_M { safe_turn_rad(turn_rad) } else { turn_rad };
-    (turn_rad.abs() > enough_rad && by_rad.abs() >= turn_rad.abs().min(LEAST_TURN_RAD))
+    let by_rad = if path_m.length() > ARRIVAL_M { safe_turn_rad(whole_turn_rad) } else { whole_turn_rad };
+    (whole_turn_rad.abs() > enough_rad && by_rad.abs() >= whole_turn_rad.abs().min(LEAST_TURN_RAD))
         .then_some(BacktrackCommand::Turn { by_rad })
 }
 
@@ -500,6 +502,15 @@ mod tests {
             assert!(turning < 70, "{turning} tenths of a second");
             assert!(robot.yaw_rad.abs() < 0.06 && robot.position_m.length() < 0.15, "{robot:?}");
         }
+    }
+
+    #[test]
+    fn a_turn_that_goes_on_past_half_a_circle_is_begun_the_way_it_was_made() {
+        let (mut backtrack, mut robot) = turned(40);
+        robot.yaw_rad += 2.0;
+        let back = backtrack.next(&robot, |turn| turn);
+        let Some(BacktrackCommand::Turn { by_rad }) = back else { panic!("{back:?}") };
+        assert!((-2.2..-1.9).contains(&by_rad), "{by_rad}");
     }
 
     #[test]
