@@ -32,7 +32,7 @@ pub(crate) fn strewn(height_m: impl Fn(DVec2) -> Option<f64>) -> ElevationWindow
 }
 
 /// Level ground on which something upright stands, for a body that is a point. All of it may be a negative
-/// obstacle, and stays one.
+/// obstacle.
 pub(crate) struct Standing {
     pub(crate) at_m: DVec2,
     pub(crate) radius_m: f64,
@@ -48,8 +48,8 @@ impl TerrainQuery for Standing {
         None
     }
 
-    fn is_negative_obstacle(&self, _: DVec2, _: DVec2, was_negative_obstacle: bool) -> bool {
-        self.is_void || was_negative_obstacle
+    fn is_negative_obstacle(&self, _: DVec2, _: DVec2, _: bool) -> bool {
+        self.is_void
     }
 
     fn room_m(&self, place_m: DVec2, _: Option<&Plane>, most_m: f64) -> [f64; AXES] {

@@ -29,8 +29,6 @@ pub(crate) struct Known {
     pub(crate) is_blocked: [bool; AXES],
     /// The share of the sought room beside what is upright that the body lacks, for each axis of travel.
     pub(crate) lacks_room: [f32; AXES],
-    /// Whether the ground may be another by now.
-    is_outdated: bool,
 }
 
 /// Places by their offset from the one nearest to the robot.
@@ -69,15 +67,12 @@ impl PlaceLattice {
         self.known.clear();
     }
 
-    /// Has the ground within `radius_m` of a place queried again. A negative obstacle stays one meanwhile:
-    /// from where the robot is, it may not show that ground is missing there.
-    pub(crate) fn query_again_near(&mut self, place_m: DVec2, radius_m: f64) {
+    /// Forgets the ground within `radius_m` of a place; it is queried again.
+    pub(crate) fn forget_near(&mut self, place_m: DVec2, radius_m: f64) {
         let (low, high) = (self.world_index(place_m - radius_m), self.world_index(place_m + radius_m));
         for y in low.y..=high.y {
             for x in low.x..=high.x {
-                if let Some(known) = self.known.get_mut(IVec2::new(x, y)) {
-                    known.is_outdated = true;
-                }
+                self.known.remove(IVec2::new(x, y));
             }
         }
     }
@@ -95,7 +90,7 @@ impl PlaceLattice {
                 let world = self.centre + offset;
                 let due = (world.x + 2 * world.y).rem_euclid(LOOKS) == self.looks;
                 let before = self.known.get(world);
-                if due || before.is_none_or(|known| known.is_outdated) {
+                if due || before.is_none() {
                     let was_negative_obstacle = before.is_some_and(|known| known.is_negative_obstacle);
                     let known = self.query(ground, self.position_m(offset), here_m, was_negative_obstacle);
                     self.known.set(world, known);
@@ -126,8 +121,7 @@ impl PlaceLattice {
             && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
         let sets_down = plane.map_or([false; AXES], |plane| ground.sets_down(place_m, &plane));
         let is_blocked = core::array::from_fn(|axis| touches_upright[axis] || sets_down[axis]);
-        let is_outdated = false;
-        Known { plane, footprint_slopes, is_negative_obstacle, is_blocked, lacks_room, is_outdated }
+        Known { plane, footprint_slopes, is_negative_obstacle, is_blocked, lacks_room }
     }
 
     /// What the last query found at a place.
@@ -235,17 +229,5 @@ mod tests {
         assert!(known(1).is_blocked[0] && !known(1).is_negative_obstacle, "0 m from the body");
         assert!(!known(2).is_blocked[0] && known(2).is_negative_obstacle, "beside it");
         assert!((0..=3).all(|x| (known(x).lacks_room[0] > 0.0) == (x < 2)));
-    }
-
-    #[test]
-    fn a_negative_obstacle_stays_one_when_ground_near_it_is_refuted() {
-        let ground = |is_void| Standing { at_m: DVec2::splat(9.0), radius_m: 0.5, is_void };
-        let mut places = PlaceLattice::new(&PlannerConfig::default().state_lattice, 3.0);
-        places.look(&ground(true), DVec2::ZERO);
-        for _ in 0..2 * LOOKS {
-            places.query_again_near(DVec2::ZERO, 1.0);
-            places.look(&ground(false), DVec2::ZERO);
-            assert!(places.known(IVec2::new(1, 0)).unwrap().is_negative_obstacle);
-        }
     }
 }
