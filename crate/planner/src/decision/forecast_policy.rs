@@ -239,6 +239,7 @@ impl ForecastPolicy {
         let end_m = subgoal.position_m.truncate();
         if let Some(reached) = self.lattice.to(end_m) {
             self.lattice.follow(reached, path);
+            self.lattice.keep(reached, path.get(1).is_some_and(|point| point.reverse));
         }
         if let Some(last) = path.last_mut() {
             // The subgoal lies up to half a step from the last place.
@@ -258,8 +259,7 @@ impl ForecastPolicy {
         controller: &mut Controller,
         path: &[PathPoint],
     ) -> Command {
-        let next = self.lattice.lookahead(path);
-        let ahead = self.lattice.drive(&next);
+        let ahead = self.lattice.lookahead(path);
         let bearing = bearing_rad(situation.pose, ahead.position_m);
         let path_m = subgoal.forecast.map_or(0.0, |forecast| forecast.path_m);
         let utilisation = self.lattice.utilisation_ahead(path, &ahead);
@@ -271,16 +271,10 @@ impl ForecastPolicy {
         controller.regulated(command, utilisation)
     }
 
-    /// Drives the best short trajectory along the path, or along the leg that is to be finished first; `None`
-    /// if the robot stands and would be left standing.
+    /// Drives the best short trajectory along the path; `None` if the robot stands and would be left standing.
     fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Option<Command> {
         let Situation { config, pose, last_command, .. } = *situation;
         let here_m = pose.plan_m();
-        let next = self.lattice.lookahead(path);
-        let ahead = self.lattice.drive(&next);
-        let here = PathPoint { position_m: here_m, cost_m: 0.0, reverse: false };
-        let leg = [here, PathPoint { cost_m: here_m.distance(ahead.position_m), ..ahead }];
-        let path = if ahead == next { path } else { &leg };
         let from = Start {
             pose: PlanPose { position_m: here_m, yaw_rad: pose.yaw_rad },
             command: last_command,

@@ -10,17 +10,17 @@
 mod backward_search;
 mod begin;
 mod gaps;
+mod kept_path;
 mod path;
 #[cfg(test)]
 mod tests;
 
-use core::f64::consts::{FRAC_1_SQRT_2, TAU};
+use core::f64::consts::TAU;
 use core::time::Duration;
 
 use glam::DVec2;
 
 use crate::config::StateLatticeConfig;
-use crate::math::angle::wrap_rad;
 use crate::pose::{FrameChange, Pose};
 use crate::robot_model::RobotModel;
 use crate::route::queue::BucketQueue;
@@ -29,6 +29,7 @@ use crate::terrain::body_clearance::BodyClearance;
 use crate::terrain::elevation_window::TerrainQuery;
 use crate::terrain::headings::{HEADINGS, STEPS};
 use crate::terrain::traversability::{Caution, TraversabilityMap};
+use kept_path::KeptPath;
 pub(crate) use path::{first_leg, length_m};
 
 /// Directions in which a path may begin.
@@ -45,12 +46,8 @@ const BRAKING_TIME: Duration = Duration::from_millis(300);
 const BRAKING_UTILISATION: f64 = 0.98;
 /// Turning back on steep ground inflates the slope variance this far ahead.
 const INFLATED_AHEAD_M: f64 = 0.5;
-/// The robot finishes a leg of this length before it changes direction; with this much left it counts as
-/// finished.
-const LEG_M: f64 = 1.0;
-const LEG_DONE_M: f64 = 0.15;
-/// Directions within an eighth of a circle of each other count as the same.
-const SAME_COSINE: f64 = FRAC_1_SQRT_2;
+/// The driven path is left only for one that is cheaper by this much, in metres of level ground.
+const WORTH_LEAVING_M: f64 = 0.5;
 /// A path begins at a place at least this far from the robot; nearer places count as its own.
 const FIRST_STEP_M: f64 = 0.3;
 /// Costs are whole millimetres of level ground.
@@ -60,9 +57,8 @@ const FARTHEST_M: usize = 60;
 /// Lower bound on the cost of a step.
 const LEAST_COST_MM: u32 = 100;
 const UNREACHED: u32 = u32::MAX;
-/// Predecessors from here on encode the first direction of a state that was reached directly from the robot's
-/// pose.
-const BEGIN: u32 = u32::MAX - FIRST_DIRECTIONS as u32;
+/// The predecessor of a state that was reached directly from the robot's pose.
+const BEGIN: u32 = u32::MAX;
 
 /// The cheapest paths to all reachable states.
 #[derive(Clone, Debug)]
@@ -78,14 +74,15 @@ pub(crate) struct StateLattice {
     here_m: DVec2,
     attitude: AttitudeEstimate,
     caution: Caution,
-    /// First direction of the last driven path, and the target of the current leg.
-    last: Option<First>,
-    leg: Option<PathPoint>,
+    kept: KeptPath,
+    /// The kept path's next state in this search, and whether it is entered in reverse.
+    kept_state: Option<(usize, bool)>,
+    /// Whether the last drive was in reverse.
+    was_reverse: Option<bool>,
     /// Whether the last drive was in recovery, with the smaller margin.
     recovers: bool,
-    /// Index of the direction that the robot faces, and how many directions it may turn to the left and to
-    /// the right.
-    facing: i32,
+    /// Unit vector that the robot faces, and by how many directions it may turn to the left and to the right.
+    facing: DVec2,
     turns: [i32; 2],
     body: BodyClearance,
 }
@@ -108,14 +105,6 @@ impl Prices {
             reverse: config.reverse_price,
         }
     }
-}
-
-/// The first direction of a path.
-#[derive(Clone, Copy, Debug)]
-struct First {
-    /// Unit vector along the robot's heading.
-    facing: DVec2,
-    reverse: bool,
 }
 
 /// A point on a path.
@@ -162,10 +151,11 @@ impl StateLattice {
             here_m: DVec2::ZERO,
             attitude: AttitudeEstimate::default(),
             caution: Caution::Usual,
-            last: None,
-            leg: None,
+            kept: KeptPath::default(),
+            kept_state: None,
+            was_reverse: None,
             recovers: false,
-            facing: 0,
+            facing: DVec2::X,
             turns: [0; 2],
             body: BodyClearance::new(limits, radius_m),
         }
@@ -181,12 +171,12 @@ impl StateLattice {
         let moved_m = pose.plan_m() - self.here_m;
         self.here_m = pose.plan_m();
         self.attitude.be_at(pose, elapsed);
-        self.facing = (wrap_rad(pose.yaw_rad) / TAU * FIRST_DIRECTIONS as f64).round() as i32;
         self.traversability.drive_on(moved_m.length());
         self.traversability.places.look(ground, self.here_m);
         let (sin, cos) = libm::sincos(pose.yaw_rad);
+        self.facing = DVec2::new(cos, sin);
         let expected = self.traversability.places.gradient_at(self.here_m);
-        self.body.look(ground, self.here_m, DVec2::new(cos, sin), self.attitude.gradient, expected);
+        self.body.look(ground, self.here_m, self.facing, self.attitude.gradient, expected);
         self.search_with(Caution::Usual);
     }
 
@@ -233,63 +223,25 @@ impl StateLattice {
         self.expand();
     }
 
-    /// Commits to the next point of a path and returns the point to drive to.
-    ///
-    /// If the point needs a change of direction, the robot first finishes its current leg, as long as that is
-    /// ahead and safe: it changes direction at most once a metre.
-    pub(crate) fn drive(&mut self, point: &PathPoint) -> PathPoint {
-        if !self.continues(&self.first_to(point))
-            && let Some(leg) = self.current_leg()
-        {
-            return leg;
-        }
-        self.commit(point);
-        *point
-    }
-
-    /// Whether a path with this first direction continues the last one.
-    fn continues(&self, first: &First) -> bool {
-        self.last
-            .is_none_or(|last| last.reverse == first.reverse && last.facing.dot(first.facing) > SAME_COSINE)
-    }
-
-    /// The first direction of a path that begins straight to a point.
-    fn first_to(&self, point: &PathPoint) -> First {
-        let path = point.position_m - self.here_m;
-        let facing = if point.reverse { -path } else { path };
-        First { facing: facing.normalize_or_zero(), reverse: point.reverse }
-    }
-
-    /// Commits to the next point of a path. A reversal on steep ground inflates the slope variance ahead.
-    fn commit(&mut self, point: &PathPoint) {
-        let path = point.position_m - self.here_m;
-        let next = self.first_to(point);
-        let turned_back = self.last.filter(|last| last.reverse != next.reverse);
+    /// Keeps the path to a reached place, which the robot sets out on in this direction. A reversal on steep
+    /// ground inflates the slope variance ahead.
+    pub(crate) fn keep(&mut self, reached: ReachedState, reverse: bool) {
+        let turned_back = self.was_reverse.is_some_and(|was_reverse| was_reverse != reverse);
         let recovers = self.caution == Caution::Recovery;
         if recovers && !self.recovers {
             self.traversability.penalise(self.here_m);
-        } else if !recovers && let Some(last) = turned_back.filter(|_| self.is_on_steep_ground()) {
-            let facing = self.first_direction(self.facing);
-            self.inflate_variance_ahead(if last.reverse { -facing } else { facing });
+        } else if !recovers && turned_back && self.is_on_steep_ground() {
+            self.inflate_variance_ahead(if reverse { self.facing } else { -self.facing });
         }
         self.recovers = recovers;
-        self.last = Some(next);
-        self.leg = Some(PathPoint { position_m: self.here_m + path.clamp_length_max(LEG_M), ..*point });
+        self.was_reverse = Some(reverse);
+        self.kept = self.kept_path_to(reached);
     }
 
-    /// The target of the current leg, if it is still ahead and the straight line to it safe.
-    fn current_leg(&self) -> Option<PathPoint> {
-        let (leg, last) = self.leg.zip(self.last)?;
-        let travel = if last.reverse { -last.facing } else { last.facing };
-        let path = leg.position_m - self.here_m;
-        let ahead = path.dot(travel) > LEG_DONE_M && path.length() < LEG_M + LEG_DONE_M;
-        (ahead && self.straight_cost_m(&leg, FIRST_STEP_M).is_finite()).then_some(leg)
-    }
-
-    /// Releases the committed direction and leg.
+    /// Releases the kept path.
     pub(crate) fn release(&mut self) {
-        self.last = None;
-        self.leg = None;
+        self.was_reverse = None;
+        self.kept = KeptPath::default();
     }
 
     /// Dijkstra's algorithm from the states that [`begin`](Self::begin) reached.

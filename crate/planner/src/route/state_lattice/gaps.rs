@@ -23,25 +23,34 @@ impl StateLattice {
         let uncertain = GAP_DEVIATION_PER_M
             * distance_m
             * self.traversability.deviations_at(self.traversability.places.position_m(to));
-        let risk = self.risk_between(&start, &end, path / distance_m, uncertain);
+        let risk = self.risk_between(&start, &end, |_| path / distance_m, uncertain, 1);
         let climb_m = (end.height_m - start.height_m).abs();
         let price_m = GAP_PRICE * distance_m * (1.0 + prices.tilt * risk);
         risk.is_finite().then_some((to, price_m + prices.climb * climb_m))
     }
 
-    /// Mean risk along a straight line over the virtual surface, a cubic through the heights and slopes at
-    /// both ends. Infinite if it is not safe with `uncertain` added to its slopes.
-    pub(super) fn risk_between(&self, from: &Station, to: &Station, direction: DVec2, uncertain: f64) -> f64 {
-        let count = (to.distance_m / self.config.step_m).ceil().max(1.0) as usize;
+    /// Mean risk over the virtual surface, a cubic through the heights and slopes at both ends, of a robot
+    /// that travels along `travel_at` each share of the way, at this many places at least. Infinite if it is not
+    /// safe with `uncertain` added to its slopes.
+    pub(super) fn risk_between(
+        &self,
+        from: &Station,
+        to: &Station,
+        travel_at: impl Fn(f64) -> DVec2,
+        uncertain: f64,
+        samples: usize,
+    ) -> f64 {
+        let along = (to.distance_m / self.config.step_m).ceil() as usize;
+        let count = along.max(samples);
         let risk_at = |k: usize| {
-            let slopes = from.slopes_towards(to, direction, k as f64 / count as f64);
+            let slopes = from.slopes_towards(to, &travel_at, k as f64 / count as f64);
             self.traversability.risk_on(&slopes, uncertain, self.caution, to.distance_m)
         };
         (1..=count).map(risk_at).sum::<f64>() / count as f64
     }
 }
 
-/// Distance, height and gradient at a place on a straight line.
+/// Distance, height and gradient at a place on the way.
 pub(super) struct Station {
     pub(super) distance_m: f64,
     pub(super) height_m: f64,
@@ -51,11 +60,11 @@ pub(super) struct Station {
 impl Station {
     /// Slopes at `share` of the distance to another station, on the cubic Hermite polynomial through both
     /// heights and slopes.
-    fn slopes_towards(&self, to: &Self, direction: DVec2, share: f64) -> Slopes {
+    fn slopes_towards(&self, to: &Self, travel_at: impl Fn(f64) -> DVec2, share: f64) -> Slopes {
         let t = share;
         let length_m = to.distance_m - self.distance_m;
-        let across = self.gradient.lerp(to.gradient, t).dot(direction.perp()).abs();
-        let (from_slope, to_slope) = (self.gradient.dot(direction), to.gradient.dot(direction));
+        let across = self.gradient.lerp(to.gradient, t).dot(travel_at(t).perp()).abs();
+        let (from_slope, to_slope) = (self.gradient.dot(travel_at(0.0)), to.gradient.dot(travel_at(1.0)));
         let along = 6.0 * t * (1.0 - t) * (to.height_m - self.height_m) / length_m
             + (1.0 - t) * (1.0 - 3.0 * t) * from_slope
             + t * (3.0 * t - 2.0) * to_slope;

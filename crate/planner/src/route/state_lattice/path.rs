@@ -4,7 +4,7 @@ use core::time::Duration;
 
 use glam::DVec2;
 
-use super::{BEGIN, FIRST_STEP_M, MILLIMETRES, PathPoint, ReachedState, StateLattice, UNREACHED};
+use super::{BEGIN, MILLIMETRES, PathPoint, ReachedState, StateLattice, UNREACHED};
 use crate::route::forecast::{Forecast, ReachEnd};
 use crate::terrain::headings::{DIRECTIONS, HEADINGS, STEPS, nearest};
 use crate::terrain::slopes::Slopes;
@@ -85,10 +85,10 @@ impl StateLattice {
         let (mut across, mut along) = (0.0_f64, 0.0_f64);
         let (mut risk_sum, mut count, mut climb_m) = (0.0, 0.0, 0.0);
         let mut state = reached.state;
-        while state < BEGIN {
+        while state != BEGIN {
             let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
             let from = self.came_from[state as usize];
-            let turned = from < BEGIN && from as usize / HEADINGS == place;
+            let turned = from != BEGIN && from as usize / HEADINGS == place;
             if !turned {
                 let offset = self.traversability.places.offset(place);
                 risk_sum += self.traversability.risk(offset, heading);
@@ -99,10 +99,10 @@ impl StateLattice {
                     along = along.max(slopes.along);
                 }
                 let height_m = |state: u32| self.height_m(ReachedState { state });
-                let last_height_m = if from < BEGIN { height_m(from) } else { self.attitude.height_m };
+                let last_height_m = if from != BEGIN { height_m(from) } else { self.attitude.height_m };
                 climb_m += (height_m(state) - last_height_m).abs();
                 let position_m = self.traversability.places.position_m(offset);
-                let last_m = if from < BEGIN {
+                let last_m = if from != BEGIN {
                     self.traversability
                         .places
                         .position_m(self.traversability.places.offset(from as usize / HEADINGS))
@@ -117,10 +117,6 @@ impl StateLattice {
         }
         path.push(PathPoint { position_m: self.here_m, cost_m: 0.0, reverse: false });
         path.reverse();
-        let is_own_place = |point: &PathPoint| (point.position_m - self.here_m).length() < FIRST_STEP_M;
-        if path.len() > 2 && is_own_place(&path[1]) {
-            path.remove(1);
-        }
         Forecast {
             path_m: length_m(path),
             climb_m,

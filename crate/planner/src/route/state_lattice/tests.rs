@@ -7,6 +7,7 @@ use super::*;
 use crate::config::PlannerConfig;
 use crate::route::forecast::ReachEnd;
 use crate::terrain::plane::Plane;
+use crate::terrain::slopes::Slopes;
 use crate::testing::Standing;
 
 const STEP: Duration = Duration::from_millis(100);
@@ -34,12 +35,12 @@ fn bank(place_m: DVec2) -> Option<Plane> {
     plane(place_m, if on_bank { DVec2::new(1.5, 0.0) } else { DVec2::ZERO })
 }
 
-/// Commits to a path to a place; returns the point that the robot drives to.
+/// Keeps the path to a place; returns the point that the robot drives to.
 fn set_out(lattice: &mut StateLattice, goal_m: DVec2, path: &mut Vec<PathPoint>) -> PathPoint {
     let reached = lattice.to(goal_m).unwrap();
     lattice.follow(reached, path);
-    let next = lattice.lookahead(path);
-    lattice.drive(&next)
+    lattice.keep(reached, path[1].reverse);
+    lattice.lookahead(path)
 }
 
 #[test]
@@ -354,34 +355,69 @@ fn the_cost_of_a_change_keeps_the_side_of_an_obstacle() {
 }
 
 #[test]
-fn it_finishes_its_leg_unless_that_is_no_longer_safe() {
-    let mut lattice = lattice();
-    let mut path = Vec::new();
-    let at = |x_m: f64| Pose { position_m: DVec3::new(x_m, 0.0, 0.0), ..pose(0.0, 0.0) };
-    let mut target_x = |ground: &dyn TerrainQuery, here_x_m: f64, goal_x_m: f64| {
-        lattice.search(ground, &at(here_x_m), STEP);
-        set_out(&mut lattice, DVec2::new(goal_x_m, 0.0), &mut path).position_m.x
+fn a_path_is_left_only_for_one_that_is_cheaper_by_half_a_metre() {
+    // An obstacle ahead, and a slope on one side of it.
+    let slope = |left: f64, right: f64| {
+        move |place_m: DVec2| {
+            let is_obstacle = (place_m - DVec2::new(3.0, 0.0)).length() < 0.8;
+            let beside = if place_m.y > 0.0 {
+                left
+            } else if place_m.y < 0.0 {
+                right
+            } else {
+                0.0
+            };
+            plane(place_m, DVec2::X * if is_obstacle { 2.0 } else { beside })
+        }
     };
-    let ahead = |x_m: f64| (x_m - 1.0).abs() < 1e-9;
-    assert!((target_x(&level, 0.0, 4.0) - 4.0).abs() < 1e-9);
-    for here_x_m in [0.1, 0.5, 0.8] {
-        assert!(ahead(target_x(&level, here_x_m, -4.0)), "from {here_x_m} m");
+    let mut path = Vec::new();
+    for (right, keeps, leaves) in [(0.005, true, false), (0.005, false, true), (0.05, true, true)] {
+        let mut lattice = lattice();
+        lattice.search(&slope(0.005, 0.0), &pose(0.0, 0.0), STEP);
+        set_out(&mut lattice, DVec2::new(6.0, 0.0), &mut path);
+        let side = |path: &[PathPoint]| {
+            let beside = path
+                .iter()
+                .min_by(|a, b| (a.position_m.x - 3.0).abs().total_cmp(&(b.position_m.x - 3.0).abs()));
+            beside.unwrap().position_m.y.signum()
+        };
+        assert!(side(&path) < 0.0, "{path:?}");
+        if !keeps {
+            lattice.release();
+        }
+        lattice.forget_near(DVec2::ZERO, 8.0);
+        lattice.search(&slope(0.0, right), &pose(0.0, 0.0), STEP);
+        set_out(&mut lattice, DVec2::new(6.0, 0.0), &mut path);
+        assert_eq!(side(&path) > 0.0, leaves, "{right}, {keeps}: {path:?}");
     }
-    assert!(target_x(&level, 0.9, -4.0) < 0.0, "it has driven the metre");
-    assert!(target_x(&level, -0.2, 4.0) > 0.0);
-    assert!(target_x(&level, 0.1, -4.0) > 0.0);
-    // Steep from 0.7 m on: seen after the leg was begun.
-    let drop = |place_m: DVec2| plane(place_m, DVec2::X * if place_m.x > 0.7 { 2.0 } else { 0.0 });
-    let mut lattice = super::tests::lattice();
-    lattice.search(&level, &at(0.0), STEP);
-    set_out(&mut lattice, DVec2::new(4.0, 0.0), &mut path);
-    lattice.clear();
-    lattice.search(&drop, &at(0.0), STEP);
-    assert!(set_out(&mut lattice, DVec2::new(-4.0, 0.0), &mut path).position_m.x < 0.0);
 }
 
 #[test]
-fn a_place_too_near_to_drive_to_counts_as_its_own() {
+fn the_next_place_of_the_kept_path_stays_possible_until_it_is_unsafe() {
+    let mut path = Vec::new();
+    let goal_m = DVec2::new(4.0, 0.0);
+    // On the path, but facing 34° aside, and too steep to turn.
+    let aside = Pose { position_m: DVec3::new(0.1, 0.1, 0.0), roll_rad: 0.0, pitch_rad: 0.7, yaw_rad: 0.6 };
+    let first_step = |lattice: &mut StateLattice, ground: &dyn TerrainQuery, path: &mut Vec<PathPoint>| {
+        lattice.forget_near(DVec2::ZERO, 8.0);
+        lattice.search(ground, &aside, STEP);
+        lattice.follow(lattice.to(goal_m).or_else(|| lattice.to(-goal_m))?, path);
+        Some(path[1].position_m)
+    };
+    let mut lattice = lattice();
+    lattice.search(&level, &pose(0.0, 0.0), STEP);
+    set_out(&mut lattice, goal_m, &mut path);
+    let next_m = path[1].position_m;
+    assert_eq!(first_step(&mut lattice, &level, &mut path), Some(next_m));
+    assert!(!lattice.may_turn_to(next_m - aside.plan_m()));
+    let drop = |place_m: DVec2| plane(place_m, DVec2::X * if place_m.x > 0.3 { 2.0 } else { 0.0 });
+    assert_ne!(first_step(&mut lattice, &drop, &mut path), Some(next_m));
+    lattice.release();
+    assert_ne!(first_step(&mut lattice, &level, &mut path), Some(next_m));
+}
+
+#[test]
+fn a_place_too_near_to_drive_to_is_reached_by_staying() {
     let mut lattice = lattice();
     let here_m = DVec2::new(0.1, -0.2);
     lattice.search(&level, &Pose { position_m: here_m.extend(0.0), ..pose(0.0, 0.0) }, STEP);
@@ -457,5 +493,48 @@ proptest! {
         prop_assert!(forecast.max_pitch_rad <= limits.pitch_limit_rad - margin_rad + 1e-6, "{forecast:?}");
         prop_assert!(forecast.max_roll_rad < FRAC_PI_2 && forecast.path_m >= 5.0);
         prop_assert!(path.windows(2).all(|pair| pair[1].cost_m > pair[0].cost_m));
+    }
+
+    /// On any slope, a first step leads in no direction in which the robot would tilt beyond the least margin.
+    #[test]
+    fn the_first_step_of_every_path_is_safe_at_the_headings_it_is_driven_at(
+        across in -0.9..0.9_f64,
+        along in -0.9..0.9_f64,
+        x_m in -0.25..0.25_f64,
+        y_m in -0.25..0.25_f64,
+        yaw_rad in -3.1..3.1_f64,
+    ) {
+        // A plane: the robot's attitude and every place have the same gradient.
+        let gradient = DVec2::new(along, across);
+        let ahead = DVec2::from_angle(yaw_rad);
+        let slope_up = |direction: DVec2| gradient.dot(direction);
+        let here_m = DVec2::new(x_m, y_m);
+        let normal = (-gradient).extend(1.0).normalize();
+        let forward = ahead.extend(slope_up(ahead)).normalize();
+        let left = normal.cross(forward);
+        let standing = Pose {
+            position_m: here_m.extend(gradient.dot(here_m)),
+            roll_rad: libm::atan2(left.z, normal.z),
+            pitch_rad: libm::asin(forward.z),
+            yaw_rad,
+        };
+        let mut lattice = lattice();
+        lattice.search(&|place_m| plane(place_m, gradient), &standing, STEP);
+        let least_rad = PlannerConfig::default().state_lattice.recovery_margin_rad;
+        let most = Slopes::of_limits(&PlannerConfig::default().robot, least_rad);
+        let own = Slopes::facing(gradient, ahead);
+        let mut path = Vec::new();
+        let reached: Vec<_> = lattice.reached().map(|(reached, _)| reached).collect();
+        for reached in reached {
+            lattice.follow(reached, &mut path);
+            let Some(first) = path.get(1) else { continue };
+            let way = (first.position_m - here_m).normalize();
+            if first.position_m.distance(here_m) < FIRST_STEP_M {
+                continue;
+            }
+            let slopes = Slopes::facing(gradient, way);
+            let allowed = most.max(own);
+            prop_assert!(slopes.within(&allowed, -0.005), "{slopes:?} beyond {allowed:?}: {path:?}");
+        }
     }
 }
