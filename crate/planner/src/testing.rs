@@ -48,8 +48,12 @@ impl TerrainQuery for Standing {
         None
     }
 
-    fn is_negative_obstacle(&self, _: DVec2, _: DVec2, _: bool) -> bool {
+    fn lacks_ground(&self, _: DVec2, _: DVec2, _: bool) -> bool {
         self.is_void
+    }
+
+    fn drops_off(&self, _: DVec2, _: DVec2) -> bool {
+        false
     }
 
     fn room_m(&self, place_m: DVec2, _: Option<&Plane>, most_m: f64) -> [f64; AXES] {

@@ -357,7 +357,7 @@ impl SubgoalPolicy for ForecastPolicy {
         take_up(&mut self.window, config, scan, pose, elapsed);
         let reach_m = self.window.reach_m();
         for &place_m in self.window.refuted_m() {
-            self.lattice.forget_near(place_m, reach_m);
+            self.lattice.query_again_near(place_m, reach_m);
         }
     }
 

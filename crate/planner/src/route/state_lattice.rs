@@ -312,9 +312,9 @@ impl StateLattice {
         self.attitude.safe_turn_rad(turn_rad, self.traversability.most())
     }
 
-    /// Forgets the ground within `radius_m` of a place; it is queried again.
-    pub(crate) fn forget_near(&mut self, place_m: DVec2, radius_m: f64) {
-        self.traversability.places.forget_near(place_m, radius_m);
+    /// Has the ground within `radius_m` of a place queried again at the next scan.
+    pub(crate) fn query_again_near(&mut self, place_m: DVec2, radius_m: f64) {
+        self.traversability.places.query_again_near(place_m, radius_m);
     }
 
     /// Moves the remembered state from one world frame to another.

@@ -50,9 +50,12 @@ pub(crate) trait TerrainQuery {
     /// vector; `None` if only the plane is known.
     fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes>;
 
-    /// Whether a place is a negative obstacle: no ground under a wheel that would have been seen from the
-    /// side of `here_m`, or a drop. It stays one, `was_negative_obstacle`, while no returns come from it.
-    fn is_negative_obstacle(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool;
+    /// Whether ground is missing at a place: it would have been seen under a wheel from the side of `here_m`,
+    /// and no returns came. Where it `lacked` ground before, it does so while no returns come.
+    fn lacks_ground(&self, place_m: DVec2, here_m: DVec2, lacked: bool) -> bool;
+
+    /// Whether the returns show a drop at a place, away from `here_m`.
+    fn drops_off(&self, place_m: DVec2, here_m: DVec2) -> bool;
 
     /// The distance of the body at a place with this plane from what is upright, a wall, a post or a step,
     /// for each axis of travel; at most `most_m`.
@@ -76,7 +79,11 @@ impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
         None
     }
 
-    fn is_negative_obstacle(&self, _: DVec2, _: DVec2, _: bool) -> bool {
+    fn lacks_ground(&self, _: DVec2, _: DVec2, _: bool) -> bool {
+        false
+    }
+
+    fn drops_off(&self, _: DVec2, _: DVec2) -> bool {
         false
     }
 
@@ -368,8 +375,12 @@ impl TerrainQuery for ElevationWindow {
         self.footprint_slopes(place_m, direction, plane.gradient)
     }
 
-    fn is_negative_obstacle(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool {
-        self.is_cliff(place_m, here_m, was_negative_obstacle)
+    fn lacks_ground(&self, place_m: DVec2, here_m: DVec2, lacked: bool) -> bool {
+        (lacked || self.would_be_seen(place_m, here_m)) && self.lacks_returns_beside(place_m)
+    }
+
+    fn drops_off(&self, place_m: DVec2, here_m: DVec2) -> bool {
+        self.has_drop(place_m, (place_m - here_m).normalize_or_zero())
     }
 
     fn room_m(&self, place_m: DVec2, plane: Option<&Plane>, most_m: f64) -> [f64; AXES] {

@@ -23,8 +23,11 @@ pub(crate) struct Known {
     pub(crate) plane: Option<Plane>,
     /// Footprint slopes, for each axis of travel.
     pub(crate) footprint_slopes: [Option<Slopes>; AXES],
-    /// Whether the place is a negative obstacle.
+    /// Whether the place is a negative obstacle: it drops off, or ground is missing, which is remembered.
     pub(crate) is_negative_obstacle: bool,
+    lacks_ground: bool,
+    /// Whether the ground is to be queried again at the next scan.
+    is_stale: bool,
     /// Whether the body would touch something upright or set its underside down, for each axis of travel.
     pub(crate) is_blocked: [bool; AXES],
     /// The share of the sought room beside what is upright that the body lacks, for each axis of travel.
@@ -67,12 +70,14 @@ impl PlaceLattice {
         self.known.clear();
     }
 
-    /// Forgets the ground within `radius_m` of a place; it is queried again.
-    pub(crate) fn forget_near(&mut self, place_m: DVec2, radius_m: f64) {
+    /// Has the ground within `radius_m` of a place queried again at the next scan.
+    pub(crate) fn query_again_near(&mut self, place_m: DVec2, radius_m: f64) {
         let (low, high) = (self.world_index(place_m - radius_m), self.world_index(place_m + radius_m));
         for y in low.y..=high.y {
             for x in low.x..=high.x {
-                self.known.remove(IVec2::new(x, y));
+                if let Some(known) = self.known.get_mut(IVec2::new(x, y)) {
+                    known.is_stale = true;
+                }
             }
         }
     }
@@ -90,22 +95,16 @@ impl PlaceLattice {
                 let world = self.centre + offset;
                 let due = (world.x + 2 * world.y).rem_euclid(LOOKS) == self.looks;
                 let before = self.known.get(world);
-                if due || before.is_none() {
-                    let was_negative_obstacle = before.is_some_and(|known| known.is_negative_obstacle);
-                    let known = self.query(ground, self.position_m(offset), here_m, was_negative_obstacle);
+                if due || before.is_none_or(|known| known.is_stale) {
+                    let lacked_ground = before.is_some_and(|known| known.lacks_ground);
+                    let known = self.query(ground, self.position_m(offset), here_m, lacked_ground);
                     self.known.set(world, known);
                 }
             }
         }
     }
 
-    fn query(
-        &self,
-        ground: &dyn TerrainQuery,
-        place_m: DVec2,
-        here_m: DVec2,
-        was_negative_obstacle: bool,
-    ) -> Known {
+    fn query(&self, ground: &dyn TerrainQuery, place_m: DVec2, here_m: DVec2, lacked_ground: bool) -> Known {
         let plane = ground.plane_at(place_m);
         let footprint_slopes = plane.map_or([None; AXES], |plane| {
             DIRECTIONS.map(|direction| ground.slopes_at(place_m, &plane, direction))
@@ -115,13 +114,22 @@ impl PlaceLattice {
         let lacks_room =
             room_m.map(|room_m| ((SOUGHT_ROOM_M - room_m) / (SOUGHT_ROOM_M - LEAST_ROOM_M)) as f32);
         // What stands hides the ground behind it, and drops off at its side.
-        let is_negative_obstacle = self.avoids_negative_obstacles
+        let may_be = self.avoids_negative_obstacles
             && touches_upright.contains(&false)
-            && footprint_slopes.iter().any(Option::is_none)
-            && ground.is_negative_obstacle(place_m, here_m, was_negative_obstacle);
+            && footprint_slopes.iter().any(Option::is_none);
+        let lacks_ground = may_be && ground.lacks_ground(place_m, here_m, lacked_ground);
+        let is_negative_obstacle = lacks_ground || may_be && ground.drops_off(place_m, here_m);
         let sets_down = plane.map_or([false; AXES], |plane| ground.sets_down(place_m, &plane));
         let is_blocked = core::array::from_fn(|axis| touches_upright[axis] || sets_down[axis]);
-        Known { plane, footprint_slopes, is_negative_obstacle, is_blocked, lacks_room }
+        Known {
+            plane,
+            footprint_slopes,
+            is_negative_obstacle,
+            lacks_ground,
+            is_stale: false,
+            is_blocked,
+            lacks_room,
+        }
     }
 
     /// What the last query found at a place.
@@ -229,5 +237,59 @@ mod tests {
         assert!(known(1).is_blocked[0] && !known(1).is_negative_obstacle, "0 m from the body");
         assert!(!known(2).is_blocked[0] && known(2).is_negative_obstacle, "beside it");
         assert!((0..=3).all(|x| (known(x).lacks_room[0] > 0.0) == (x < 2)));
+    }
+
+    /// Ground without an end, whose lack is noticed from nearby, or a drop.
+    #[derive(Clone, Copy)]
+    struct Edge {
+        lacks_ground: bool,
+    }
+
+    impl TerrainQuery for Edge {
+        fn plane_at(&self, _: DVec2) -> Option<Plane> {
+            Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 })
+        }
+
+        fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
+            None
+        }
+
+        fn lacks_ground(&self, place_m: DVec2, here_m: DVec2, lacked: bool) -> bool {
+            self.lacks_ground && (lacked || place_m.distance(here_m) < 0.7)
+        }
+
+        fn drops_off(&self, place_m: DVec2, here_m: DVec2) -> bool {
+            !self.lacks_ground && place_m.distance(here_m) < 0.7
+        }
+
+        fn room_m(&self, _: DVec2, _: Option<&Plane>, most_m: f64) -> [f64; AXES] {
+            [most_m; AXES]
+        }
+
+        fn sets_down(&self, _: DVec2, _: &Plane) -> [bool; AXES] {
+            [false; AXES]
+        }
+
+        fn each_upright(&self, _: DVec2, _: f64, _: &mut dyn FnMut(DVec2)) {}
+    }
+
+    #[test]
+    fn missing_ground_is_remembered_when_the_ground_beside_it_is_refuted_and_a_drop_is_not() {
+        for lacks_ground in [true, false] {
+            let edge = Edge { lacks_ground };
+            let mut places = PlaceLattice::new(&PlannerConfig::default().state_lattice, 3.0);
+            let is_obstacle = |places: &PlaceLattice| {
+                let offset = places.nearest(DVec2::new(0.5, 0.0)).unwrap();
+                places.known(offset).unwrap().is_negative_obstacle
+            };
+            places.look(&edge, DVec2::ZERO);
+            assert!(is_obstacle(&places));
+            places.query_again_near(DVec2::ZERO, 1.0);
+            places.look(&edge, DVec2::new(-1.0, 0.0));
+            assert_eq!(is_obstacle(&places), lacks_ground);
+            places.clear();
+            places.look(&edge, DVec2::new(-1.0, 0.0));
+            assert!(!is_obstacle(&places));
+        }
     }
 }

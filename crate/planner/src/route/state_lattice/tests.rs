@@ -385,7 +385,7 @@ fn a_path_is_left_only_for_one_that_is_cheaper_by_half_a_metre() {
         if !keeps {
             lattice.release();
         }
-        lattice.forget_near(DVec2::ZERO, 8.0);
+        lattice.query_again_near(DVec2::ZERO, 8.0);
         lattice.search(&slope(0.0, right), &pose(0.0, 0.0), STEP);
         set_out(&mut lattice, DVec2::new(6.0, 0.0), &mut path);
         assert_eq!(side(&path) > 0.0, leaves, "{right}, {keeps}: {path:?}");
@@ -399,7 +399,7 @@ fn the_next_place_of_the_kept_path_stays_possible_until_it_is_unsafe() {
     // On the path, but facing 34° aside, and too steep to turn.
     let aside = Pose { position_m: DVec3::new(0.1, 0.1, 0.0), roll_rad: 0.0, pitch_rad: 0.7, yaw_rad: 0.6 };
     let first_step = |lattice: &mut StateLattice, ground: &dyn TerrainQuery, path: &mut Vec<PathPoint>| {
-        lattice.forget_near(DVec2::ZERO, 8.0);
+        lattice.query_again_near(DVec2::ZERO, 8.0);
         lattice.search(ground, &aside, STEP);
         lattice.follow(lattice.to(goal_m).or_else(|| lattice.to(-goal_m))?, path);
         Some(path[1].position_m)

@@ -67,15 +67,8 @@ impl ElevationWindow {
         self.views.push_back(View { taken: now, sensor_m, world_from_sensor });
     }
 
-    /// Whether a place is a negative obstacle: no ground under a wheel that would have been seen from the
-    /// side of `here_m`, or a drop. It stays one, `was_negative_obstacle`, while no returns come from it.
-    pub(super) fn is_cliff(&self, place_m: DVec2, here_m: DVec2, was_negative_obstacle: bool) -> bool {
-        (was_negative_obstacle || self.would_be_seen(place_m, here_m)) && self.lacks_returns_beside(place_m)
-            || self.has_drop(place_m, (place_m - here_m).normalize_or_zero())
-    }
-
     /// Whether ground at a place near the robot, continued from the robot's side, would have been seen.
-    fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool {
+    pub(super) fn would_be_seen(&self, place_m: DVec2, here_m: DVec2) -> bool {
         let before = |from_place: DVec2| from_place.dot(here_m - place_m) > 0.0;
         let plane = || {
             self.footprint_radii_m()
@@ -87,7 +80,7 @@ impl ElevationWindow {
     }
 
     /// Whether most of the ground at a place or beside it has no returns.
-    fn lacks_returns_beside(&self, place_m: DVec2) -> bool {
+    pub(super) fn lacks_returns_beside(&self, place_m: DVec2) -> bool {
         // Possible places of its wheels.
         let sides = [-self.footprint_m, 0.0, self.footprint_m];
         sides.into_iter().any(|y| sides.into_iter().any(|x| self.lacks_returns(place_m + DVec2::new(x, y))))
@@ -107,7 +100,7 @@ impl ElevationWindow {
 
     /// Whether the ground around a place drops along the unit vector `away`: between two returns it is
     /// somewhere as steep as the line through both.
-    fn has_drop(&self, place_m: DVec2, away: DVec2) -> bool {
+    pub(super) fn has_drop(&self, place_m: DVec2, away: DVec2) -> bool {
         let near = || self.cells_near(place_m, DROP_RADIUS_M).map(|cell| cell.mean_m);
         let lowest_m = near().map(|mean_m| mean_m.z).fold(f64::INFINITY, f64::min);
         near().filter(|high_m| high_m.z - lowest_m > LEAST_DROP_M).any(|high_m| {
