@@ -46,10 +46,11 @@ const UNKNOWN: Place = Place { plane: None, risk: [f32::INFINITY; AXES], is_at_c
 pub(crate) struct TraversabilityMap {
     config: StateLatticeConfig,
     tilt_limits: RobotModel,
-    /// The tilt limits, the limits less the usual margin, and the limits less the smallest margin.
+    /// The tilt limits, and the limits less the usual margin, less the smallest one, and less half of that.
     limits: Slopes,
     allowed: Slopes,
     most: Slopes,
+    most_when_begun: Slopes,
     /// The places, and the ground at each.
     pub(crate) places: PlaceLattice,
     judged: Vec<Place>,
@@ -85,6 +86,8 @@ const HORIZON: i32 = 2;
 /// with this much more risk.
 const TIGHT_SHARE: f64 = 0.5;
 const TIGHT_RISK: f64 = 2.0;
+/// A turn that was begun keeps this share of the smallest margin.
+const BEGUN_SHARE: f64 = 0.5;
 /// A slope with a larger standard deviation is extrapolated, not seen.
 const GUESS_DEVIATION: f64 = 0.15;
 /// Standard deviation of a slope between wheels with averaged returns under them.
@@ -100,6 +103,7 @@ impl TraversabilityMap {
             limits: Slopes::of_limits(limits, 0.0),
             allowed: Slopes::of_limits(limits, config.tilt_margin_rad),
             most: Slopes::of_limits(limits, config.recovery_margin_rad),
+            most_when_begun: Slopes::of_limits(limits, BEGUN_SHARE * config.recovery_margin_rad),
             judged: vec![UNKNOWN; places.count()],
             places,
             marked: Vec::with_capacity(MOST_MARKED),
@@ -109,6 +113,7 @@ impl TraversabilityMap {
     /// Sets the smallest margin.
     pub(crate) fn keep_margin(&mut self, least_margin_rad: f64) {
         self.most = Slopes::of_limits(&self.tilt_limits, least_margin_rad);
+        self.most_when_begun = Slopes::of_limits(&self.tilt_limits, BEGUN_SHARE * least_margin_rad);
     }
 
     /// Moves the penalties from one world frame to another; the ground is queried again.
@@ -266,6 +271,12 @@ impl TraversabilityMap {
     /// The limits less the smallest margin, as slopes.
     pub(crate) fn most(&self) -> &Slopes {
         &self.most
+    }
+
+    /// The limits for a turn that was begun inside [`most`](Self::most): it is not given up where the attitude
+    /// changes by less than half of the smallest margin.
+    pub(crate) fn most_when_begun(&self) -> &Slopes {
+        &self.most_when_begun
     }
 
     /// Whether a place borders on unseen ground: at the border of the lattice, or beside a place without a

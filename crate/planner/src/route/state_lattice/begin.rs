@@ -121,8 +121,8 @@ impl StateLattice {
         }
     }
 
-    /// Goes on to the next place of the kept path, if that and what lies before it are safe. Where the robot
-    /// sets out is not judged again: centimetres decide there.
+    /// Goes on to the next place of the kept path, if that and what lies before it are safe, and the robot may go
+    /// on turning to it. Where it sets out is not judged again: centimetres decide there.
     fn keep_on(&mut self) {
         self.kept_state = None;
         let Some(next) = self.kept.next(self.here_m) else { return };
@@ -134,6 +134,10 @@ impl StateLattice {
         let travel = way_m.normalize_or_zero();
         let Some(turn_rad) = self.kept.turn_rad(self.here_m, self.facing) else { return };
         let Some(arc) = Arc::new(travel, way_m) else { return };
+        let safe_rad = self.attitude.safe_turn_rad(turn_rad, self.traversability.most_when_begun());
+        if safe_rad.abs() < turn_rad.abs() - 1e-9 {
+            return;
+        }
         let risk = self.risk_passed(&arc, reverse).max(self.traversability.risk(offset, next.heading));
         if risk.is_finite() {
             let turn_m = self.config.turn_m_rad() * turn_rad.abs();

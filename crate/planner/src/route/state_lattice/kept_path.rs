@@ -4,8 +4,6 @@
 //! anew, the robot would sway between their paths. So the next state of the path stays possible while its place
 //! is safe, and the path is left only for one that is cheaper by [`WORTH_LEAVING_M`](super::WORTH_LEAVING_M).
 
-use core::f64::consts::FRAC_PI_4;
-
 use glam::DVec2;
 
 use super::{BEGIN, FIRST_STEP_M, ReachedState, StateLattice};
@@ -43,8 +41,7 @@ impl KeptPath {
         self.next
     }
 
-    /// The turn on the spot that leads to the next state, if the robot is on the path and faces it to within
-    /// an eighth of a circle.
+    /// The turn on the spot, anticlockwise, that leads to the next state, if the robot is on the path.
     pub(super) fn turn_rad(&self, here_m: DVec2, facing: DVec2) -> Option<f64> {
         let next = self.next?;
         let leg_m = next.position_m - self.from_m;
@@ -53,7 +50,7 @@ impl KeptPath {
         let way_m = next.position_m - here_m;
         let wanted = if next.reverse { -way_m } else { way_m };
         let turn_rad = libm::atan2(facing.perp_dot(wanted), facing.dot(wanted));
-        (away_m <= ON_PATH_M && turn_rad.abs() <= FRAC_PI_4).then_some(turn_rad)
+        (away_m <= ON_PATH_M).then_some(turn_rad)
     }
 }
 
