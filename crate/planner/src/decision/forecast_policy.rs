@@ -271,7 +271,8 @@ impl ForecastPolicy {
         controller.regulated(command, utilisation)
     }
 
-    /// Drives the best short trajectory along the path; `None` if the robot stands and would be left standing.
+    /// Drives the best short trajectory along the path; `None` if the robot stands and would be left
+    /// standing.
     fn follow_by_trajectory(&mut self, situation: &Situation<'_>, path: &[PathPoint]) -> Option<Command> {
         let Situation { config, pose, last_command, .. } = *situation;
         let here_m = pose.plan_m();

@@ -273,8 +273,8 @@ impl TraversabilityMap {
         &self.most
     }
 
-    /// The limits for a turn that was begun inside [`most`](Self::most): it is not given up where the attitude
-    /// changes by less than half of the smallest margin.
+    /// The limits for a turn that was begun inside [`most`](Self::most): it is not given up where the
+    /// attitude changes by less than half of the smallest margin.
     pub(crate) fn most_when_begun(&self) -> &Slopes {
         &self.most_when_begun
     }

@@ -1,15 +1,14 @@
 //! The first steps of paths: from the robot's pose, which lies off the lattice, to lattice states.
 //!
-//! The robot turns on the spot and then drives on an arc to a place nearby, or straight across its blind zone.
-//! Each of these steps is judged at the headings at which it is driven.
+//! The robot turns on the spot and then drives on an arc to a place nearby, or straight across its blind
+//! zone. Each of these steps is judged at the headings at which it is driven.
 
-use core::f64::consts::FRAC_PI_8;
+use core::f64::consts::{FRAC_PI_8, TAU};
 
 use glam::{DVec2, IVec2};
 
 use super::gaps::Station;
 use super::{BEGIN, FIRST_DIRECTIONS, FIRST_STEP_M, JOIN_M, MILLIMETRES, StateLattice, WORTH_LEAVING_M};
-use crate::math::angle::wrap_rad;
 use crate::terrain::headings::{HEADINGS, nearest};
 use crate::terrain::slopes::Slopes;
 
@@ -21,13 +20,13 @@ const ALIKE_RAD: f64 = 0.2;
 
 /// An arc from the robot.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Arc {
+struct Arc {
     /// Unit vector in which the robot sets out.
     travel: DVec2,
     chord_m: f64,
     /// Angle from the direction in which it sets out to the chord; the arc turns by twice as much.
     half_turn_rad: f64,
-    pub(super) length_m: f64,
+    length_m: f64,
 }
 
 /// The facing of a robot that travels along a unit vector, and the other way round.
@@ -37,7 +36,7 @@ fn faced(direction: DVec2, reverse: bool) -> DVec2 {
 
 impl Arc {
     /// The arc to what is `way_m` away; `None` if it turns by more than an eighth of a circle.
-    pub(super) fn new(travel: DVec2, way_m: DVec2) -> Option<Self> {
+    fn new(travel: DVec2, way_m: DVec2) -> Option<Self> {
         let along_m = travel.dot(way_m);
         if along_m <= 0.0 {
             return None;
@@ -45,8 +44,8 @@ impl Arc {
         let half_turn_rad = libm::atan2(travel.perp_dot(way_m), along_m);
         let chord_m = way_m.length();
         let longer = if half_turn_rad == 0.0 { 1.0 } else { half_turn_rad / libm::sin(half_turn_rad) };
-        let is_wide = half_turn_rad.abs() <= FRAC_PI_8;
-        is_wide.then_some(Self { travel, chord_m, half_turn_rad, length_m: longer * chord_m })
+        let turns_little = half_turn_rad.abs() <= FRAC_PI_8;
+        turns_little.then_some(Self { travel, chord_m, half_turn_rad, length_m: longer * chord_m })
     }
 
     /// At so many places its headings differ by little.
@@ -55,13 +54,13 @@ impl Arc {
     }
 
     /// Unit vector of travel after a share of the arc.
-    pub(super) fn travel_at(&self, share: f64) -> DVec2 {
+    fn travel_at(&self, share: f64) -> DVec2 {
         let (sin, cos) = libm::sincos(2.0 * share * self.half_turn_rad);
         DVec2::new(cos, sin).rotate(self.travel)
     }
 
     /// Where the robot is after a share of the arc, from where it sets out.
-    pub(super) fn way_m(&self, share: f64) -> DVec2 {
+    fn way_m(&self, share: f64) -> DVec2 {
         let (sin, cos) = libm::sincos(share * self.half_turn_rad);
         let part = if self.half_turn_rad == 0.0 { share } else { sin / libm::sin(self.half_turn_rad) };
         DVec2::new(cos, sin).rotate(self.travel) * (part * self.chord_m)
@@ -121,8 +120,8 @@ impl StateLattice {
         }
     }
 
-    /// Goes on to the next place of the kept path, if that and what lies before it are safe, and the robot may go
-    /// on turning to it. Where it sets out is not judged again: centimetres decide there.
+    /// Goes on to the next place of the kept path, if that and what lies before it are safe, and the robot
+    /// may go on turning to it. Where it sets out is not judged again: centimetres decide there.
     fn keep_on(&mut self) {
         self.kept_state = None;
         let Some(next) = self.kept.next(self.here_m) else { return };
@@ -170,8 +169,8 @@ impl StateLattice {
         }
     }
 
-    /// Starts straight to the first known place beyond the blind zone, where no beam reaches the ground at the
-    /// wheels. Further places on that ground are reached by the search itself.
+    /// Starts straight to the first known place beyond the blind zone, where no beam reaches the ground at
+    /// the wheels. Further places on that ground are reached by the search itself.
     fn begin_beyond_blind_zone(&mut self, travel: DVec2, reverse: bool, turn_m: f64) {
         let heading = nearest(faced(travel, reverse));
         let mut seen_m = 0.0;
@@ -261,7 +260,7 @@ impl StateLattice {
     /// Whether the robot may turn on the spot to a facing.
     pub(super) fn may_turn_to(&self, facing: DVec2) -> bool {
         let turn_rad = libm::atan2(self.facing.perp_dot(facing), self.facing.dot(facing));
-        let turn = (wrap_rad(turn_rad) / core::f64::consts::TAU * FIRST_DIRECTIONS as f64).round() as i32;
+        let turn = (turn_rad / TAU * FIRST_DIRECTIONS as f64).round() as i32;
         let [most_left, most_right] = self.turns;
         (-most_right..=most_left).contains(&turn)
     }

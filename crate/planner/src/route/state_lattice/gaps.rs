@@ -30,8 +30,8 @@ impl StateLattice {
     }
 
     /// Mean risk over the virtual surface, a cubic through the heights and slopes at both ends, of a robot
-    /// that travels along `travel_at` each share of the way, at this many places at least. Infinite if it is not
-    /// safe with `uncertain` added to its slopes.
+    /// that travels along `travel_at` each share of the way, at this many places at least. Infinite if it is
+    /// not safe with `uncertain` added to its slopes.
     pub(super) fn risk_between(
         &self,
         from: &Station,

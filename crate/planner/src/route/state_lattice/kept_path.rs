@@ -1,8 +1,9 @@
 //! The path that is driven, as far as the next search must know it.
 //!
-//! Two searches a few centimetres apart may judge the ground, or a turn on the spot, differently. If each began
-//! anew, the robot would sway between their paths. So the next state of the path stays possible while its place
-//! is safe, and the path is left only for one that is cheaper by [`WORTH_LEAVING_M`](super::WORTH_LEAVING_M).
+//! Two searches a few centimetres apart may judge the ground, or a turn on the spot, differently. If each
+//! began anew, the robot would sway between their paths. So the next state of the path stays possible while
+//! its place is safe, and the path is left only for one that is cheaper by
+//! [`WORTH_LEAVING_M`](super::WORTH_LEAVING_M).
 
 use glam::DVec2;
 

@@ -495,7 +495,8 @@ proptest! {
         prop_assert!(path.windows(2).all(|pair| pair[1].cost_m > pair[0].cost_m));
     }
 
-    /// On any slope, a first step leads in no direction in which the robot would tilt beyond the least margin.
+    /// On any slope, a first step leads in no direction in which the robot would tilt beyond the least
+    /// margin.
     #[test]
     fn the_first_step_of_every_path_is_safe_at_the_headings_it_is_driven_at(
         across in -0.9..0.9_f64,
