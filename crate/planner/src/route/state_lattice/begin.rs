@@ -137,7 +137,9 @@ impl StateLattice {
         if safe_rad.abs() < turn_rad.abs() - 1e-9 {
             return;
         }
-        let risk = self.risk_passed(&arc, reverse).max(self.traversability.risk(offset, next.heading));
+        let share = self.attitude.slopes().share_of(self.traversability.limits());
+        let ahead = self.risk_passed(&arc, reverse).max(self.traversability.risk(offset, next.heading));
+        let risk = 0.5 * (share * share + ahead);
         if risk.is_finite() {
             let turn_m = self.config.turn_m_rad() * turn_rad.abs();
             self.begin_with(
@@ -214,7 +216,8 @@ impl StateLattice {
             Station { distance_m: 0.0, height_m: self.attitude.height_m, gradient: self.attitude.gradient };
         let end = Station { distance_m: arc.length_m, height_m: plane.height_m, gradient: plane.gradient };
         let between = self.risk_between(&start, &end, |share| arc.travel_at(share), 0.0, arc.samples());
-        let risk = between.max(at_end).max(self.risk_passed(arc, reverse));
+        // The mean, as between two places of the lattice: where the robot arrives, paths go on at the same cost.
+        let risk = 0.5 * (between + at_end.max(self.risk_passed(arc, reverse)));
         if risk.is_finite() {
             self.begin_with(offset, heading, reverse, turn_m + self.drive_cost_m(arc, offset, reverse, risk));
         }
