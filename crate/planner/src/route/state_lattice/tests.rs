@@ -303,7 +303,7 @@ fn ground_that_gets_steeper_fast_slows_the_robot_before_it_is_steep() {
 }
 
 #[test]
-fn tilt_utilisation_covers_the_current_leg_and_the_new_path() {
+fn tilt_utilisation_covers_the_path_and_the_line_to_the_point_driven_to() {
     let mut lattice = lattice();
     let mut path = Vec::new();
     lattice.search(&bank, &Pose { position_m: DVec3::new(1.2, 0.0, 0.0), ..pose(0.0, 0.0) }, STEP);
@@ -335,7 +335,7 @@ fn ground_steeper_than_predicted_is_tried_again_if_no_other_path_exists() {
 }
 
 #[test]
-fn the_cost_of_a_change_keeps_the_side_of_an_obstacle() {
+fn the_kept_path_keeps_the_side_of_an_obstacle() {
     // Either side of a narrow obstacle costs the same; the second search keeps to the side of the first.
     let post = |place_m: DVec2| {
         plane(
