@@ -320,14 +320,14 @@ test('the process by hand: its skyline, slice, paper’s values, end and failure
 });
 
 test('learning without bounds climbs step by step, and its skyline runs away', async ({ mapless: page }) => {
-  await pausedAt(page, 50);
+  await pausedAt(page, 40);
   await openByHand(page);
   const own = await off_deg(page);
   await page.getByRole('button', { name: 'Learned…' }).click();
   const said = page.locator('.method-climb-said');
   await expect(said).toHaveText(/^Step (\d+) of \1: bound −?[\d,]+ nats/);
   await until(page, (now) => now.thought === 'what_if');
-  await expect.poll(() => off_deg(page)).toBeGreaterThan(own + 3);
+  await expect.poll(() => off_deg(page)).toBeGreaterThan(own + 0.5);
   const step = page.getByRole('slider', { name: 'Step of learning' });
   await step.focus();
   await page.keyboard.press('Home');
