@@ -11,7 +11,6 @@ use crate::skyline::occupancy::OccupancySurface;
 use crate::terrain::elevation_window::{ElevationWindow, TerrainQuery};
 use crate::terrain::headings::AXES;
 use crate::terrain::plane::Plane;
-use crate::terrain::slopes::Slopes;
 
 /// Time between two scans.
 pub(crate) const STEP: Duration = Duration::from_millis(100);
@@ -44,27 +43,13 @@ impl TerrainQuery for Standing {
         Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 })
     }
 
-    fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
-        None
-    }
-
     fn lacks_ground(&self, _: DVec2, _: DVec2, _: bool) -> bool {
         self.is_void
-    }
-
-    fn drops_off(&self, _: DVec2, _: DVec2) -> bool {
-        false
     }
 
     fn room_m(&self, place_m: DVec2, _: Option<&Plane>, most_m: f64) -> [f64; AXES] {
         [(place_m.distance(self.at_m) - self.radius_m).min(most_m); AXES]
     }
-
-    fn sets_down(&self, _: DVec2, _: &Plane) -> [bool; AXES] {
-        [false; AXES]
-    }
-
-    fn each_upright(&self, _: DVec2, _: f64, _: &mut dyn FnMut(DVec2)) {}
 }
 
 /// An empty surface of a VLP-16 within 7 m.

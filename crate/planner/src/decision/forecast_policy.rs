@@ -239,7 +239,7 @@ impl ForecastPolicy {
         let end_m = subgoal.position_m.truncate();
         if let Some(reached) = self.lattice.to(end_m) {
             self.lattice.follow(reached, path);
-            self.lattice.keep(reached, path.get(1).is_some_and(|point| point.reverse));
+            self.lattice.keep(reached);
         }
         if let Some(last) = path.last_mut() {
             // The subgoal lies up to half a step from the last place.

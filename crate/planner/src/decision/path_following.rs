@@ -7,12 +7,10 @@ use glam::DVec2;
 
 use crate::config::PlannerConfig;
 use crate::control::trajectory_optimiser::{Course, Met, PlanPose};
-use crate::route::state_lattice::{PathPoint, StateLattice, first_leg};
+use crate::route::state_lattice::{ON_PATH_M, PathPoint, StateLattice, first_leg};
 
 /// The heading at a place of the path is that to the point of the path this far ahead.
 const AHEAD_M: f64 = 0.8;
-/// This near to the path its own judgement holds.
-const ON_PATH_M: f64 = 0.25;
 /// A metre of a path counts no more than this: turns on the spot, which its cost includes, are counted apart.
 const MOST_PRICE: f64 = 10.0;
 

@@ -30,6 +30,7 @@ use crate::terrain::elevation_window::TerrainQuery;
 use crate::terrain::headings::{HEADINGS, STEPS};
 use crate::terrain::traversability::{Caution, TraversabilityMap};
 use kept_path::KeptPath;
+pub(crate) use kept_path::ON_PATH_M;
 pub(crate) use path::{first_leg, length_m};
 
 /// Directions in which a path may begin.
@@ -48,7 +49,7 @@ const BRAKING_UTILISATION: f64 = 0.98;
 const INFLATED_AHEAD_M: f64 = 0.5;
 /// The driven path is left only for one that is cheaper by this much, in metres of level ground.
 const WORTH_LEAVING_M: f64 = 0.5;
-/// A path begins at a place at least this far from the robot; nearer places count as its own.
+/// A path begins at a place at least this far from the robot; a nearer one is reached by staying.
 const FIRST_STEP_M: f64 = 0.3;
 /// Costs are whole millimetres of level ground.
 const MILLIMETRES: f64 = 1000.0;
@@ -223,9 +224,10 @@ impl StateLattice {
         self.expand();
     }
 
-    /// Keeps the path to a reached place, which the robot sets out on in this direction. A reversal on steep
-    /// ground inflates the slope variance ahead.
-    pub(crate) fn keep(&mut self, reached: ReachedState, reverse: bool) {
+    /// Keeps the path to a reached place. A reversal on steep ground inflates the slope variance ahead.
+    pub(crate) fn keep(&mut self, reached: ReachedState) {
+        let kept = self.kept_path_to(reached);
+        let reverse = kept.is_reverse();
         let turned_back = self.was_reverse.is_some_and(|was_reverse| was_reverse != reverse);
         let recovers = self.caution == Caution::Recovery;
         if recovers && !self.recovers {
@@ -235,7 +237,7 @@ impl StateLattice {
         }
         self.recovers = recovers;
         self.was_reverse = Some(reverse);
-        self.kept = self.kept_path_to(reached);
+        self.kept = kept;
     }
 
     /// Releases the kept path.

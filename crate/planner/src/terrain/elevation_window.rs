@@ -41,32 +41,43 @@ const FACE_PARTS: i32 = 4;
 /// plane replaces a narrower one if the rings of a scan lie farther apart.
 const FOOTPRINT_RADII: [f64; 3] = [1.0, 1.6, 2.4];
 
-/// Queries of the terrain by a search.
+/// Queries of the terrain by a search. What an implementation leaves out is that of ground given by its planes
+/// alone.
 pub(crate) trait TerrainQuery {
     /// The least-squares plane through the ground around a place; `None` if too little was seen.
     fn plane_at(&self, place_m: DVec2) -> Option<Plane>;
 
     /// The largest slopes of the robot on its wheels around a place with this plane, facing along a unit
     /// vector; `None` if only the plane is known.
-    fn slopes_at(&self, place_m: DVec2, plane: &Plane, direction: DVec2) -> Option<Slopes>;
+    fn slopes_at(&self, _place_m: DVec2, _plane: &Plane, _direction: DVec2) -> Option<Slopes> {
+        None
+    }
 
     /// Whether ground is missing at a place: it would have been seen under a wheel from the side of `here_m`,
     /// and no returns came. Where it `lacked` ground before, it does so while no returns come.
-    fn lacks_ground(&self, place_m: DVec2, here_m: DVec2, lacked: bool) -> bool;
+    fn lacks_ground(&self, _place_m: DVec2, _here_m: DVec2, _lacked: bool) -> bool {
+        false
+    }
 
     /// Whether the returns show a drop at a place, away from `here_m`.
-    fn drops_off(&self, place_m: DVec2, here_m: DVec2) -> bool;
+    fn drops_off(&self, _place_m: DVec2, _here_m: DVec2) -> bool {
+        false
+    }
 
     /// The distance of the body at a place with this plane from what is upright, a wall, a post or a step,
     /// for each axis of travel; at most `most_m`.
-    fn room_m(&self, place_m: DVec2, plane: Option<&Plane>, most_m: f64) -> [f64; AXES];
+    fn room_m(&self, _place_m: DVec2, _plane: Option<&Plane>, most_m: f64) -> [f64; AXES] {
+        [most_m; AXES]
+    }
 
     /// Whether the robot at a place with this plane, or just before or behind it, would be beyond its tilt
     /// limits with a wheel in a hole, or would set its underside down, for each axis of travel.
-    fn sets_down(&self, place_m: DVec2, plane: &Plane) -> [bool; AXES];
+    fn sets_down(&self, _place_m: DVec2, _plane: &Plane) -> [bool; AXES] {
+        [false; AXES]
+    }
 
     /// Calls `visit` with the place of each upright thing within `radius_m` of a place.
-    fn each_upright(&self, place_m: DVec2, radius_m: f64, visit: &mut dyn FnMut(DVec2));
+    fn each_upright(&self, _place_m: DVec2, _radius_m: f64, _visit: &mut dyn FnMut(DVec2)) {}
 }
 
 /// Terrain given by its planes alone.
@@ -74,28 +85,6 @@ impl<F: Fn(DVec2) -> Option<Plane>> TerrainQuery for F {
     fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
         self(place_m)
     }
-
-    fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
-        None
-    }
-
-    fn lacks_ground(&self, _: DVec2, _: DVec2, _: bool) -> bool {
-        false
-    }
-
-    fn drops_off(&self, _: DVec2, _: DVec2) -> bool {
-        false
-    }
-
-    fn room_m(&self, _: DVec2, _: Option<&Plane>, most_m: f64) -> [f64; AXES] {
-        [most_m; AXES]
-    }
-
-    fn sets_down(&self, _: DVec2, _: &Plane) -> [bool; AXES] {
-        [false; AXES]
-    }
-
-    fn each_upright(&self, _: DVec2, _: f64, _: &mut dyn FnMut(DVec2)) {}
 }
 
 #[derive(Clone, Copy, Debug)]

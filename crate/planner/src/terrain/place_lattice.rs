@@ -239,7 +239,7 @@ mod tests {
         assert!((0..=3).all(|x| (known(x).lacks_room[0] > 0.0) == (x < 2)));
     }
 
-    /// Ground without an end, whose lack is noticed from nearby, or a drop.
+    /// Level ground of which all is missing, or drops off, as noticed from nearby.
     #[derive(Clone, Copy)]
     struct Edge {
         lacks_ground: bool,
@@ -250,10 +250,6 @@ mod tests {
             Some(Plane { height_m: 0.0, gradient: DVec2::ZERO, gradient_deviation: 0.0 })
         }
 
-        fn slopes_at(&self, _: DVec2, _: &Plane, _: DVec2) -> Option<Slopes> {
-            None
-        }
-
         fn lacks_ground(&self, place_m: DVec2, here_m: DVec2, lacked: bool) -> bool {
             self.lacks_ground && (lacked || place_m.distance(here_m) < 0.7)
         }
@@ -261,16 +257,6 @@ mod tests {
         fn drops_off(&self, place_m: DVec2, here_m: DVec2) -> bool {
             !self.lacks_ground && place_m.distance(here_m) < 0.7
         }
-
-        fn room_m(&self, _: DVec2, _: Option<&Plane>, most_m: f64) -> [f64; AXES] {
-            [most_m; AXES]
-        }
-
-        fn sets_down(&self, _: DVec2, _: &Plane) -> [bool; AXES] {
-            [false; AXES]
-        }
-
-        fn each_upright(&self, _: DVec2, _: f64, _: &mut dyn FnMut(DVec2)) {}
     }
 
     #[test]

@@ -216,8 +216,7 @@ impl StateLattice {
             Station { distance_m: 0.0, height_m: self.attitude.height_m, gradient: self.attitude.gradient };
         let end = Station { distance_m: arc.length_m, height_m: plane.height_m, gradient: plane.gradient };
         let between = self.risk_between(&start, &end, |share| arc.travel_at(share), 0.0, arc.samples());
-        // The mean, as between two places of the lattice: where the robot arrives, paths go on at the same
-        // cost.
+        // Not the larger one: a place would cost much more from nearby than from the place before it.
         let risk = 0.5 * (between + at_end.max(self.risk_passed(arc, reverse)));
         if risk.is_finite() {
             self.begin_with(offset, heading, reverse, turn_m + self.drive_cost_m(arc, offset, reverse, risk));

@@ -7,11 +7,11 @@
 
 use glam::DVec2;
 
-use super::{BEGIN, FIRST_STEP_M, ReachedState, StateLattice};
-use crate::terrain::headings::{HEADINGS, STEPS};
+use super::path::Entered;
+use super::{FIRST_STEP_M, ReachedState, StateLattice};
 
-/// The robot is on the path this near to it.
-const ON_PATH_M: f64 = 0.25;
+/// The robot is on a path this near to it: what the search judged of the path holds.
+pub(crate) const ON_PATH_M: f64 = 0.25;
 
 /// A state that a path enters by a drive. Its position outlives a move of the lattice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +31,11 @@ pub(super) struct KeptPath {
 }
 
 impl KeptPath {
+    /// Whether the path begins in reverse.
+    pub(super) fn is_reverse(&self) -> bool {
+        self.next.is_some_and(|next| next.reverse)
+    }
+
     /// The next state for a robot at `here_m`, which may have passed the last one.
     pub(super) fn next(&mut self, here_m: DVec2) -> Option<KeptState> {
         let next = self.next?;
@@ -59,23 +64,10 @@ impl StateLattice {
     /// The path to a reached state as the one to keep.
     pub(super) fn kept_path_to(&self, reached: ReachedState) -> KeptPath {
         let (mut next, mut after) = (None, None);
-        let mut state = reached.state;
-        while state != BEGIN {
-            let from = self.came_from[state as usize];
-            let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
-            let turned = from != BEGIN && from as usize / HEADINGS == place;
-            if !turned {
-                let position = |state: u32| {
-                    let places = &self.traversability.places;
-                    places.position_m(places.offset(state as usize / HEADINGS))
-                };
-                let from_m = if from == BEGIN { self.here_m } else { position(from) };
-                let position_m = position(state);
-                let reverse = (position_m - from_m).dot(STEPS[heading].as_dvec2()) < 0.0;
-                after = next;
-                next = Some(KeptState { position_m, heading, reverse });
-            }
-            state = from;
+        for entered in self.entered(reached) {
+            after = next;
+            let Entered { position_m, heading, reverse, .. } = entered;
+            next = Some(KeptState { position_m, heading, reverse });
         }
         let from_m = if next == self.kept.next { self.kept.from_m } else { self.here_m };
         KeptPath { from_m, next, after }

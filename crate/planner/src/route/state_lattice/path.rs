@@ -32,6 +32,15 @@ pub(crate) fn first_leg(path: &[PathPoint]) -> &[PathPoint] {
     &path[..points]
 }
 
+/// A state that a path enters by a drive from another, which is `BEGIN` for the robot's pose.
+pub(super) struct Entered {
+    pub(super) state: u32,
+    pub(super) from: u32,
+    pub(super) position_m: DVec2,
+    pub(super) heading: usize,
+    pub(super) reverse: bool,
+}
+
 impl StateLattice {
     /// The cheapest path to the place nearest to a point; `None` if there is none.
     pub(crate) fn to(&self, point_m: DVec2) -> Option<ReachedState> {
@@ -79,41 +88,41 @@ impl StateLattice {
         (reach.map_or(0.0, distance_m), end)
     }
 
+    /// The states that the path to a reached place enters by a drive, the last one first.
+    pub(super) fn entered(&self, reached: ReachedState) -> impl Iterator<Item = Entered> {
+        let position_m = |state: u32| {
+            let places = &self.traversability.places;
+            places.position_m(places.offset(state as usize / HEADINGS))
+        };
+        let before = |&state: &u32| Some(self.came_from[state as usize]).filter(|&from| from != BEGIN);
+        core::iter::successors(Some(reached.state), before).filter_map(move |state| {
+            let (from, heading) = (self.came_from[state as usize], state as usize % HEADINGS);
+            let turned = from != BEGIN && from as usize / HEADINGS == state as usize / HEADINGS;
+            let from_m = if from == BEGIN { self.here_m } else { position_m(from) };
+            let reverse = (position_m(state) - from_m).dot(STEPS[heading].as_dvec2()) < 0.0;
+            (!turned).then(|| Entered { state, from, position_m: position_m(state), heading, reverse })
+        })
+    }
+
     /// Writes the path to a reached place, from the robot's position on, to `path`, and returns its forecast.
     pub(crate) fn follow(&self, reached: ReachedState, path: &mut Vec<PathPoint>) -> Forecast {
         path.clear();
         let (mut across, mut along) = (0.0_f64, 0.0_f64);
         let (mut risk_sum, mut count, mut climb_m) = (0.0, 0.0, 0.0);
-        let mut state = reached.state;
-        while state != BEGIN {
-            let (place, heading) = (state as usize / HEADINGS, state as usize % HEADINGS);
-            let from = self.came_from[state as usize];
-            let turned = from != BEGIN && from as usize / HEADINGS == place;
-            if !turned {
-                let offset = self.traversability.places.offset(place);
-                risk_sum += self.traversability.risk(offset, heading);
-                count += 1.0;
-                if let Some(plane) = self.traversability.plane(offset) {
-                    let slopes = Slopes::facing(plane.gradient, DIRECTIONS[heading % DIRECTIONS.len()]);
-                    across = across.max(slopes.across);
-                    along = along.max(slopes.along);
-                }
-                let height_m = |state: u32| self.height_m(ReachedState { state });
-                let last_height_m = if from != BEGIN { height_m(from) } else { self.attitude.height_m };
-                climb_m += (height_m(state) - last_height_m).abs();
-                let position_m = self.traversability.places.position_m(offset);
-                let last_m = if from != BEGIN {
-                    self.traversability
-                        .places
-                        .position_m(self.traversability.places.offset(from as usize / HEADINGS))
-                } else {
-                    self.here_m
-                };
-                let cost_m = f64::from(self.costs_mm[state as usize]) / MILLIMETRES;
-                let reverse = (position_m - last_m).dot(STEPS[heading].as_dvec2()) < 0.0;
-                path.push(PathPoint { position_m, cost_m, reverse });
+        for Entered { state, from, position_m, heading, reverse } in self.entered(reached) {
+            let offset = self.traversability.places.offset(state as usize / HEADINGS);
+            risk_sum += self.traversability.risk(offset, heading);
+            count += 1.0;
+            if let Some(plane) = self.traversability.plane(offset) {
+                let slopes = Slopes::facing(plane.gradient, DIRECTIONS[heading % DIRECTIONS.len()]);
+                across = across.max(slopes.across);
+                along = along.max(slopes.along);
             }
-            state = from;
+            let height_m = |state: u32| self.height_m(ReachedState { state });
+            let last_height_m = if from != BEGIN { height_m(from) } else { self.attitude.height_m };
+            climb_m += (height_m(state) - last_height_m).abs();
+            let cost_m = f64::from(self.costs_mm[state as usize]) / MILLIMETRES;
+            path.push(PathPoint { position_m, cost_m, reverse });
         }
         path.push(PathPoint { position_m: self.here_m, cost_m: 0.0, reverse: false });
         path.reverse();

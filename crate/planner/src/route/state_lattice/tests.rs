@@ -39,7 +39,7 @@ fn bank(place_m: DVec2) -> Option<Plane> {
 fn set_out(lattice: &mut StateLattice, goal_m: DVec2, path: &mut Vec<PathPoint>) -> PathPoint {
     let reached = lattice.to(goal_m).unwrap();
     lattice.follow(reached, path);
-    lattice.keep(reached, path[1].reverse);
+    lattice.keep(reached);
     lattice.lookahead(path)
 }
 
