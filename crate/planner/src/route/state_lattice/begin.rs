@@ -134,7 +134,7 @@ impl StateLattice {
         let Some(turn_rad) = self.kept.turn_rad(self.here_m, self.facing) else { return };
         let Some(arc) = Arc::new(travel, way_m) else { return };
         let safe_rad = self.attitude.safe_turn_rad(turn_rad, self.traversability.most_when_begun());
-        if safe_rad.abs() < turn_rad.abs() - 1e-9 {
+        if safe_rad.abs() < turn_rad.abs() - 1e-9 || self.touches_in_turn(turn_rad) {
             return;
         }
         let share = self.attitude.slopes().share_of(self.traversability.limits());
@@ -149,6 +149,16 @@ impl StateLattice {
                 turn_m + self.drive_cost_m(&arc, offset, reverse, risk),
             );
         }
+    }
+
+    /// Whether a turn on the spot, anticlockwise, brings the body too near to something upright.
+    fn touches_in_turn(&self, turn_rad: f64) -> bool {
+        let ground = self.traversability.places.gradient_at(self.here_m);
+        let steps = (turn_rad.abs() / TAU * FIRST_DIRECTIONS as f64).ceil();
+        (1..=steps as i32).any(|step| {
+            let (sin, cos) = libm::sincos(turn_rad * f64::from(step) / steps);
+            self.body.is_too_near(self.here_m, DVec2::new(cos, sin).rotate(self.facing), ground)
+        })
     }
 
     /// Starts on arcs to the places nearby.

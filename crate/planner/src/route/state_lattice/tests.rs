@@ -416,6 +416,36 @@ fn the_next_place_of_the_kept_path_stays_possible_until_it_is_unsafe() {
     assert_ne!(first_step(&mut lattice, &level, &mut path), Some(next_m));
 }
 
+/// Level ground with something upright at a place.
+struct Post(DVec2);
+
+impl TerrainQuery for Post {
+    fn plane_at(&self, place_m: DVec2) -> Option<Plane> {
+        level(place_m)
+    }
+
+    fn each_upright(&self, _: DVec2, _: f64, visit: &mut dyn FnMut(DVec2)) {
+        visit(self.0);
+    }
+}
+
+#[test]
+fn a_turn_to_the_kept_path_sweeps_into_nothing() {
+    let yaw_rad: f64 = -0.45;
+    // Beside the robot, where its corner passes as it turns back to the path.
+    let beside_m = DVec2::new(0.3, 0.45).rotate(DVec2::from_angle(yaw_rad));
+    for (at_m, turns) in [(beside_m, false), (DVec2::new(-3.0, 3.0), true)] {
+        let mut lattice = lattice();
+        let mut path = Vec::new();
+        lattice.search(&level, &pose(0.0, 0.0), STEP);
+        set_out(&mut lattice, DVec2::new(4.0, 0.0), &mut path);
+        lattice.search(&Post(at_m), &Pose { yaw_rad, ..pose(0.0, 0.0) }, STEP);
+        let (next, _) = lattice.kept_state.unwrap();
+        let is_begun = lattice.costs_mm[next] != UNREACHED && lattice.came_from[next] == BEGIN;
+        assert_eq!(is_begun, turns, "{at_m}");
+    }
+}
+
 #[test]
 fn a_place_too_near_to_drive_to_is_reached_by_staying() {
     let mut lattice = lattice();
