@@ -320,14 +320,15 @@ test('the process by hand: its skyline, slice, paper’s values, end and failure
 });
 
 test('learning without bounds climbs step by step, and its skyline runs away', async ({ mapless: page }) => {
-  await pausedAt(page, 40);
+  // Near the start, where every planner stands alike. Elsewhere the learned process may have no solution.
+  await pausedAt(page, 10);
   await openByHand(page);
   const own = await off_deg(page);
   await page.getByRole('button', { name: 'Learned…' }).click();
   const said = page.locator('.method-climb-said');
   await expect(said).toHaveText(/^Step (\d+) of \1: bound −?[\d,]+ nats/);
   await until(page, (now) => now.thought === 'what_if');
-  await expect.poll(() => off_deg(page)).toBeGreaterThan(own + 0.5);
+  await expect.poll(() => off_deg(page)).toBeGreaterThan(own + 3);
   const step = page.getByRole('slider', { name: 'Step of learning' });
   await step.focus();
   await page.keyboard.press('Home');
