@@ -41,8 +41,8 @@ const FACE_PARTS: i32 = 4;
 /// plane replaces a narrower one if the rings of a scan lie farther apart.
 const FOOTPRINT_RADII: [f64; 3] = [1.0, 1.6, 2.4];
 
-/// Queries of the terrain by a search. What an implementation leaves out is that of ground given by its planes
-/// alone.
+/// Queries of the terrain by a search. What an implementation leaves out is that of ground given by its
+/// planes alone.
 pub(crate) trait TerrainQuery {
     /// The least-squares plane through the ground around a place; `None` if too little was seen.
     fn plane_at(&self, place_m: DVec2) -> Option<Plane>;
