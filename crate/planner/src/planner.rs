@@ -277,6 +277,8 @@ impl Planner {
         if (goal.position_m - pose.plan_m()).length() <= goal_tolerance_m {
             return self.arrive(&goal, pose, elapsed);
         }
+        let has_room = self.policy.get().has_room_within(goal.position_m, goal_tolerance_m);
+        self.progress.notice_room(has_room);
         let sight_m = self.config.perception.surface_radius_m;
         let commanded = if self.command == Command::STOP { Duration::ZERO } else { elapsed };
         if let Err(reason) = self.progress.check(pose.plan_m(), goal.position_m, sight_m, commanded) {

@@ -395,6 +395,10 @@ impl SubgoalPolicy for ForecastPolicy {
         self.lattice.safe_turn_rad(turn_rad)
     }
 
+    fn has_room_within(&self, point_m: DVec2, distance_m: f64) -> Option<bool> {
+        self.lattice.has_room_within(point_m, distance_m)
+    }
+
     fn may_spin(&self) -> bool {
         self.lattice.may_turn_around()
     }

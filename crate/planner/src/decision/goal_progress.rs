@@ -8,7 +8,8 @@ use crate::decision::step::StopReason;
 
 /// Nearer by less than this is no progress.
 const LEAST_GAIN_M: f64 = 0.25;
-/// A goal in sight is out of reach once the robot has driven this far about it without coming nearer.
+/// A goal in sight, or one at which the body has no room, is out of reach once the robot has driven this far
+/// without coming nearer.
 const MOST_DRIVEN_M: f64 = 40.0;
 /// A robot that is commanded to move must leave a circle of this radius within this time.
 const CIRCLE_M: f64 = 0.5;
@@ -22,6 +23,8 @@ const MOST_ELAPSED: Duration = Duration::from_secs(1);
 pub(crate) struct GoalProgress {
     nearest_m: f64,
     driven_m: f64,
+    /// Whether the body has room at the goal, as last seen.
+    has_room: bool,
     last_m: Option<DVec2>,
     centre_m: Option<DVec2>,
     within: Duration,
@@ -32,14 +35,20 @@ impl GoalProgress {
     pub(crate) const NONE: Self = Self {
         nearest_m: f64::INFINITY,
         driven_m: 0.0,
+        has_room: true,
         last_m: None,
         centre_m: None,
         within: Duration::ZERO,
     };
 
+    /// Notes whether the body has room at the goal, if that is known.
+    pub(crate) fn notice_room(&mut self, has_room: Option<bool>) {
+        self.has_room = has_room.unwrap_or(self.has_room);
+    }
+
     /// Notes where the robot is, after it was `commanded` to move for some time, which is zero if it was to
     /// stand. Returns why it is to stop, if there is no progress: it stays where it is, or the goal is out of
-    /// reach. Driving farther from the goal than `sight_m` may be a way around.
+    /// reach. Driving farther from the goal than `sight_m` may be a way around, if the body has room there.
     pub(crate) fn check(
         &mut self,
         here_m: DVec2,
@@ -52,7 +61,7 @@ impl GoalProgress {
         self.last_m = Some(here_m);
         if distance_m < self.nearest_m - LEAST_GAIN_M {
             (self.nearest_m, self.driven_m) = (distance_m, 0.0);
-        } else if distance_m < sight_m {
+        } else if distance_m < sight_m || !self.has_room {
             self.driven_m += moved_m;
         }
         let centre_m = *self.centre_m.get_or_insert(here_m);
@@ -96,6 +105,24 @@ mod tests {
         let ended_m = circles(1.5).unwrap();
         assert!((ended_m - MOST_DRIVEN_M).abs() < 1.0, "{ended_m}");
         assert_eq!(circles(8.0), None);
+    }
+
+    #[test]
+    fn a_goal_without_room_is_out_of_reach_on_any_way_around_until_room_is_seen() {
+        let mut progress = GoalProgress::NONE;
+        let drive_on = |progress: &mut GoalProgress, metres: f64| {
+            (0..(10.0 * metres) as usize).all(|step| {
+                let here_m = DVec2::new(9.0, 0.1 * (step % 2) as f64);
+                progress.check(here_m, DVec2::ZERO, 7.0, Duration::ZERO).is_ok()
+            })
+        };
+        progress.notice_room(Some(false));
+        assert!(drive_on(&mut progress, 39.0));
+        progress.notice_room(Some(true));
+        assert!(drive_on(&mut progress, 39.0));
+        progress.notice_room(Some(false));
+        progress.notice_room(None);
+        assert!(!drive_on(&mut progress, 2.0));
     }
 
     #[test]

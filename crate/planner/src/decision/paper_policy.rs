@@ -3,6 +3,8 @@
 
 use core::time::Duration;
 
+use glam::DVec2;
+
 use crate::config::PlannerConfig;
 use crate::control::controller::Controller;
 use crate::decision::cost::{choose_cheapest, steepness_cost};
@@ -45,6 +47,10 @@ impl SubgoalPolicy for PaperPolicy {
 
     fn safe_turn_rad(&self, turn_rad: f64) -> f64 {
         turn_rad
+    }
+
+    fn has_room_within(&self, _: DVec2, _: f64) -> Option<bool> {
+        None
     }
 
     fn may_spin(&self) -> bool {

@@ -74,6 +74,9 @@ pub(crate) trait SubgoalPolicy {
     /// The largest part of a turn on the spot, anticlockwise, that keeps the robot within its tilt limits.
     fn safe_turn_rad(&self, turn_rad: f64) -> f64;
 
+    /// Whether the body has room within `distance_m` of a point; `None` if that is unknown.
+    fn has_room_within(&self, point_m: DVec2, distance_m: f64) -> Option<bool>;
+
     /// Whether the robot may turn all around on the spot.
     fn may_spin(&self) -> bool;
 }

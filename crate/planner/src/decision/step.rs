@@ -32,7 +32,7 @@ pub enum StopReason {
     /// The spin recovery found no candidate either. A later scan may show one.
     #[error("no subgoal found by the spin recovery")]
     NoSubgoal,
-    /// The goal is in sight, and much driving about it brought the robot no nearer.
+    /// The goal is in sight, or the body has no room there, and much driving brought the robot no nearer.
     #[error("the goal cannot be reached: driving about it brings the robot no nearer")]
     GoalUnreachable,
     /// The robot was commanded to move for half a minute, and got nowhere. A new goal begins anew.

@@ -314,6 +314,11 @@ impl StateLattice {
         self.attitude.safe_turn_rad(turn_rad, self.traversability.most())
     }
 
+    /// Whether the body has room within `distance_m` of a point, whatever the slope; `None` if unknown.
+    pub(crate) fn has_room_within(&self, point_m: DVec2, distance_m: f64) -> Option<bool> {
+        self.traversability.places.has_room_within(point_m, distance_m)
+    }
+
     /// Has the ground within `radius_m` of a place queried again at the next scan.
     pub(crate) fn query_again_near(&mut self, place_m: DVec2, radius_m: f64) {
         self.traversability.places.query_again_near(place_m, radius_m);

@@ -137,6 +137,28 @@ impl PlaceLattice {
         self.known.get(self.centre + offset)
     }
 
+    /// Whether a body with some heading has room at a place within `distance_m` of a point, or at the one
+    /// nearest to it, whatever the slope; `None` if that cannot be told from what is known.
+    pub(crate) fn has_room_within(&self, point_m: DVec2, distance_m: f64) -> Option<bool> {
+        let nearest = self.world_index(point_m);
+        let (low, high) = (self.world_index(point_m - distance_m), self.world_index(point_m + distance_m));
+        let offsets = (low.y..=high.y).flat_map(|y| (low.x..=high.x).map(move |x| IVec2::new(x, y)));
+        let near = offsets.map(|world| (world, world - self.centre)).filter(|&(world, offset)| {
+            world == nearest || self.position_m(offset).distance(point_m) <= distance_m
+        });
+        let mut is_all_known = true;
+        for (_, offset) in near {
+            match self.known(offset) {
+                _ if self.is_at_cliff(offset) => {}
+                Some(known) if known.plane.is_none() => is_all_known = false,
+                Some(known) if known.is_blocked.contains(&false) => return Some(true),
+                Some(_) => {}
+                None => is_all_known = false,
+            }
+        }
+        is_all_known.then_some(false)
+    }
+
     /// The four places around a point, each with its weight in a bilinear interpolation.
     pub(crate) fn four_around(&self, point_m: DVec2) -> [(IVec2, f64); 4] {
         let steps = point_m / self.step_m - self.centre.as_dvec2();
@@ -237,6 +259,17 @@ mod tests {
         assert!(known(1).is_blocked[0] && !known(1).is_negative_obstacle, "0 m from the body");
         assert!(!known(2).is_blocked[0] && known(2).is_negative_obstacle, "beside it");
         assert!((0..=3).all(|x| (known(x).lacks_room[0] > 0.0) == (x < 2)));
+    }
+
+    #[test]
+    fn room_is_told_where_the_ground_is_known() {
+        let mut places = PlaceLattice::new(&PlannerConfig::default().state_lattice, 3.0);
+        let has_room = |places: &PlaceLattice, x_m: f64| places.has_room_within(DVec2::new(x_m, 0.0), 0.4);
+        assert_eq!(has_room(&places, 0.0), None);
+        places.look(&Standing { at_m: DVec2::ZERO, radius_m: 0.5, is_void: false }, DVec2::ZERO);
+        assert_eq!(has_room(&places, 0.0), Some(false));
+        assert_eq!(has_room(&places, 2.0), Some(true));
+        assert_eq!(has_room(&places, 9.0), None);
     }
 
     /// Level ground of which all is missing, or drops off, as noticed from nearby.
