@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use crate::robot_model::{RobotModel, distance_from_body_m};
 use crate::terrain::elevation_window::TerrainQuery;
+use crate::terrain::traversability::BEGUN_SHARE;
 
 /// The robot keeps this far from what is upright, or as far as it already is.
 const MARGIN_M: f64 = 0.05;
@@ -44,6 +45,12 @@ impl BodyClearance {
         self.things_m.clear();
         ground.each_upright(here_m, self.radius_m, &mut |thing_m| self.things_m.push(thing_m));
         self.least_m = self.at_m(here_m, facing, expected);
+    }
+
+    /// As [`is_too_near`](Self::is_too_near), at a pose on a turn that was begun, which keeps a share of the
+    /// margin: whether the turn may go on must not depend on centimetres.
+    pub(crate) fn is_too_near_when_begun(&self, place_m: DVec2, facing: DVec2, gradient: DVec2) -> bool {
+        self.at_m(place_m, facing, gradient) < self.least_m.min(BEGUN_SHARE * MARGIN_M)
     }
 
     /// Whether the body at a pose, on ground with this gradient, is too near to something upright.
@@ -94,6 +101,19 @@ mod tests {
             "turned towards it"
         );
         assert!(body.is_too_near(DVec2::new(0.0, 0.1), DVec2::X, LEVEL), "drawn towards it");
+    }
+
+    #[test]
+    fn a_turn_that_was_begun_comes_nearer_than_one_that_was_not_but_does_not_touch() {
+        let facing = |turn_rad: f64| DVec2::from_angle(turn_rad);
+        let body = beside(DVec2::new(0.3, 0.45));
+        let most_rad = |is_too_near: &dyn Fn(DVec2) -> bool| {
+            (0..100).map(|k| 0.01 * f64::from(k)).find(|&turn_rad| is_too_near(facing(turn_rad)))
+        };
+        let anew_rad = most_rad(&|facing| body.is_too_near(DVec2::ZERO, facing, LEVEL)).unwrap();
+        let begun_rad = most_rad(&|facing| body.is_too_near_when_begun(DVec2::ZERO, facing, LEVEL)).unwrap();
+        let touches_rad = most_rad(&|facing| body.at_m(DVec2::ZERO, facing, LEVEL) <= 0.0).unwrap();
+        assert!(anew_rad < begun_rad && begun_rad < touches_rad, "{anew_rad} {begun_rad} {touches_rad}");
     }
 
     #[test]

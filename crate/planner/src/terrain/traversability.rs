@@ -86,8 +86,9 @@ const HORIZON: i32 = 2;
 /// with this much more risk.
 const TIGHT_SHARE: f64 = 0.5;
 const TIGHT_RISK: f64 = 2.0;
-/// A turn that was begun keeps this share of the smallest margin.
-const BEGUN_SHARE: f64 = 0.5;
+/// A turn that was begun keeps this share of a margin: of the smallest one to the tilt limits, and of that to
+/// what is upright.
+pub(crate) const BEGUN_SHARE: f64 = 0.5;
 /// A slope with a larger standard deviation is extrapolated, not seen.
 const GUESS_DEVIATION: f64 = 0.15;
 /// Standard deviation of a slope between wheels with averaged returns under them.

@@ -151,13 +151,15 @@ impl StateLattice {
         }
     }
 
-    /// Whether a turn on the spot, anticlockwise, brings the body too near to something upright.
+    /// Whether a turn on the spot that was begun, anticlockwise, brings the body too near to something
+    /// upright.
     fn touches_in_turn(&self, turn_rad: f64) -> bool {
         let ground = self.traversability.places.gradient_at(self.here_m);
         let steps = (turn_rad.abs() / TAU * FIRST_DIRECTIONS as f64).ceil();
         (1..=steps as i32).any(|step| {
             let (sin, cos) = libm::sincos(turn_rad * f64::from(step) / steps);
-            self.body.is_too_near(self.here_m, DVec2::new(cos, sin).rotate(self.facing), ground)
+            let facing = DVec2::new(cos, sin).rotate(self.facing);
+            self.body.is_too_near_when_begun(self.here_m, facing, ground)
         })
     }
 
