@@ -285,8 +285,8 @@ impl ForecastPolicy {
         self.optimiser.drive(&PathCourse::new(&self.lattice, path, config), from)
     }
 
-    /// Learns the cost-to-go of the places around by a backward search from the goal, if it is reached, or
-    /// else from the frontier with the corrections there.
+    /// Learns the cost-to-go of the places around by a backward search from the frontier, with the
+    /// corrections there, and from the goal if it is reached.
     fn learn(&mut self, situation: &Situation<'_>) {
         let Situation { pose, goal_m, goal_tolerance_m, .. } = *situation;
         let here_m = pose.plan_m();

@@ -13,7 +13,8 @@ use crate::skyline::segments::Segment;
 use crate::skyline::surface::GpDiagnostics;
 use crate::terrain::plane::Plane;
 
-/// Why the planner stopped. A stop does not latch: a later step may go on.
+/// Why the planner stopped. A later step may go on, but after [`NoProgress`](Self::NoProgress) and
+/// [`GoalUnreachable`](Self::GoalUnreachable) only with a new goal, or the same one after it was cancelled.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StopReason {
@@ -35,7 +36,7 @@ pub enum StopReason {
     /// The goal is in sight, or the body has no room there, and much driving brought the robot no nearer.
     #[error("the goal cannot be reached: driving about it brings the robot no nearer")]
     GoalUnreachable,
-    /// The robot was commanded to move for half a minute, and got nowhere. A new goal begins anew.
+    /// The robot was commanded to move for half a minute, and got nowhere.
     #[error("no progress: 30 s of driving and turning left the robot within 0.5 m")]
     NoProgress,
     /// The requested final heading cannot be turned to at the goal without exceeding a tilt limit.
