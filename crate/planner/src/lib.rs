@@ -86,8 +86,8 @@
 //! [`Step`] holds the [`Status`], the [`Command`] (forward speed and turn rate) and everything that was seen
 //! and decided. The base must follow the commanded turn rate in closed loop (a skid-steered base turns up to
 //! half too fast or too slow on side slopes), ramp its speeds, keep traction, hold on a slope at zero
-//! command, and stop when commands cease. The planner does not end a fruitless drive by time: set a limit of
-//! your own.
+//! command, and stop when commands cease. The planner gives up where it gets nowhere, but not where it
+//! searches far and wide: set a time limit of your own.
 //!
 //! # How it works
 //!
@@ -101,7 +101,8 @@
 //! 6. [`decision::subgoals`]: subgoals on the segments, in the world frame.
 //! 7. [`route::forecast`]: the tilt to expect on the best path there, over the ground seen so far.
 //! 8. [`decision::cost`]: the cheapest subgoal is chosen.
-//! 9. [`control::controller`]: a PID controller drives to it.
+//! 9. The best trajectory of the next two seconds along the path is driven; with the paper's configuration,
+//!    [`control::controller`], a PID controller.
 //!
 //! Every parameter is in [`config`]. A step costs time O(cells + m³) in the m inducing inputs of a sector of
 //! the Gaussian process; after the first steps it allocates nothing.

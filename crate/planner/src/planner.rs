@@ -8,7 +8,7 @@ use mapless_parameters::ConfigError;
 use crate::config::{CostModel, PlannerConfig};
 use crate::control::controller::{Command, Controller};
 use crate::decision::forecast_policy::ForecastPolicy;
-use crate::decision::goal_progress::GoalProgress;
+use crate::decision::goal_progress::{GoalProgress, MOST_ELAPSED};
 use crate::decision::paper_policy::PaperPolicy;
 use crate::decision::policy::{Motion, Plan, Situation, SubgoalPolicy};
 use crate::decision::step::{PerceptionOverride, Status, Step, StopReason};
@@ -52,6 +52,8 @@ pub struct Planner {
     /// The goal for which the present corrections were learned.
     goal_anchor_m: DVec2,
     progress: GoalProgress,
+    /// The time since the ground was observed: longer than a step after some that stopped before.
+    skipped: Duration,
     /// Time without a candidate.
     searched: Duration,
     status: Status,
@@ -109,6 +111,7 @@ impl Planner {
             goal: None,
             goal_anchor_m: DVec2::ZERO,
             progress: GoalProgress::NONE,
+            skipped: Duration::ZERO,
             searched: Duration::ZERO,
             status: Status::Stopped(StopReason::NoGoal),
             command: Command::STOP,
@@ -170,8 +173,9 @@ impl Planner {
     /// Without this a jump of the pose tears the window apart. Only the turn about z and the shift between
     /// both poses count.
     pub fn relocalise(&mut self, before: &Pose, after: &Pose) {
-        self.progress.relocalise();
         if before.is_finite() && after.is_finite() {
+            let away_m = |pose: &Pose| self.goal.map_or(0.0, |goal| goal.position_m.distance(pose.plan_m()));
+            self.progress.relocalise(away_m(after) - away_m(before));
             let change = FrameChange::between(before, after);
             match &mut self.policy {
                 // The paper's choice remembers nothing.
@@ -260,6 +264,7 @@ impl Planner {
         elapsed: Duration,
         overrides: PerceptionOverride<'_>,
     ) -> Status {
+        self.skipped = self.skipped.saturating_add(elapsed);
         let Some(goal) = self.goal else { return Status::Stopped(StopReason::NoGoal) };
         let near = |place_m: DVec2| place_m.abs().max_element() < FARTHEST_M;
         if !(pose.is_finite() && near(pose.plan_m()) && goal.is_valid() && near(goal.position_m)) {
@@ -272,10 +277,11 @@ impl Planner {
         if let Err(error) = self.perceive(overrides) {
             return Status::Stopped(StopReason::NoPerception(error));
         }
-        self.policy.get_mut().observe(&self.config, &self.filter, pose, elapsed);
+        self.policy.get_mut().observe(&self.config, &self.filter, pose, self.skipped);
+        let since_observed = core::mem::take(&mut self.skipped);
         let goal_tolerance_m = goal.tolerance_m.unwrap_or(self.config.goal_tolerance_m);
         if (goal.position_m - pose.plan_m()).length() <= goal_tolerance_m {
-            return self.arrive(&goal, pose, elapsed);
+            return self.arrive(&goal, pose, elapsed, since_observed);
         }
         let has_room = self.policy.get().has_room_within(goal.position_m, goal_tolerance_m);
         self.progress.notice_room(has_room);
@@ -292,6 +298,7 @@ impl Planner {
             profile: &self.profile,
             segments: &self.segments,
             elapsed,
+            since_observed,
             last_command: self.command,
             terrain: overrides.terrain,
         };
@@ -307,7 +314,7 @@ impl Planner {
                 Status::Backtracking
             }
             Motion::NoCandidate => {
-                self.searched = self.searched.saturating_add(elapsed);
+                self.searched = self.searched.saturating_add(elapsed.min(MOST_ELAPSED));
                 if self.searched > self.config.decision.spin_recovery() {
                     Status::Stopped(StopReason::NoSubgoal)
                 } else {
@@ -318,11 +325,12 @@ impl Planner {
     }
 
     /// At the goal: turns to the final heading.
-    fn arrive(&mut self, goal: &Goal, pose: &Pose, elapsed: Duration) -> Status {
+    fn arrive(&mut self, goal: &Goal, pose: &Pose, elapsed: Duration, since_observed: Duration) -> Status {
         let turn_rad = goal.heading_rad.map_or(0.0, |heading_rad| difference_rad(heading_rad, pose.yaw_rad));
         if turn_rad.abs() <= HEADING_TOLERANCE_RAD {
             return Status::Arrived;
         }
+        self.policy.get_mut().stand(pose, since_observed);
         let unsafe_rad = turn_rad.abs() - self.policy.get().safe_turn_rad(turn_rad).abs();
         if unsafe_rad > HEADING_TOLERANCE_RAD {
             return Status::Stopped(StopReason::HeadingUnsafe);

@@ -277,6 +277,54 @@ fn a_goal_that_moves_by_less_than_its_tolerance_forgets_nothing() {
 }
 
 #[test]
+fn the_turn_at_a_goal_is_judged_where_the_robot_stands_and_by_what_is_beside_it() {
+    let turns = |points: &[Vec3], pitch_rad: f64, steps: u32| {
+        let pose = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, pitch_rad, 0.0);
+        let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+        for _ in 0..steps {
+            planner.set_goal(Goal::at(DVec2::ZERO).facing(0.0));
+            assert_eq!(planner.step(points, &pose, PERIOD).status, Status::Arrived);
+        }
+        planner.set_goal(Goal::at(DVec2::ZERO).facing(0.5 * PI));
+        planner.step(points, &pose, PERIOD).status
+    };
+    let unsafe_turn = Status::Stopped(StopReason::HeadingUnsafe);
+    let free = scan(level);
+    // The first step of all: nothing was searched before. Then the slope to the side would be 31°.
+    assert_eq!((turns(&free, 0.0, 0), turns(&free, 0.54, 0)), (Status::Driving, unsafe_turn));
+    // A wall that the side passes, and the corner does not.
+    let beside = scan(|direction| {
+        let wall = if direction.y > 0.0 { 0.45 / direction.y } else { 100.0 };
+        Some(level(direction).map_or(wall, |ground| ground.min(wall)).min(100.0))
+    });
+    assert_eq!(turns(&beside, 0.0, 5), unsafe_turn);
+}
+
+#[test]
+fn steps_that_stop_before_the_ground_is_observed_age_what_is_remembered() {
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    let points = scan(level);
+    step(&mut planner, &points, &START, AHEAD);
+    let far_off = Pose::from_roll_pitch_yaw(DVec3::X * 12.0, 0.0, 0.0, 0.0);
+    let is_behind = |planner: &Planner| planner.remembered_ground().any(|cell| cell.mean_m.x < 4.0);
+    step(&mut planner, &points, &far_off, AHEAD);
+    assert!(is_behind(&planner));
+    for _ in 0..31 {
+        planner.step(&[], &far_off, Duration::from_secs(10));
+    }
+    step(&mut planner, &points, &far_off, AHEAD);
+    assert!(!is_behind(&planner), "older than five minutes");
+}
+
+#[test]
+fn the_time_between_two_goals_is_not_spent_searching() {
+    let mut planner = Planner::new(PlannerConfig::default()).unwrap();
+    planner.set_goal(Goal::at(AHEAD));
+    let late = planner.step(&scan(walled(1.5)), &START, Duration::from_secs(60));
+    assert_eq!(late.status, Status::Searching);
+}
+
+#[test]
 fn returns_nearer_than_the_sensor_measures_change_nothing() {
     let decide = |points: &[Vec3]| {
         let mut planner = Planner::new(PlannerConfig::default()).unwrap();

@@ -9,6 +9,7 @@ use core::time::Duration;
 use glam::DVec2;
 
 use crate::decision::candidates::Candidates;
+use crate::decision::goal_progress::MOST_ELAPSED;
 use crate::decision::subgoals::Subgoal;
 use crate::pose::{FrameChange, Pose};
 
@@ -52,7 +53,7 @@ impl CommittedTarget {
             self.left_m = pose.plan_m();
             self.time = Duration::ZERO;
         }
-        self.time = self.time.saturating_add(elapsed);
+        self.time = self.time.saturating_add(elapsed.min(MOST_ELAPSED));
         (self.time > PROGRESS_TIME).then(|| {
             *self = Self { left_m: self.left_m, ..Self::default() };
             subgoal.position_m.truncate()
@@ -138,6 +139,13 @@ mod tests {
         committed.commit(&subgoal(5.0), &pose(0.0), STEP);
         assert_eq!(reconsider(&mut committed, 0.0, 3.0), Err(DVec2::new(5.0, 0.0)));
         assert_eq!(reconsider(&mut committed, 0.0, 3.0), Ok(None));
+    }
+
+    #[test]
+    fn the_time_of_lost_scans_does_not_count() {
+        let mut committed = CommittedTarget::default();
+        let late = Duration::from_secs(60);
+        assert!((0..5).all(|_| committed.commit(&subgoal(5.0), &pose(0.0), late).is_none()));
     }
 
     #[test]

@@ -108,7 +108,7 @@ impl ForecastPolicy {
 
     /// Searches paths over the terrain and chooses a subgoal; `None` if there is no candidate.
     fn search(&mut self, situation: &Situation<'_>, plan: &mut Plan) -> Option<usize> {
-        let Situation { pose, goal_m, elapsed, .. } = *situation;
+        let Situation { pose, goal_m, since_observed, .. } = *situation;
         let here_m = pose.plan_m();
         let budget = self.detour_budget.get_or_insert_with(|| DetourBudget::new(here_m, goal_m));
         if budget.is_spent_now(here_m) {
@@ -116,8 +116,8 @@ impl ForecastPolicy {
             self.heuristic.scale(OVER_BUDGET_SHARE);
         }
         match situation.terrain {
-            Some(terrain) => self.lattice.search(&terrain, pose, elapsed),
-            None => self.lattice.search(&self.window, pose, elapsed),
+            Some(terrain) => self.lattice.search(&terrain, pose, since_observed),
+            None => self.lattice.search(&self.window, pose, since_observed),
         }
         self.choose(situation, plan).or_else(|| {
             self.lattice.search_recovery();
@@ -386,13 +386,20 @@ impl SubgoalPolicy for ForecastPolicy {
         if command.is_none() {
             // The way that the path takes first is no way on, whether or not the robot can back off.
             self.lattice.inflate_variance_ahead(direction_of(&plan.path, pose));
-            self.backtrack.begin(pose.plan_m());
+            if self.backtrack.begin(pose.plan_m()).is_none() {
+                plan.chosen = None;
+                return Motion::NoCandidate;
+            }
         }
         Motion::Drive(command.unwrap_or(Command::STOP))
     }
 
+    fn stand(&mut self, pose: &Pose, elapsed: Duration) {
+        self.lattice.stand(&self.window, pose, elapsed);
+    }
+
     fn safe_turn_rad(&self, turn_rad: f64) -> f64 {
-        self.lattice.safe_turn_rad(turn_rad)
+        self.lattice.clear_turn_rad(self.lattice.safe_turn_rad(turn_rad))
     }
 
     fn has_room_within(&self, point_m: DVec2, distance_m: f64) -> Option<bool> {

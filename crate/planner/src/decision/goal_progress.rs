@@ -14,8 +14,9 @@ const MOST_DRIVEN_M: f64 = 40.0;
 /// A robot that is commanded to move must leave a circle of this radius within this time.
 const CIRCLE_M: f64 = 0.5;
 const MOST_TIME: Duration = Duration::from_secs(30);
-/// After lost scans, no more than this counts: nobody lets the robot move on for so long.
-const MOST_ELAPSED: Duration = Duration::from_secs(1);
+/// After lost scans, or since a goal before, no more than this counts: nobody lets the robot move on for so
+/// long.
+pub(crate) const MOST_ELAPSED: Duration = Duration::from_secs(1);
 
 /// How near the robot has come to its goal, how far it has driven about it since, and how long it was
 /// commanded to move within a circle.
@@ -78,8 +79,11 @@ impl GoalProgress {
         }
     }
 
-    /// Forgets the last place, as after a jump of the localisation.
-    pub(crate) fn relocalise(&mut self) {
+    /// Forgets the last place, as after a jump of the localisation. The goal keeps its coordinates, so it is
+    /// another place now, `farther_m` farther from the robot.
+    pub(crate) fn relocalise(&mut self, farther_m: f64) {
+        self.nearest_m += farther_m;
+        self.has_room = true;
         self.last_m = None;
         self.centre_m = None;
     }
@@ -122,7 +126,27 @@ mod tests {
         assert!(drive_on(&mut progress, 39.0));
         progress.notice_room(Some(false));
         progress.notice_room(None);
+        let mut moved = progress;
+        moved.relocalise(0.0);
         assert!(!drive_on(&mut progress, 2.0));
+        assert!(drive_on(&mut moved, 50.0), "room may be where the goal is now");
+    }
+
+    #[test]
+    fn a_goal_that_a_correction_put_farther_off_is_approached_anew() {
+        let mut progress = GoalProgress::NONE;
+        // Six metres towards the goal.
+        let drive = |progress: &mut GoalProgress, from_m: f64| {
+            (0..60).all(|step| {
+                let here_m = DVec2::X * (from_m - 0.1 * f64::from(step));
+                progress.check(here_m, DVec2::ZERO, 20.0, Duration::ZERO).is_ok()
+            })
+        };
+        assert!((0..3).all(|_| drive(&mut progress, 7.0)));
+        let mut untold = progress;
+        progress.relocalise(11.0);
+        assert!((0..2).all(|_| drive(&mut progress, 12.0)));
+        assert!(!(0..2).all(|_| drive(&mut untold, 12.0)));
     }
 
     #[test]

@@ -45,6 +45,8 @@ impl SubgoalPolicy for PaperPolicy {
         Motion::Drive(controller.drive(distance_m, subgoal.bearing_rad, situation.elapsed))
     }
 
+    fn stand(&mut self, _: &Pose, _: Duration) {}
+
     fn safe_turn_rad(&self, turn_rad: f64) -> f64 {
         turn_rad
     }

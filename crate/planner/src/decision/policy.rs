@@ -24,6 +24,8 @@ pub(crate) struct Situation<'a> {
     pub(crate) segments: &'a [Segment],
     /// Time since the last step.
     pub(crate) elapsed: Duration,
+    /// Time since the last step that observed the ground.
+    pub(crate) since_observed: Duration,
     /// The command of the last step.
     pub(crate) last_command: Command,
     /// Replaces the policy's own knowledge of the terrain.
@@ -71,7 +73,11 @@ pub(crate) trait SubgoalPolicy {
     /// Fills the plan, which is empty, and decides on a motion.
     fn decide(&mut self, situation: &Situation<'_>, controller: &mut Controller, plan: &mut Plan) -> Motion;
 
-    /// The largest part of a turn on the spot, anticlockwise, that keeps the robot within its tilt limits.
+    /// Takes up where the robot stands, in a step that does not decide.
+    fn stand(&mut self, pose: &Pose, elapsed: Duration);
+
+    /// The largest part of a turn on the spot, anticlockwise, that keeps the robot within its tilt limits and
+    /// off what is upright, where it stood last.
     fn safe_turn_rad(&self, turn_rad: f64) -> f64;
 
     /// Whether the body has room within `distance_m` of a point; `None` if that is unknown.

@@ -39,8 +39,9 @@ pub enum StopReason {
     /// The robot was commanded to move for half a minute, and got nowhere.
     #[error("no progress: 30 s of driving and turning left the robot within 0.5 m")]
     NoProgress,
-    /// The requested final heading cannot be turned to at the goal without exceeding a tilt limit.
-    #[error("turning to the goal's heading would exceed a tilt limit")]
+    /// The requested final heading cannot be turned to at the goal without exceeding a tilt limit or touching
+    /// something upright.
+    #[error("turning to the goal's heading would exceed a tilt limit or touch something upright")]
     HeadingUnsafe,
 }
 

@@ -170,15 +170,20 @@ impl StateLattice {
     /// Searches paths from `pose` over `ground`, `elapsed` after the last search.
     pub(crate) fn search(&mut self, ground: &dyn TerrainQuery, pose: &Pose, elapsed: Duration) {
         let moved_m = pose.plan_m() - self.here_m;
+        self.traversability.drive_on(moved_m.length());
+        self.traversability.places.look(ground, pose.plan_m());
+        self.stand(ground, pose, elapsed);
+        self.search_with(Caution::Usual);
+    }
+
+    /// Takes up the attitude at `pose` and what is upright around it, `elapsed` after the last time.
+    pub(crate) fn stand(&mut self, ground: &dyn TerrainQuery, pose: &Pose, elapsed: Duration) {
         self.here_m = pose.plan_m();
         self.attitude.be_at(pose, elapsed);
-        self.traversability.drive_on(moved_m.length());
-        self.traversability.places.look(ground, self.here_m);
         let (sin, cos) = libm::sincos(pose.yaw_rad);
         self.facing = DVec2::new(cos, sin);
         let expected = self.traversability.places.gradient_at(self.here_m);
         self.body.look(ground, self.here_m, self.facing, self.attitude.gradient, expected);
-        self.search_with(Caution::Usual);
     }
 
     /// Whether the attitude exceeds even the recovery margin, or, extrapolated over the braking time, a tilt

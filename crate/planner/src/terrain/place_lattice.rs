@@ -140,14 +140,17 @@ impl PlaceLattice {
     /// Whether a body with some heading has room at a place within `distance_m` of a point, or at the one
     /// nearest to it, whatever the slope; `None` if that cannot be told from what is known.
     pub(crate) fn has_room_within(&self, point_m: DVec2, distance_m: f64) -> Option<bool> {
-        let nearest = self.world_index(point_m);
-        let (low, high) = (self.world_index(point_m - distance_m), self.world_index(point_m + distance_m));
-        let offsets = (low.y..=high.y).flat_map(|y| (low.x..=high.x).map(move |x| IVec2::new(x, y)));
-        let near = offsets.map(|world| (world, world - self.centre)).filter(|&(world, offset)| {
-            world == nearest || self.position_m(offset).distance(point_m) <= distance_m
-        });
-        let mut is_all_known = true;
-        for (_, offset) in near {
+        let nearest = self.world_index(point_m) - self.centre;
+        let low = self.world_index(point_m - distance_m) - self.centre;
+        let high = self.world_index(point_m + distance_m) - self.centre;
+        // What lies off the lattice is not known.
+        let half = IVec2::splat(self.half);
+        let (first, last) = (low.max(-half), high.min(half));
+        let mut is_all_known = (first, last) == (low, high);
+        let offsets = (first.y..=last.y).flat_map(|y| (first.x..=last.x).map(move |x| IVec2::new(x, y)));
+        for offset in offsets
+            .filter(|&offset| offset == nearest || self.position_m(offset).distance(point_m) <= distance_m)
+        {
             match self.known(offset) {
                 _ if self.is_at_cliff(offset) => {}
                 Some(known) if known.plane.is_none() => is_all_known = false,
@@ -270,6 +273,7 @@ mod tests {
         assert_eq!(has_room(&places, 0.0), Some(false));
         assert_eq!(has_room(&places, 2.0), Some(true));
         assert_eq!(has_room(&places, 9.0), None);
+        assert_eq!(places.has_room_within(DVec2::X * 1e6, 1e5), None, "at once");
     }
 
     /// Level ground of which all is missing, or drops off, as noticed from nearby.

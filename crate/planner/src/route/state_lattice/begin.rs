@@ -154,13 +154,27 @@ impl StateLattice {
     /// Whether a turn on the spot that was begun, anticlockwise, brings the body too near to something
     /// upright.
     fn touches_in_turn(&self, turn_rad: f64) -> bool {
+        self.clear_share(turn_rad, |facing, ground| {
+            self.body.is_too_near_when_begun(self.here_m, facing, ground)
+        }) < 1.0
+    }
+
+    /// The largest part of a turn on the spot, anticlockwise, that keeps the body off what is upright.
+    pub(crate) fn clear_turn_rad(&self, turn_rad: f64) -> f64 {
+        turn_rad
+            * self.clear_share(turn_rad, |facing, ground| self.body.is_too_near(self.here_m, facing, ground))
+    }
+
+    /// The share of a turn on the spot, anticlockwise, before the first facing that is too near to something
+    /// upright, on ground with the gradient here.
+    fn clear_share(&self, turn_rad: f64, is_too_near: impl Fn(DVec2, DVec2) -> bool) -> f64 {
         let ground = self.traversability.places.gradient_at(self.here_m);
         let steps = (turn_rad.abs() / TAU * FIRST_DIRECTIONS as f64).ceil();
-        (1..=steps as i32).any(|step| {
+        let touching = (1..=steps as i32).find(|&step| {
             let (sin, cos) = libm::sincos(turn_rad * f64::from(step) / steps);
-            let facing = DVec2::new(cos, sin).rotate(self.facing);
-            self.body.is_too_near_when_begun(self.here_m, facing, ground)
-        })
+            is_too_near(DVec2::new(cos, sin).rotate(self.facing), ground)
+        });
+        touching.map_or(1.0, |step| f64::from(step - 1) / steps)
     }
 
     /// Starts on arcs to the places nearby.
