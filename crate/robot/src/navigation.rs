@@ -2,8 +2,10 @@
 
 use core::time::Duration;
 
+use mapless::glam::DVec3;
 use mapless::{Goal, Pose, Status, StopReason};
 
+use crate::estimator::{finite, unit};
 use crate::frames::FrameChange;
 use crate::messages::PoseStamped;
 use crate::supervisor::{Decision, State};
@@ -174,21 +176,22 @@ pub fn goal_of(
         let reason = decision.cause.or(decision.reason);
         return Err(reason.map_or_else(|| "the robot is stopped".to_owned(), |reason| reason.to_string()));
     }
-    let asked = Pose::from_quaternion(message.pose.position.into(), message.pose.orientation.to_glam());
+    let (place_m, orientation) = (DVec3::from(message.pose.position), message.pose.orientation.to_glam());
+    finite("goal.pose.position", place_m).map_err(|error| error.to_string())?;
     let [believed, told] = poses.ok_or("the robot's pose is not known yet")?;
     let change = FrameChange::new(told, believed);
-    let goal = Goal::at(change.place_m(asked.plan_m()));
-    let goal = if has_final_heading { goal.facing(change.heading_rad(asked.yaw_rad)) } else { goal };
-    if goal.is_valid() && asked.is_finite() {
-        Ok(goal)
-    } else {
-        Err("a goal with a pose that is not finite".to_owned())
+    let goal = Goal::at(change.place_m(place_m.truncate()));
+    if !has_final_heading {
+        return Ok(goal);
     }
+    unit("goal.pose.orientation", orientation).map_err(|error| error.to_string())?;
+    Ok(goal.facing(change.heading_rad(Pose::from_quaternion(place_m, orientation).yaw_rad)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::messages::Quaternion;
     use crate::supervisor::Reason;
     use mapless::Command;
     use mapless::glam::DVec2;
@@ -210,6 +213,27 @@ mod tests {
             Some((_, End::Aborted(outcome))) => outcome.code,
             other => panic!("{other:?}"),
         }
+    }
+
+    #[test]
+    fn a_goal_needs_a_finite_place_and_a_rotation_only_if_it_is_to_be_faced() {
+        let level = Pose::from_roll_pitch_yaw(DVec3::ZERO, 0.0, 0.0, 0.0);
+        let driving = decision(State::Driving, None);
+        let goal = |x: f64, w: f64, has_final_heading: bool| {
+            let mut message = PoseStamped::default();
+            message.header.frame_id = "odom".to_owned();
+            message.pose.position.x = x;
+            message.pose.orientation = Quaternion { x: 0.0, y: 0.0, z: 0.0, w };
+            goal_of(&message, "odom", Some(&driving), Some([level; 2]), has_final_heading)
+        };
+        assert_eq!(goal(3.0, 0.0, false), Ok(Goal::at(DVec2::X * 3.0)));
+        assert_eq!(goal(3.0, 1.0, true), Ok(Goal::at(DVec2::X * 3.0).facing(0.0)));
+        let refused = "goal.pose.orientation = [0, 0, 0, 0]: expected a quaternion of length 1";
+        assert_eq!(goal(3.0, 0.0, true).unwrap_err(), refused);
+        assert_eq!(
+            goal(f64::NAN, 1.0, false).unwrap_err(),
+            "goal.pose.position = [NaN, 0, 0]: expected finite numbers"
+        );
     }
 
     #[test]

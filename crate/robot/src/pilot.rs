@@ -105,6 +105,10 @@ impl Pilot {
             self.goal = None;
         }
         if self.goal != Some(task.number) {
+            if matches!(self.status, Some(Status::Arrived | Status::Stopped(_))) {
+                // The same goal again is a new drive, not one that goes on.
+                self.planner.cancel_goal();
+            }
             self.planner.set_goal(task.goal);
             (self.goal, self.status, self.recoveries) = (Some(task.number), None, 0);
         }

@@ -158,6 +158,7 @@ impl Senses {
         let mut heard = Heard::new(Told::Scan(message));
         match returns {
             Ok(mut returns) => {
+                returns.warnings.iter().for_each(|warning| heard.complain("scan", warning));
                 if let Some(pose) = self.placed(&mut heard, &mut returns, arrival.at) {
                     let (arrived, stamp) = (arrival.at, cloud.header.stamp);
                     heard.scan = Some(Scan { arrived, stamp, points_m: returns.points_m, pose });
@@ -284,4 +285,39 @@ fn returns(cloud: &PointCloud2, sensor: &SensorModel) -> Result<Returns, Unusabl
     })?;
     check_view(&returns.points_m, sensor)?;
     Ok(returns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drive_config::DriveConfig;
+    use crate::messages::{Header, PointField};
+
+    #[test]
+    fn a_cloud_whose_times_tell_nothing_is_told_of() {
+        let config = DriveConfig::default();
+        let mut senses = config.senses().unwrap();
+        let field =
+            |(name, offset): (&str, u32)| PointField { name: name.to_owned(), offset, datatype: 7, count: 1 };
+        // A ring of returns 3 m away, all at the same time.
+        let point = |k: usize| {
+            let (sin, cos) = libm::sincos(core::f64::consts::TAU * k as f64 / 360.0);
+            [3.0 * cos, 3.0 * sin, -0.4, 0.0].map(|value| (value as f32).to_le_bytes()).concat()
+        };
+        let data: Vec<u8> = (0..360).flat_map(point).collect();
+        let cloud = PointCloud2 {
+            header: Header { frame_id: config.frames.scan.clone(), ..Header::default() },
+            height: 1,
+            width: 360,
+            fields: [("x", 0), ("y", 4), ("z", 8), ("time", 12)].map(field).to_vec(),
+            is_bigendian: false,
+            point_step: 16,
+            row_step: 16 * 360,
+            data: data.into(),
+            is_dense: true,
+        };
+        let heard = senses.take_scan(Arrival { at: Duration::from_secs(1), clock_ns: 0 }, &cloud);
+        let [(what, complaint)] = heard.complaints.as_slice() else { panic!("{:?}", heard.complaints) };
+        assert!(*what == "scan" && complaint.starts_with("field time spreads over 0"), "{complaint}");
+    }
 }

@@ -281,6 +281,70 @@ fn wheels_that_spin_or_a_robot_that_is_turned_disagree() {
 }
 
 #[test]
+fn a_velocity_without_a_new_word_does_not_move_the_robot_on() {
+    let imu = |tick: u64, turn_rad_s: f64| Imu {
+        at: at(10 * tick),
+        orientation: DQuat::IDENTITY,
+        orientation_variance: 0.0,
+        angular_rad_s: DVec3::Z * turn_rad_s,
+    };
+    let odometry = |tick: u64, speed_m_s: f64, turn_rad_s: f64| Odometry {
+        at: at(10 * tick),
+        position_m: DVec3::ZERO,
+        orientation: DQuat::IDENTITY,
+        variances: [0.0; 6],
+        linear_m_s: DVec3::X * speed_m_s,
+        angular_rad_s: DVec3::Z * turn_rad_s,
+    };
+    // Two seconds without the IMU, in which the wheels stop, and two without odometry.
+    for (is_imu_lost, speed_m_s, turn_rad_s) in [(true, 0.0, 1.0), (false, 0.8, 0.0)] {
+        let mut estimator = estimator();
+        for tick in 0..100 {
+            estimator.take_imu(&imu(tick, turn_rad_s)).unwrap();
+            estimator.take_odometry(&odometry(tick, speed_m_s, turn_rad_s)).unwrap();
+        }
+        let before = estimator.pose().unwrap();
+        for tick in 100..300 {
+            if is_imu_lost {
+                estimator.take_odometry(&odometry(tick, 0.0, 0.0)).unwrap();
+            } else {
+                estimator.take_imu(&imu(tick, 0.0)).unwrap();
+            }
+        }
+        estimator.take_imu(&imu(300, 0.0)).unwrap();
+        let after = estimator.pose().unwrap();
+        let (moved_m, turned_rad) =
+            ((after.position_m - before.position_m).length(), (after.yaw_rad - before.yaw_rad).abs());
+        assert!(moved_m < 0.2 && turned_rad < 0.25, "{moved_m} {turned_rad}");
+    }
+}
+
+#[test]
+fn without_a_gyro_the_heading_follows_the_odometry() {
+    let mut estimator = estimator();
+    let still = Imu {
+        at: at(0),
+        orientation: DQuat::IDENTITY,
+        orientation_variance: 0.0,
+        angular_rad_s: DVec3::ZERO,
+    };
+    estimator.take_imu(&still).unwrap();
+    for tick in 0..=100 {
+        let turning = Odometry {
+            at: at(10 * tick),
+            position_m: DVec3::ZERO,
+            orientation: DQuat::from_rotation_z(0.005 * tick as f64),
+            variances: [0.0; 6],
+            linear_m_s: DVec3::ZERO,
+            angular_rad_s: DVec3::Z * 0.5,
+        };
+        assert_eq!(estimator.take_odometry(&turning), Ok(None));
+    }
+    let turned_rad = estimator.pose().unwrap().yaw_rad;
+    assert!((0.35..0.45).contains(&turned_rad), "after the 0.2 s for which the gyro holds: {turned_rad}");
+}
+
+#[test]
 fn what_cannot_be_used_is_named_and_passed_over() {
     let (mut drive, mut estimator) = (Drive::new(), estimator());
     while drive.driven_m < 1.0 {

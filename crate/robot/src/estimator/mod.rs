@@ -23,12 +23,15 @@ use mapless_parameters::ConfigError;
 
 pub use config::EstimatorConfig;
 pub use reading::{Imu, Odometry, ReadingError};
+pub(crate) use reading::{finite, unit};
 pub use trajectory::Trajectory;
 
 use slip::Slip;
 
 /// Nothing is integrated over a longer gap.
 const LONGEST_GAP_S: f64 = 1.0;
+/// A velocity holds for this long after its message. By then the supervisor has stopped the robot.
+const HOLD: Duration = Duration::from_millis(200);
 
 /// A jump of the odometry.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,8 +53,9 @@ pub struct Estimator {
     trajectory: Trajectory,
     attitude_rad: Option<[f64; 2]>,
     odometry: Option<Odometry>,
-    /// The gyro in `base_link`, and the part of it that is bias.
+    /// The gyro in `base_link`, when it was read, and the part of it that is bias.
     gyro_rad_s: DVec3,
+    gyro_at: Duration,
     bias_rad_s: DVec3,
     /// Time over which the bias was learned, up to its time constant, seconds.
     learned_s: f64,
@@ -79,6 +83,7 @@ impl Estimator {
             attitude_rad: None,
             odometry: None,
             gyro_rad_s: DVec3::ZERO,
+            gyro_at: Duration::ZERO,
             bias_rad_s: DVec3::ZERO,
             learned_s: 0.0,
             rests_since: None,
@@ -97,7 +102,7 @@ impl Estimator {
         let elapsed_s = self.advance(imu.at);
         let gyro_rad_s = self.base_from_imu * imu.angular_rad_s;
         self.learn_bias(gyro_rad_s, imu.at, elapsed_s);
-        self.gyro_rad_s = gyro_rad_s;
+        (self.gyro_rad_s, self.gyro_at) = (gyro_rad_s, imu.at);
         let base = Pose::from_quaternion(DVec3::ZERO, imu.orientation * self.base_from_imu.conjugate());
         self.attitude_rad = Some([base.roll_rad, base.pitch_rad]);
         if let Some((_, pose)) = &mut self.pose {
@@ -186,10 +191,16 @@ impl Estimator {
         self.anchor.is_some()
     }
 
-    /// Moves on to a time by the last velocities; seconds that passed.
+    /// Moves on to a time by the last velocities, as long as they hold; seconds that passed. Without a gyro
+    /// the heading follows the odometry's turn rate.
     fn advance(&mut self, to: Duration) -> f64 {
         let Some((at, pose)) = &mut self.pose else { return 0.0 };
         let elapsed_s = to.saturating_sub(*at).as_secs_f64();
+        let held_s = |said: Duration| to.min(said + HOLD).saturating_sub(*at).as_secs_f64();
+        let gyro_s = held_s(self.gyro_at);
+        let (told_m_s, told_rad_s, told_s) = self.odometry.map_or((DVec3::ZERO, 0.0, 0.0), |odometry| {
+            (odometry.linear_m_s, odometry.angular_rad_s.z, held_s(odometry.at))
+        });
         *at = (*at).max(to);
         if elapsed_s > LONGEST_GAP_S {
             return 0.0;
@@ -198,19 +209,16 @@ impl Estimator {
         let rate_rad_s = self.gyro_rad_s - self.bias_rad_s;
         let (sin_roll, cos_roll) = libm::sincos(pose.roll_rad);
         let level_rad_s = rate_rad_s.y * sin_roll + rate_rad_s.z * cos_roll;
-        let mut turn_rad = elapsed_s * level_rad_s / libm::cos(pose.pitch_rad).max(0.1);
+        let mut turn_rad = gyro_s * level_rad_s / libm::cos(pose.pitch_rad).max(0.1);
         if self.rests_since.is_some() && rate_rad_s.length() < self.config.most_bias_rad_s {
             turn_rad = 0.0;
         }
-        let velocity_m_s = match &self.odometry {
-            Some(odometry) if self.anchor.is_some() => odometry.linear_m_s,
-            Some(odometry) => DVec3::X * odometry.linear_m_s.x,
-            None => DVec3::ZERO,
-        };
+        turn_rad += (told_s - gyro_s).max(0.0) * told_rad_s;
+        let velocity_m_s = if self.anchor.is_some() { told_m_s } else { DVec3::X * told_m_s.x };
         // Along the heading in the middle of the turn.
         let mut middle = *pose;
         middle.yaw_rad += 0.5 * turn_rad;
-        pose.position_m += middle.world_from_robot() * velocity_m_s * elapsed_s;
+        pose.position_m += middle.world_from_robot() * velocity_m_s * told_s;
         pose.yaw_rad = wrap_rad(pose.yaw_rad + turn_rad);
         self.turned_rad += turn_rad;
         elapsed_s

@@ -71,11 +71,11 @@ impl Imu {
     }
 }
 
-fn finite(what: &'static str, value: DVec3) -> Result<(), ReadingError> {
+pub(crate) fn finite(what: &'static str, value: DVec3) -> Result<(), ReadingError> {
     if value.is_finite() { Ok(()) } else { Err(ReadingError::NotFinite(what, value.to_string())) }
 }
 
-fn unit(what: &'static str, value: DQuat) -> Result<(), ReadingError> {
+pub(crate) fn unit(what: &'static str, value: DQuat) -> Result<(), ReadingError> {
     if !value.is_finite() {
         return Err(ReadingError::NotFinite(what, value.to_string()));
     }

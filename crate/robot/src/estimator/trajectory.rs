@@ -8,7 +8,8 @@ use mapless::math::angle::difference_rad;
 
 /// Longer ago, no scan is corrected.
 const KEPT: Duration = Duration::from_secs(2);
-/// A pose is extrapolated this far at most.
+/// A pose is extrapolated this far at most, by the motion of at least as long before: poses of one moment
+/// differ by corrections, not by motion.
 const AHEAD: Duration = Duration::from_millis(50);
 
 /// Poses of the robot frame by time, the newest last.
@@ -34,17 +35,19 @@ impl Trajectory {
         self.poses.clear();
     }
 
-    /// The pose at a time: between two poses, or up to 50 ms after the last by the motion before it. `None`
-    /// outside.
+    /// The pose at a time: between two poses, or up to 50 ms after the last by the motion of the 50 ms before
+    /// it. `None` outside.
     pub fn pose_at(&self, at: Duration) -> Option<Pose> {
         let after = self.poses.partition_point(|(time, _)| *time < at);
         let (before, after) = match (after.checked_sub(1).map(|i| &self.poses[i]), self.poses.get(after)) {
             (_, Some((time, pose))) if *time == at => return Some(*pose),
             (Some(before), Some(after)) => (before, after),
-            (Some(last), None) if at <= last.0 + AHEAD => match self.poses.len().checked_sub(2) {
-                Some(index) => (&self.poses[index], last),
-                None => return Some(last.1),
-            },
+            (Some(last), None) if at <= last.0 + AHEAD => {
+                match self.poses.iter().rfind(|(time, _)| *time + AHEAD <= last.0) {
+                    Some(earlier) => (earlier, last),
+                    None => return Some(last.1),
+                }
+            }
             _ => return None,
         };
         let seconds = |from: Duration, to: Duration| to.saturating_sub(from).as_secs_f64();
@@ -72,6 +75,20 @@ mod tests {
 
     fn pose(x_m: f64, yaw_rad: f64) -> Pose {
         Pose::from_roll_pitch_yaw(DVec3::X * x_m, 0.0, 0.0, yaw_rad)
+    }
+
+    #[test]
+    fn a_correction_within_a_moment_is_not_extrapolated_as_motion() {
+        let at = Duration::from_micros;
+        let mut trajectory = Trajectory::default();
+        (0..=10).for_each(|k| trajectory.push(at(10_000 * k), pose(0.008 * k as f64, 0.0)));
+        trajectory.push(at(100_020), pose(0.082, 0.001));
+        let ahead = trajectory.pose_at(at(105_020)).unwrap();
+        assert!((ahead.position_m.x - 0.086).abs() < 0.001 && ahead.yaw_rad < 0.0012, "{ahead:?}");
+        let mut alone = Trajectory::default();
+        alone.push(at(0), pose(0.0, 0.0));
+        alone.push(at(20), pose(0.001, 0.0));
+        assert_eq!(alone.pose_at(at(5000)), Some(pose(0.001, 0.0)), "no motion is known yet");
     }
 
     #[test]
