@@ -36,6 +36,8 @@ pub use report::{News, Report};
 
 /// Of a file without recorded ticks, the supervisor ticks this often: 50 Hz, as in the node.
 const PERIOD: Duration = Duration::from_millis(20);
+/// After a longer gap the recording's clock was set, or nothing was recorded.
+const LONGEST_GAP: Duration = Duration::from_secs(1);
 /// Scans and answers that may still be asked for: the planner takes the newest within a second.
 const KEPT: usize = 32;
 
@@ -166,15 +168,32 @@ impl Replay {
         })
     }
 
+    /// The supervisor's ticks up to a time. As in the node, those that were missed are not made up.
+    fn tick_until(&mut self, at: Duration, tell: &mut dyn FnMut(&News)) {
+        if self.due + LONGEST_GAP < at {
+            self.due = at;
+        }
+        while self.due <= at {
+            self.tick_freely(self.due, tell);
+            self.due += PERIOD;
+        }
+    }
+
     /// Takes the next entry.
     ///
     /// # Errors
     /// A configuration that makes no sense.
     pub(crate) fn take(&mut self, entry: &Entry, tell: &mut dyn FnMut(&News)) -> Result<(), Fault> {
         let at = entry.arrival.at;
-        while !self.has_schedule && self.due <= at {
-            self.tick_freely(self.due, tell);
-            self.due += PERIOD;
+        if !self.has_schedule {
+            self.tick_until(at, tell);
+        }
+        if at + LONGEST_GAP < self.report.until {
+            let (at_s, until_s) = (at.as_secs_f64(), self.report.until.as_secs_f64());
+            let complaint = format!(
+                "a message at {at_s:.3} s after one at {until_s:.3} s: expected a clock that is not set back"
+            );
+            self.report.complain("time", &complaint);
         }
         self.report.until = self.report.until.max(at);
         let Some(entry) = self.faults.message(entry) else { return Ok(()) };

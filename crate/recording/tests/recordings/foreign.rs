@@ -1,5 +1,6 @@
 //! A robot's own recording, as `rosbag2` makes it: other topics, other frames, no decisions, compressed.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::io::{Cursor, Write as _};
 
@@ -18,6 +19,11 @@ fn bag(rename: impl Fn(&str) -> Option<String>) -> Vec<u8> {
 
 /// Likewise with each topic under any number of names.
 fn bag_of(rename: impl Fn(&str) -> Vec<String>) -> Vec<u8> {
+    bag_with_clock(rename, |log_ns| log_ns)
+}
+
+/// Likewise, heard at other times.
+fn bag_with_clock(rename: impl Fn(&str) -> Vec<String>, clock_ns: impl Fn(u64) -> u64) -> Vec<u8> {
     let own = file(&drive(PLAN));
     let mut writer =
         mcap::WriteOptions::new().profile("ros2").compression(None).create(Cursor::new(Vec::new())).unwrap();
@@ -37,7 +43,8 @@ fn bag_of(rename: impl Fn(&str) -> Vec<String>) -> Vec<u8> {
             Record::Message { header, data } => {
                 for &channel_id in channels.get(&header.channel_id).into_iter().flatten() {
                     // As rosbag2: both times are when it was heard.
-                    let header = MessageHeader { channel_id, publish_time: header.log_time, ..header };
+                    let log_time = clock_ns(header.log_time);
+                    let header = MessageHeader { channel_id, log_time, publish_time: log_time, ..header };
                     writer.write_to_known_channel(&header, &data).unwrap();
                 }
             }
@@ -139,6 +146,28 @@ fn a_robots_bag_is_driven_by_the_types_of_its_topics() {
     );
     let options = Options { goal_m: Some((37.0, 28.0).into()), ..sensor() };
     assert!(replayed(&bare, &options).1.contains(&"Driving".to_owned()));
+}
+
+#[test]
+fn a_clock_that_is_set_during_a_recording_holds_nothing_up() {
+    const SECOND_NS: u64 = 1_000_000_000;
+    let ticks = replayed(&bag(robots), &sensor()).0.ticks;
+    let set = |shift_ns: fn(u64) -> u64| {
+        let (first_ns, names) = (Cell::new(None), |topic: &str| robots(topic).into_iter().collect());
+        let bytes = bag_with_clock(names, |log_ns| {
+            let first_ns = first_ns.get().unwrap_or_else(|| {
+                first_ns.set(Some(log_ns));
+                log_ns
+            });
+            if log_ns < first_ns + 2 * SECOND_NS { log_ns } else { shift_ns(log_ns) }
+        });
+        replayed(&bytes, &sensor()).0
+    };
+    let on = set(|log_ns| log_ns + 365 * 86_400 * SECOND_NS);
+    assert!(on.ticks <= ticks + 2 && !on.complaints.contains_key("time"), "{on:?}");
+    let back = set(|log_ns| log_ns.saturating_sub(3600 * SECOND_NS));
+    let (_, complaint) = &back.complaints["time"];
+    assert!(back.ticks <= ticks && complaint.contains("a clock that is not set back"), "{back:?}");
 }
 
 #[test]

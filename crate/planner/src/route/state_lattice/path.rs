@@ -84,7 +84,7 @@ impl StateLattice {
         let end = if known { ReachEnd::Tilt } else { ReachEnd::Unseen };
         // Stop short of steep or unseen ground: the body reaches further than its centre.
         let most_m = distance_m(last) - self.config.clearance_m;
-        let reach = (1..last).rev().find(|&step| distance_m(step) <= most_m && self.to(at(step)).is_some());
+        let reach = (1..=last).rev().find(|&step| distance_m(step) <= most_m && self.to(at(step)).is_some());
         (reach.map_or(0.0, distance_m), end)
     }
 
