@@ -54,7 +54,8 @@ pub enum Status {
     Arrived,
     /// Backtracking along its own trajectory: the ground is steeper than predicted, or no path leads on.
     Backtracking,
-    /// Spin recovery: no candidate, turning on the spot to search for one, or standing where a turn is not safe.
+    /// Spin recovery: no candidate, turning on the spot to search for one, or standing where a turn is not
+    /// safe.
     Searching,
     /// Stopped for this reason.
     Stopped(StopReason),
