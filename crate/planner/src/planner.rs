@@ -52,8 +52,8 @@ pub struct Planner {
     /// The goal for which the present corrections were learned.
     goal_anchor_m: DVec2,
     progress: GoalProgress,
-    /// The time since the ground was observed: longer than a step after some that stopped before.
-    skipped: Duration,
+    /// Time since the ground was observed; some steps stop before.
+    since_observed: Duration,
     /// Time without a candidate.
     searched: Duration,
     status: Status,
@@ -111,7 +111,7 @@ impl Planner {
             goal: None,
             goal_anchor_m: DVec2::ZERO,
             progress: GoalProgress::NONE,
-            skipped: Duration::ZERO,
+            since_observed: Duration::ZERO,
             searched: Duration::ZERO,
             status: Status::Stopped(StopReason::NoGoal),
             command: Command::STOP,
@@ -264,7 +264,7 @@ impl Planner {
         elapsed: Duration,
         overrides: PerceptionOverride<'_>,
     ) -> Status {
-        self.skipped = self.skipped.saturating_add(elapsed);
+        self.since_observed = self.since_observed.saturating_add(elapsed);
         let Some(goal) = self.goal else { return Status::Stopped(StopReason::NoGoal) };
         let near = |place_m: DVec2| place_m.abs().max_element() < FARTHEST_M;
         if !(pose.is_finite() && near(pose.plan_m()) && goal.is_valid() && near(goal.position_m)) {
@@ -277,8 +277,8 @@ impl Planner {
         if let Err(error) = self.perceive(overrides) {
             return Status::Stopped(StopReason::NoPerception(error));
         }
-        self.policy.get_mut().observe(&self.config, &self.filter, pose, self.skipped);
-        let since_observed = core::mem::take(&mut self.skipped);
+        self.policy.get_mut().observe(&self.config, &self.filter, pose, self.since_observed);
+        let since_observed = core::mem::take(&mut self.since_observed);
         let goal_tolerance_m = goal.tolerance_m.unwrap_or(self.config.goal_tolerance_m);
         if (goal.position_m - pose.plan_m()).length() <= goal_tolerance_m {
             return self.arrive(&goal, pose, elapsed, since_observed);

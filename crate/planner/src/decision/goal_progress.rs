@@ -83,6 +83,10 @@ impl GoalProgress {
     /// another place now, `farther_m` farther from the robot.
     pub(crate) fn relocalise(&mut self, farther_m: f64) {
         self.nearest_m += farther_m;
+        if self.nearest_m < 0.0 {
+            // Nearer than any place: nothing that was driven before compares.
+            (self.nearest_m, self.driven_m) = (f64::INFINITY, 0.0);
+        }
         self.has_room = true;
         self.last_m = None;
         self.centre_m = None;
@@ -147,6 +151,10 @@ mod tests {
         progress.relocalise(11.0);
         assert!((0..2).all(|_| drive(&mut progress, 12.0)));
         assert!(!(0..2).all(|_| drive(&mut untold, 12.0)));
+        // It came to 1.1 m of where the goal was, and the goal is 5 m nearer than it was told.
+        let mut nearer = untold;
+        nearer.relocalise(-5.0);
+        assert!((0..3).all(|_| drive(&mut nearer, 7.0)));
     }
 
     #[test]

@@ -151,9 +151,8 @@ impl PlaceLattice {
         for offset in offsets
             .filter(|&offset| offset == nearest || self.position_m(offset).distance(point_m) <= distance_m)
         {
-            match self.known(offset) {
+            match self.known(offset).filter(|known| known.plane.is_some()) {
                 _ if self.is_at_cliff(offset) => {}
-                Some(known) if known.plane.is_none() => is_all_known = false,
                 Some(known) if known.is_blocked.contains(&false) => return Some(true),
                 Some(_) => {}
                 None => is_all_known = false,
